@@ -1,7 +1,8 @@
-"""Folds and symmetry breakings of the free oscillator, against another continuation program.
+"""Folds and losses of symmetry of the oscillator without a damper, compared with AUTO-07p.
 
-AUTO-07p finds orbits by collocation over the whole period, the package by shooting. AUTO's
-numbers are kept in auto/folds.json, which auto/folds.py makes.
+AUTO-07p is a continuation program. It finds orbits by collocation over the whole period, this
+package by shooting. AUTO's numbers are stored in references/auto/folds.json, which
+references/auto/folds.py writes.
 """
 
 import json
@@ -23,13 +24,13 @@ BRANCHES = {"response": (folds.RESPONSE, (0.6, 4.0)), "subharmonic": (folds.SUBH
 
 
 def stored(damping, branch):
-    """AUTO's points of a branch by increasing frequency."""
+    """Return AUTO's points of a branch, sorted by increasing frequency."""
     chosen = [p for p in STORED if (p["damping"], p["branch"]) == (damping, branch)]
     return sorted(chosen, key=lambda point: point["frequency"])
 
 
 def followed(damping, branch):
-    """Return the branch by this package from the same first orbit."""
+    """Return the branch that this package follows from the same first orbit."""
     (periods, frequency, starts), span = BRANCHES[branch]
     state = folds.first_orbit(damping, frequency, starts[damping], periods)[0, 1:3]
 

@@ -1,7 +1,8 @@
 """Branches close to a grazing: derivatives, ends at other branches, and switching there.
 
-The damper is that of figure 10. Its orbits of period 2 and the asymmetric ones of period 3 leave
-their branches within 1e-9 of the frequency from a grazing.
+At a grazing the loose mass reaches a wall with zero speed. The damper is that of figure 10. Its
+branches of period 2 and of asymmetric orbits of period 3 begin on other branches, at frequencies
+that differ from that of a grazing by less than 1e-9.
 """
 
 import numpy as np
@@ -43,7 +44,7 @@ def thrice():
 
 @pytest.fixture(scope="module")
 def asymmetric(thrice):
-    """Return the loss of symmetry next to a grazing, and a point of the branch that leaves."""
+    """Return the loss of symmetry next to a grazing, and a point of the branch beginning there."""
     places = [event.point.value for _, event in thrice.events if event.kind == "grazing"]
     event = next(
         event
@@ -55,7 +56,10 @@ def asymmetric(thrice):
 
 
 def test_ends_of_a_doubled_branch_are_doublings_of_the_other(twice):
-    """The other branch is followed from an orbit of its own, without knowledge of the ends."""
+    """A branch of period 2 ends where a branch of period 1 has period doublings.
+
+    The branch of period 1 is followed independently, from an orbit of its own.
+    """
     value, state = 1.95, polished_orbit("inelastic").state
     other = follow_branch(family, find_orbit(family(value), state), value, (1.1, 2.0))
     walks = [other]
@@ -97,7 +101,7 @@ def test_80_bit_motion_repeats_from_an_orbit_beside_a_grazing(asymmetric):
 
 
 def test_slopes_beside_a_grazing_are_the_integrated_ones(twice):
-    """Differences reach across the grazing; finer ones are taken there."""
+    """Derivatives by difference quotients with fine steps agree with integrated ones."""
     heights = []
     for point in twice.points:
         problem, orbit = point.problem, point.orbit

@@ -1,4 +1,7 @@
-"""Branches in the spring's coefficient and in the force, against closed forms and a scaling."""
+"""Branches over several parameters, compared with closed forms and a scaling law.
+
+A branch is the curve of the periodic orbits over a parameter.
+"""
 
 import numpy as np
 import pytest
@@ -26,7 +29,7 @@ def at_strobe(amplitude, frequency=FREQUENCY):
     ("parameter", "span"), [("force", (0.0, 2.0)), ("unbalance", (0.0, 0.6)), ("damping", (0.1, 1))]
 )
 def test_branch_of_a_linear_oscillator(parameter, span):
-    """From end to end, that without any force included."""
+    """Branches reach both ends of the span, also the force 0, and agree with the closed form."""
     own = {"damping": 0.2, "linear_frequency": 1.1, "cubic": 0.0, "force": 0.5, "unbalance": 0.2}
     own |= {"unbalance" if parameter == "force" else "force": 0.0}
     oscillator = Oscillator(**own)
@@ -39,8 +42,11 @@ def test_branch_of_a_linear_oscillator(parameter, span):
     assert len(found["event_kind"]) == 0
 
 
-def test_branches_in_force_and_cubic_are_one():
-    """Z1 times the root of k3 obeys the equation with k3 = 1 and the force times that root."""
+def test_branches_over_force_and_cubic_agree_by_scaling():
+    """With k3, sqrt(k3) Z1 and sqrt(k3) F in place of 1, Z1 and F the equation is the same.
+
+    k3 is the cubic coefficient and F the force.
+    """
     oscillator = Oscillator(1.2, 1.0, 0.05, 1.0)
     state = at_strobe(harmonic(oscillator))
     cubic = orbit_branch(oscillator, None, FREQUENCY, state, span=(-0.02, 4.0), parameter="cubic")

@@ -1,4 +1,7 @@
-"""Orbits over a grid: the cells reached, their order, and how following ends."""
+"""Orbits followed over a grid: the cells reached, their order, and where following ends.
+
+The orbits are made up: the state of an orbit is the point of its cell.
+"""
 
 from types import SimpleNamespace
 
@@ -16,7 +19,7 @@ def known(point):
 
 
 def correction(lost):
-    """Return a correction whose orbit has the point as its state, except at the points `lost`."""
+    """Return a function `correct` of `Grid` that fails at points for which `lost` is true."""
 
     def correct(point, _):
         return (None, "not_followed") if lost(*point) else (known(point), "found")
@@ -64,7 +67,7 @@ def test_orbits_are_followed_along_the_first_axis_given():
 
 
 def test_a_line_passes_a_narrow_gap_in_halved_steps_and_no_wide_one():
-    """Orbits are found within 0.3 of the prediction."""
+    """An orbit is found if the point differs from the predicted state by at most 0.3."""
 
     def correct(point, guess):
         if abs(point[0] - guess[0]) > 0.3:

@@ -1,4 +1,8 @@
-"""The quiet orbit over a grid: its ends, multipliers and bifurcations."""
+"""The quiet orbit over a grid: its ends, multipliers and bifurcations.
+
+The quiet orbit is the symmetric periodic motion with two contacts for which a damper is designed.
+Its root is the derivative of the map over half a cycle.
+"""
 
 from dataclasses import replace
 
@@ -83,7 +87,7 @@ def test_a_row_ends_at_the_fold_that_continuation_locates(design_orbit):
     branch = follow_branch(lambda w: pack(PAPER, DESIGN, w), orbit, 2.0, (1.0, 2.0))
     folds = [event.point.value for _, event in branch.events if event.kind == "fold"]
     end = np.interp(found.end[0, LEFT], np.arange(len(frequencies)), frequencies)
-    # the branch has further folds beyond this one
+    # The branch goes on beyond this fold and has further folds.
     assert np.min(np.abs(np.array(folds) - end)) < 1e-6
     assert list(found.end_event[0]) == [
         flag("quiet_end_event", "fold"),
@@ -134,7 +138,7 @@ def test_all_cells_hold_one_orbit_whichever_it_is_followed_from(design_orbit):
 
 
 @pytest.mark.parametrize("restitution", [0.5, 0.6])
-def test_with_restitution_it_ends_where_straight_flight_says(restitution):
+def test_with_inelastic_contact_it_ends_where_straight_flight_predicts(restitution):
     """The closed form holds for rigid walls and high frequency; d0 = 0.5 is close to this limit."""
     oscillator = Oscillator(0.02)
     damper = replace(DESIGN, clearance=0.5, restitution=restitution, contact_stiffness=2e6)
@@ -160,7 +164,7 @@ def test_straight_flight_end():
     work = np.pi / 2 * 1.75 / 0.25
     greatest = np.max(work * np.sin(phase) - np.cos(phase))
     assert straight_flight_end(PAPER, 2.0, 0.75) ** 2 * 2.0 == pytest.approx(greatest)
-    # W^2 d0 = (F + U W^2 + V/W^2) times the greatest, as long as there is a solution
+    # With a forcing of amplitude f = F + U W^2 + V/W^2 the end has W^2 d0/f = `greatest`.
     shaken = Oscillator(0.2, force=0.3, unbalance=0.1)
     end = straight_flight_end(shaken, 2.0, 0.75)
     assert end**2 * 2.0 == pytest.approx(shaken.forcing_amplitude(end) * greatest)
@@ -170,7 +174,7 @@ def test_straight_flight_end():
     assert end**2 * 2.0 == pytest.approx(shaken.forcing_amplitude(end) * greatest)
 
 
-def test_a_row_without_a_known_orbit_is_said_to_have_none():
+def test_a_row_without_a_known_orbit_has_the_flag_no_orbit():
     found = follow_quiet_orbits(row(DESIGN, [1.9, 2.0]), np.full((1, 2, 4), np.nan))
     assert (found.end_event == flag("quiet_end_event", "no_orbit")).all()
     assert np.isnan(found.end).all()

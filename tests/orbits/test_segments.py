@@ -1,4 +1,7 @@
-"""Multiple shooting: laws, single shooting, exact arithmetic and 80-bit motions."""
+"""Multiple shooting compared with single shooting, exact arithmetic and 80-bit motions.
+
+In multiple shooting an orbit is a chain of segments. Factors are the derivatives of the segments.
+"""
 
 import math
 from fractions import Fraction
@@ -15,13 +18,13 @@ from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import find_orbit, orbit_of, polish, shoot
 from impact_damper.system.packed import FREQUENCY, pack
 
-# A state of a chaotic motion at W = 1.55 which comes back close to itself after 12 periods.
+# A state of a chaotic motion at W = 1.55 that nearly repeats after 12 forcing cycles.
 RETURNING = (0.8012827850447051, -2.722120432592939, -0.22602951074616787, -3.910829733843885)
 
 
 @pytest.fixture(scope="module")
 def saddle():
-    """Return an orbit of 12 periods whose largest multiplier is about 1.6e11."""
+    """Return an orbit of period 12 whose largest multiplier is about 1.6e11."""
     guess, _ = shoot(pack(PAPER, DESIGN, 1.55), np.array(RETURNING), 12, STROBE)
     return polish(guess)
 
@@ -74,7 +77,7 @@ def test_multipliers_of_a_product_that_loses_all_digits(seed):
 
 
 def test_multipliers_of_similar_modulus():
-    """A conjugate pair between a large and a small real one."""
+    """The product has a conjugate pair of eigenvalues between a large and a small real one."""
     random = np.random.default_rng(1)
     turn = np.array([[0.6, -0.8], [0.8, 0.6]])
     middle = np.zeros((4, 4))
@@ -91,7 +94,7 @@ def test_multipliers_of_similar_modulus():
 @pytest.mark.parametrize("name", IMPACTING)
 @pytest.mark.parametrize("symmetric", [False, True])
 def test_chain_is_the_orbit_of_single_shooting(name, symmetric, monkeypatch):
-    """Cut at every contact, a mild orbit has the same states, multipliers and measures."""
+    """An orbit that amplifies little has the same properties if it is cut at every contact."""
     known = polished_orbit(name)
     single = find_orbit(known.parameters, known.state)
     if symmetric and single.record["asymmetry"] > 1e-6:
@@ -104,7 +107,7 @@ def test_chain_is_the_orbit_of_single_shooting(name, symmetric, monkeypatch):
     assert chain.converged and chain.sequence == single.sequence
     for phase in single.phase + np.linspace(7, 19, 9):
         assert_allclose(chain.at(phase), single.at(phase), atol=1e-10)
-    for power in (1, 2, 3, 4):  # a sum of powers has no order of the multipliers
+    for power in (1, 2, 3, 4):  # sums of powers do not depend on the order of the multipliers
         sums = [np.sum(orbit.multipliers**power) for orbit in (chain, single)]
         assert_allclose(sums[0], sums[1], atol=1e-9)
     assert_allclose(chain.touching, single.touching, rtol=1e-9)
@@ -125,9 +128,9 @@ def test_laws_of_a_strongly_unstable_orbit(saddle):
 
 
 def test_strongly_unstable_orbit_in_80_bit(saddle):
-    """Each segment leads on to the next one, with this derivative, in 80-bit arithmetic.
+    """In 80-bit arithmetic each segment ends where the next begins, and has the same derivative.
 
-    The multipliers of the derivatives in 80 bits are the same ones.
+    The multipliers from these derivatives are the same too.
     """
     if extended.obstacle():
         pytest.skip(extended.obstacle())

@@ -1,4 +1,4 @@
-"""Derivatives of orbits against differences of orbits found anew, and against Liouville's law."""
+"""Derivatives of orbits compared with differences of orbits, and with Liouville's theorem."""
 
 from dataclasses import replace
 
@@ -55,7 +55,11 @@ def orbit(request):
 
 
 def differences(orbit, direction):
-    """Differences of state, matrix, max |Z1| and largest modulus along a direction of p."""
+    """Return central differences of order 8 of four properties of an orbit.
+
+    They are the state, the derivative matrix, max |Z1| and the largest modulus of a multiplier. The
+    parameters change by multiples of `direction`.
+    """
     symmetric, n = orbit.root is not None, orbit.active
     total = 0.0
     for k, weight in CENTRAL.items():
@@ -70,7 +74,7 @@ def differences(orbit, direction):
 
 
 def steps(orbit):
-    """Index of each parameter that has an effect, with the step of its differences."""
+    """Return pairs of the index of a parameter that has an effect, and its step in differences."""
     sizes = np.maximum(np.abs(orbit.p), 0.1)
     sizes[CUBIC] = min(orbit.record["maximum_displacement"] ** -2, 10.0)
     count = COUNT if orbit.touching > 0 else CLEARANCE
@@ -117,12 +121,12 @@ def test_determinant_by_liouville(orbit):
 
 
 def contact_time_slopes(orbit, found):
-    """Derivative of the time in contact, by the delay of each event."""
+    """Return the derivative of the time in contact, from the delay of each of its ends."""
     begin = orbit.phase / orbit.p[FREQUENCY]
     slopes = np.zeros(COUNT)
     for wall, start, end, *_ in orbit.contacts:
         for time, sign in ((start, -1), (end, 1)):
-            # the event is followed by the motion up to it, at constant phase
+            # The change of the state at the phase of the event gives the delay of the event.
             path = follow_path(orbit.p, orbit.state, begin, time)
             change = Variations(path).changes(found.state_slopes, np.eye(COUNT))[2, :, -1]
             moved = wall * np.eye(COUNT)[CLEARANCE]
@@ -132,7 +136,7 @@ def contact_time_slopes(orbit, found):
 
 
 def test_derivatives_by_design_parameters():
-    """Against differences of orbits of machines and dampers, changed one number at a time."""
+    """They agree with differences of orbits in which one number of machine or damper is changed."""
     orbit = named_orbit("softening")
     found = sensitivity(orbit)
     damper = replace(STIFF, clearance=orbit.p[CLEARANCE])
@@ -175,7 +179,10 @@ def test_without_damper_its_parameters_have_no_effect():
 
 
 def test_whole_and_half_period_agree():
-    """The map over a period has both extrema of a symmetric orbit, which change alike."""
+    """A symmetric orbit has the same derivatives by the map over a period and over half of it.
+
+    Over a period |Z1| is largest twice, and both maxima change alike.
+    """
     half = named_orbit("inelastic")
     whole, _ = shoot(half.p, half.state, 1, half.phase)
     expected, found = sensitivity(half), sensitivity(whole)
@@ -184,8 +191,8 @@ def test_whole_and_half_period_agree():
         assert_allclose(getattr(found, name), getattr(expected, name), rtol=1e-8, atol=1e-9)
 
 
-def test_a_kink_of_the_displacement_is_said():
-    """Pushed out of symmetry, the two extrema of a symmetric orbit change in opposite ways."""
+def test_a_kink_of_the_displacement_is_not_smooth():
+    """An unsymmetric change increases one of the two maxima of |Z1| and decreases the other."""
     half = named_orbit("design")
     path = path_of(shoot(half.p, half.state, 1, half.phase)[0])
     pushed = Variations(path).changes(np.eye(4), np.zeros((COUNT, 4)))
@@ -201,7 +208,7 @@ def test_a_kink_of_the_displacement_is_said():
         ([[0.5, 0.0], [0.0, 0.5]], False),
     ],
 )
-def test_equal_moduli_are_said(block, smooth):
+def test_equal_moduli_are_smooth_only_for_a_conjugate_pair(block, smooth):
     """The modulus of a conjugate pair is smooth; that of two other equal multipliers is not."""
     matrix = np.diag([0.0, 0.0, 0.1, 0.2])
     matrix[:2, :2] = block

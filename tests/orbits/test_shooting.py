@@ -1,4 +1,4 @@
-"""Periodic orbits: residual, laws, symmetry, and multipliers against another program."""
+"""Periodic orbits: residual, Liouville's theorem, symmetry, and multipliers by heyoka."""
 
 import math
 
@@ -102,14 +102,14 @@ def test_unstable_orbit_is_found_and_left_by_simulation():
     assert_allclose(end - unstable.state, growth * 1e-7 * leading, atol=2e-9)
 
 
-def test_no_orbit_is_said_so():
-    """Far from all orbits Newton's method does not converge, and says so."""
+def test_without_an_orbit_the_result_has_not_converged():
+    """Far from all orbits Newton's method does not converge, or finds an orbit of period 1."""
     orbit = find_orbit(pack(PAPER, Damper(0.12, 2.0), 2.0), np.array([1.0, 1.0, 0.0, 4.0]), 2)
     assert not orbit.converged or orbit.repeats_sooner()
 
 
 def test_phase_leaves_a_contact():
-    """At W T = 0 the design orbit is in contact: its state is given at a later phase, in flight."""
+    """From a state in contact the orbit is found with its state at a later phase, in flight."""
     known_orbit = polished_orbit("design")
     reference = find_orbit(known_orbit.parameters, known_orbit.state)
     inside = reference.p[0] * (reference.contacts[1, 1] + 0.01)

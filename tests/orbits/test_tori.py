@@ -1,4 +1,7 @@
-"""What splits off at Neimark-Sacker points, against the normal form and against long motions."""
+"""Tori at Neimark-Sacker points, compared with the normal form and with long motions.
+
+A torus surrounds an orbit, and motions on it revolve around the orbit.
+"""
 
 import itertools
 import math
@@ -27,7 +30,7 @@ POINTS = {
 
 
 def branch_point(name):
-    """Return the point of a branch at the first Neimark-Sacker point on it."""
+    """Return the `continuation.Point` at the first Neimark-Sacker point of a branch."""
     damper, frequency, period, phase, state, span = POINTS[name]
 
     def family(value):
@@ -80,7 +83,10 @@ def amplitudes(orbit, start, count):
 
 
 def test_growth_is_the_coefficient_of_the_normal_form(case):
-    """Kuznetsov, Elements of Applied Bifurcation Theory, (5.52), by differences of the map."""
+    """The coefficient is computed from second and third difference quotients of the map.
+
+    The formula is (5.52) of Kuznetsov, Elements of Applied Bifurcation Theory.
+    """
     name, point, torus = case
     orbit = point.orbit
     multiplier, right, left = pair_of(orbit)
@@ -89,7 +95,7 @@ def test_growth_is_the_coefficient_of_the_normal_form(case):
     fast = np.linalg.solve(multiplier**2 * both - orbit.monodromy, form(orbit, right, right))
     cubic = form(orbit, right, right, conjugate)
     cubic = cubic + 2 * form(orbit, right, slow) + form(orbit, conjugate, fast)
-    # the state is z right + its conjugate, and the amplitude 2 |z|
+    # In the normal form the state is z right plus its conjugate, and its amplitude is 2 |z|.
     growth = (left @ cubic / multiplier / 2).real / 4
     assert torus.kind == name
     assert torus.growth == pytest.approx(growth, rel=0.02)
@@ -103,7 +109,7 @@ def test_rotation_number_tends_to_the_angle_of_the_multiplier():
 
 
 def test_stable_torus_has_the_amplitude_that_the_growth_predicts():
-    """Motions from inside and from outside come to it."""
+    """Motions that begin inside and outside the torus approach it."""
     point = branch_point("stable")
     torus = torus_behind(point)
     orbit = point.problem.at_value(point, torus.value).orbit
@@ -114,7 +120,10 @@ def test_stable_torus_has_the_amplitude_that_the_growth_predicts():
 
 
 def test_unstable_torus_parts_motions_that_return_from_motions_that_leave():
-    """The orbit is stable there, so that the torus is as far away as the growth predicts."""
+    """Around a stable orbit motions return to it from inside the torus and leave from outside.
+
+    The amplitude of the torus follows from the growth.
+    """
     point = branch_point("unstable")
     torus = torus_behind(point)
     orbit = point.problem.at_value(point, point.value + 2e-4).orbit

@@ -1,4 +1,9 @@
-"""Find points of a branch between two known points, with a cubic through both as first guess."""
+"""Find points of a branch between two known points.
+
+A branch is the curve of the periodic orbits over a parameter, in the space of the unknowns: the
+state of the orbit and the parameter. The first guess of Newton's method lies on a cubic that passes
+through both points with their tangents.
+"""
 
 import numpy as np
 from scipy.optimize import brentq
@@ -10,9 +15,9 @@ def at_distance(point, ahead, distance):
     Parameters
     ----------
     point, ahead : continuation.Point
-        Two points with the same problem. The point lies between them.
+        Two points with the same `Problem`, on both sides of the one that is sought.
     distance : float
-        Distance from `point` in the direction of its tangent.
+        Distance from `point` in the direction of its tangent, in the metric of the problem.
     """
     fraction = distance / ((point.problem.metric * point.tangent) @ (ahead.x - point.x))
     return point.problem.near(_cubic(point, ahead, fraction), point.tangent, distance)
@@ -41,7 +46,7 @@ def at_value(point, ahead, value):
 def _cubic(point, ahead, fraction):
     """Return the unknowns on the cubic that passes through two points with their tangents.
 
-    `fraction` is the fraction of the distance along the tangent of the first point.
+    `fraction` goes from 0 at the first to 1 at the second point, along the tangent at the first.
     """
     row = point.problem.metric * point.tangent
     chord = ahead.x - point.x

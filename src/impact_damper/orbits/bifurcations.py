@@ -1,5 +1,6 @@
 """Locate bifurcations and changes of contact on a step between two points of a branch.
 
+A branch is the curve of the periodic orbits over a parameter. A multiplier is a Floquet multiplier.
 A bifurcation is located as the zero of a test function along the step. A change of contact is
 located as the place at which the sequence of walls that the orbit touches changes.
 """
@@ -13,9 +14,10 @@ from impact_damper.orbits import between
 from impact_damper.orbits.continuation import Point
 from impact_damper.system.packed import FREQUENCY
 
-# Largest tolerance of the place of a bifurcation, divided by the length of the step.
+# A place is a distance along the branch from the beginning of the step.
+# FINE: largest tolerance of the place of a bifurcation, divided by the length of the step.
+# PLACE: tolerance of the place of a change of contact; relative for steps longer than 1.
 FINE = 1e-3
-# Tolerance of the place of a change of contact along the branch; relative for steps longer than 1.
 PLACE = 1e-12
 # A multiplier is complex if its imaginary part exceeds COMPLEX.
 COMPLEX = 1e-6
@@ -23,7 +25,7 @@ COMPLEX = 1e-6
 MERGED = 1e-3
 # Largest number of changes of contact that are located on one step.
 MOST_CHANGES = 8
-# Indices of all pairs of 2 or 4 multipliers.
+# Indices i, j of all pairs i < j of 2 or 4 multipliers, keyed by the number of multipliers.
 PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 
 
@@ -48,30 +50,35 @@ class Event(NamedTuple):
 
 
 def _fold(point):
-    """Return the component of the tangent along the parameter, zero at a fold."""
+    """Return the component of the tangent along the parameter, which is zero at a fold."""
     return point.tangent[-1]
 
 
 def _symmetry(point):
-    """Return the test function of a multiplier -1 of the root, or 1 if there is no root.
+    """Return the product of mu + 1 over the multipliers of the root, or 1 if there is no root.
 
-    Only symmetric orbits have a root (`Orbit.root`).
+    Only symmetric orbits have a root (`Orbit.root`), the derivative over half a period. Symmetry is
+    lost where one of its multipliers mu is -1.
     """
     orbit = point.orbit
     return 1.0 if orbit.root is None else _product(orbit.cycle_multipliers + 1)
 
 
 def _doubling(point):
-    """Return the test function of a multiplier -1, or 1 for an orbit with a root.
+    """Return the product of mu + 1 over the multipliers mu, or 1 for an orbit with a root.
 
-    An orbit with a root is symmetric, and a symmetric orbit has no period doubling.
+    The period doubles where a multiplier is -1. An orbit with a root is symmetric, and a symmetric
+    orbit has no period doubling.
     """
     orbit = point.orbit
     return 1.0 if orbit.root is not None else _product(orbit.cycle_multipliers + 1)
 
 
 def _pairs(point):
-    """Return the product of mu_i mu_j - 1 of all pairs, zero for a pair on the unit circle."""
+    """Return the product of mu_i mu_j - 1 over all pairs of multipliers.
+
+    It is zero if a conjugate pair has modulus 1.
+    """
     values = point.orbit.multipliers[: point.orbit.active]
     first, second = PAIRS[len(values)]
     return _product(values[first] * values[second] - 1)
@@ -87,9 +94,9 @@ def _product(values):
 
 
 # For each kind of bifurcation the test function of a point, which is zero at the bifurcation, and
-# the tolerance of the place of the zero, in branch length. A fold needs less accuracy, because the
-# parameter changes with the square of the distance from the fold, and because Newton's method is
-# nearly singular there.
+# the tolerance of the place of the zero. A fold needs less accuracy, because the parameter changes
+# with the square of the distance from the fold. More is not possible, because Newton's method is
+# nearly singular at a fold.
 TESTS = {
     "fold": (_fold, 1e-7),
     "symmetry_breaking": (_symmetry, 1e-11),
@@ -104,8 +111,8 @@ def bifurcations_between(point_at, start, end, first, last):
     Parameters
     ----------
     point_at : callable
-        Function from a place between `first` and `last` to the point of the branch there. It raises
-        ArithmeticError if there is no point.
+        Function that returns the point of the branch at a place between `first` and `last`. It
+        raises ArithmeticError if Newton's method fails.
     start, end : Point
         Points at the places `first` and `last`.
     first, last : float
@@ -114,8 +121,8 @@ def bifurcations_between(point_at, start, end, first, last):
     Returns
     -------
     located : list of (float, Event)
-        Places and events, in order. If the product of two real multipliers passes 1, this is no
-        Neimark-Sacker bifurcation and is not listed.
+        Places and events, in order. If the product of two real multipliers passes 1, the test
+        function of the Neimark-Sacker bifurcation also vanishes; such a place is not listed.
     lost : int
         Number of events that were not located because Newton's method failed.
     """
@@ -191,7 +198,8 @@ def _is_complex_pair(multipliers):
 def _changes_of_contact(point_at, start, end, length):
     """Locate the changes of the sequence of walls on a step by bisection.
 
-    Return a list of pairs: distance along the step, and event.
+    The arguments are those of `bifurcations_between` and `events_between`. Return a list of pairs:
+    distance along the step, and event.
     """
     located, inner, before = [], 0.0, start.orbit.sequence
     while before != end.orbit.sequence and len(located) < MOST_CHANGES:

@@ -10,7 +10,9 @@ import numpy as np
 from impact_damper.motions.records import measured
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish
 
+# Number of contacts of the orbits in a forcing cycle.
 CONTACTS = 2
+# Half a cycle later the state of a symmetric orbit has changed its sign, up to this difference.
 SYMMETRIC = 1e-6
 
 
@@ -55,7 +57,8 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     -------
     orbit : CompliantOrbit or None
     status : str
-        "found", "not_followed" if Newton's method fails, or "other_contacts".
+        "found"; "not_followed" if Newton's method fails; or "other_contacts" if it finds an orbit
+        that is not symmetric or has another number of contacts.
     """
     state = np.array(guess, float)
     converged, _, multiplier = polish(p, state, 1, reach, tolerance)

@@ -1,12 +1,14 @@
 """Follow a branch through a grazing, at which a contact appears, vanishes, or parts in two.
 
-Let h be the height |Z2| - d0 of an extremum of Z2 close to a wall. On the side of h = 0 with more
-contacts, the force of the wall changes the orbit by a term of the order |h|^(3/2) with a large
-factor. The multipliers change with the root of |h|, and the branch turns sharply, often within 1e-8
-of the parameter. Near a grazing the branch is therefore continued in h in place of the branch
-length. As functions of h the orbits are smooth except for the term of power 3/2, so Newton's method
-at fixed h converges. Derivatives by the parameter are integrated (`variations`), because difference
-quotients would reach across the grazing.
+A branch is the curve of the periodic orbits over a parameter. Let h be the height |Z2| - d0 of an
+extremum of Z2 (displacement relative to the loose mass) close to a wall, with the clearance d0. It
+is positive in contact. On the side of h = 0 with more contacts, the force of the wall changes the
+orbit by a term of the order |h|^(3/2) with a large factor. The multipliers change with the square
+root of |h|, and the branch turns sharply, often while the parameter changes by less than 1e-8. Near
+a grazing the branch is therefore followed in steps of h, not of its length. As functions of h the
+orbits are smooth except for the term of power 3/2, so Newton's method at fixed h converges.
+Derivatives by the parameter are integrated (`variations`), because difference quotients would reach
+across the grazing.
 """
 
 from typing import NamedTuple
@@ -19,18 +21,21 @@ from impact_damper.orbits.sensitivity import path_of
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# On the side with more contacts the heights of successive points have the ratio RATIO, from LEAST
+# On the side with more contacts the heights of successive points are LEAST, RATIO * LEAST, ... up
 # to MOST in modulus.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# How often the way to the next height is halved on a passage, where another contact changes or the
-# branch meets another one before it; and between two points of it.
+# If a step to the next height fails, or leads to another branch, it is divided.
+# HALVINGS: largest number of such divisions on the way through a grazing.
+# HALVINGS_BETWEEN: the same between two points found before.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# An orbit has more symmetry than the one before if its deviation is less by this factor.
+# `Orbit.deviation` is 0 for an orbit of more symmetry. An orbit counts as such if its deviation is
+# FALLEN times that of the orbit before.
 FALLEN = 0.01
 # Heights of the points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
-# Newton's method. LARGEST: largest size of a correction. CLOSE, ROUNDING: largest relative and
-# absolute error of the height.
+# Newton's method.
+# LARGEST: largest size of a correction.
+# CLOSE, ROUNDING: largest relative and absolute error of the height.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 # Largest change of the phase (radian) of an extremum between two heights.
 MOVED = 0.1
@@ -50,10 +55,11 @@ class Turn(NamedTuple):
     height : float
         |Z2| - d0.
     gradient : numpy.ndarray, shape (4 m + 1,)
-        Derivative of the height by the unknowns.
+        Derivative of the height by the unknowns: the states at the beginnings of the m segments,
+        and the parameter.
     by_parameter : numpy.ndarray, shape (4,)
-        Derivative of the end of the segment by the parameter, without the sign of a symmetric
-        orbit's last segment.
+        Derivative of the end of the segment by the parameter. The change of sign at the end of a
+        symmetric orbit's half period is not included.
     """
 
     segment: int
@@ -65,7 +71,10 @@ class Turn(NamedTuple):
 
 
 def turns_of(problem, x, orbit, segment=None):
-    """Return every `Turn` of an orbit, or of one segment, that has a gradient."""
+    """Return a list of every `Turn` of an orbit, or of one segment, whose gradient is known.
+
+    `problem` is the `continuation.Problem` of the branch, and x are the unknowns of the orbit.
+    """
     rate = problem.rate(x[-1])
     turns = []
     for k in range(len(problem.phases) - 1) if segment is None else [segment]:
@@ -77,7 +86,8 @@ def turns_of(problem, x, orbit, segment=None):
         try:
             change = variations.changes(np.zeros((4, 1)), np.eye(1))[2, 0]
         except np.linalg.LinAlgError:
-            # So many inelastic contacts that P is singular in rounding: no gradient is known.
+            # After many inelastic contacts the derivative by the first state is singular up to
+            # rounding errors, so that the gradient is not known.
             continue
         by_parameter = variations.slopes()[:, 0]
         for step, size, weight, time in zip(steps, sizes, weights, times, strict=True):
@@ -95,20 +105,22 @@ def turns_of(problem, x, orbit, segment=None):
 
 
 def nearest(turns, turn):
-    """Return the turn closest in phase to a given turn, preferably of the same kind, or None."""
+    """Return the turn closest in phase to a given turn, preferably of the same `outer`, or None."""
     near = [each for each in turns if abs(each.phase - turn.phase) < MOVED]
     near = [each for each in near if each.outer == turn.outer] or near
     return min(near, key=lambda each: abs(each.phase - turn.phase), default=None)
 
 
 def at_height(problem, x, turn, height, direction):
-    """Return the point at which an extremum has a given height, and the `Turn` there, or None.
+    """Return the point of a branch at which an extremum has a given height, and its `Turn`.
+
+    Return None if Newton's method fails.
 
     Parameters
     ----------
     problem : Problem
     x : array, shape (4 m + 1,)
-        First guess.
+        First guess of the unknowns.
     turn : Turn
         The extremum at the guess.
     height : float
@@ -144,8 +156,8 @@ class Passage(NamedTuple):
     Attributes
     ----------
     points : list of Point
-        In order along the branch. The first point is the point before the passage, cut into new
-        segments.
+        In order along the branch. The first point is the one before the grazing, with the orbit cut
+        into new segments.
     heights : list of float
         Heights of the extremum at the points.
     turns : list of Turn
@@ -153,7 +165,8 @@ class Passage(NamedTuple):
     grazing : int
         Index of the point closest to the grazing, on the side with more contacts.
     kind : str
-        "grazing" or "merging".
+        "grazing" if a contact appears or vanishes in flight, "merging" if it parts in two or two
+        contacts become one.
     """
 
     points: list
@@ -163,7 +176,7 @@ class Passage(NamedTuple):
     kind: str
 
     def between(self, k):
-        """Return a function that maps a height between points k and k + 1 to a point."""
+        """Return a function that returns the point at a height between points k and k + 1."""
         known = [(self.heights[end], self.points[end], self.turns[end]) for end in (k, k + 1)]
         direction = np.sign(self.heights[k + 1] - self.heights[k])
 
@@ -183,7 +196,10 @@ class Passage(NamedTuple):
 
 
 def guess(point, turn, height):
-    """Return the unknowns on the tangent of a point at which an extremum has a given height."""
+    """Return the unknowns on the tangent of a point at which an extremum has a given height.
+
+    The height is extrapolated linearly.
+    """
     return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
 
 
@@ -243,7 +259,7 @@ def through_grazing(point, reach):
 
 
 def _along(point, turn, targets, direction, contacts):
-    """Follow a branch from height to height, as far as Newton's method leads.
+    """Follow a branch from height to height, as far as Newton's method succeeds.
 
     Parameters
     ----------
@@ -255,7 +271,7 @@ def _along(point, turn, targets, direction, contacts):
     direction : int
         Sign of the change of height.
     contacts : callable
-        Maps a height to the number of contacts there.
+        Function that returns the number of contacts at a height.
 
     Returns
     -------
@@ -281,19 +297,23 @@ def _along(point, turn, targets, direction, contacts):
 
 
 def _before(height, target):
-    """Return a height on the way to another one: across the grazing, close to it."""
+    """Return a height between two heights, at which a failed step is divided.
+
+    If both heights have the same sign, it is their geometric mean. Otherwise it is close to the
+    grazing.
+    """
     if height * target > 0:
         return height * (target / height) ** 0.5
     return height / 2 if abs(height) > abs(target) else target / RATIO
 
 
 def _has_left(orbit, ahead):
-    """Return whether the next orbit lies on another branch, whose orbits have more symmetry."""
+    """Return whether the orbit `ahead` lies on another branch, whose orbits have more symmetry."""
     return np.max(np.abs(ahead.deviation)) < FALLEN * np.max(np.abs(orbit.deviation))
 
 
 def _targets(height, sharp, direction):
-    """Return heights from one side of a grazing to the other.
+    """Return a list of the heights of the points from one side of a grazing to the other.
 
     Parameters
     ----------

@@ -1,4 +1,8 @@
-"""Orbits in the cells of a grid of parameters, each followed from a neighbouring cell."""
+"""Orbits in the cells of a grid of parameters, each followed from a neighbouring cell.
+
+To follow an orbit means to predict its state at the next parameters and to correct it, usually by
+Newton's method.
+"""
 
 from collections import deque
 
@@ -28,8 +32,9 @@ def follow_line(
     shortest : float
         Shortest step, divided by the distance of the points.
     extrapolating : bool
-        Whether the prediction is extrapolated from the last two orbits. Only then a step grows
-        again after a success. Without extrapolation a longer step that has failed would fail again.
+        Whether the prediction is extrapolated from the last two orbits; otherwise it is the last
+        orbit. Only with extrapolation does a step grow again after a success: without it, a longer
+        step that has failed would fail again.
     behind : optional
         Orbit at 2 first - last. With this orbit the first prediction is extrapolated too.
 
@@ -67,7 +72,8 @@ class Grid:
         Axes of the grid in the order in which orbits are followed along them; by default the
         first axis first.
     extrapolating : bool
-        As in `follow_line`. The argument `behind` is then the orbit of the cell on the other side.
+        As in `follow_line`. Its argument `behind` is the orbit of the neighbouring cell on the
+        opposite side, if this orbit is known.
 
     Attributes
     ----------

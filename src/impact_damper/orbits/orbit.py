@@ -1,7 +1,8 @@
 """A periodic orbit, stable or unstable: its multipliers, contacts, motion and flights.
 
 The state of an orbit is stored at a phase W T of the forcing at which the loose mass is in flight,
-far from contacts. With such a state the map over the period is smooth and well scaled.
+far from contacts. The map over the period, which integrates a state over this time, is then smooth
+and well scaled.
 """
 
 import math
@@ -16,6 +17,7 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.system.packed import DAMPING, DASHPOT, FREQUENCY, INVERSE_MASS_RATIO
 
+# Phases W T, radian: a forcing cycle, and the strobe, at which states are compared.
 TURN = 2 * math.pi
 STROBE = math.pi / 2
 # The phase of an orbit is kept if the nearest contact is further away than MARGIN (radian).
@@ -43,7 +45,7 @@ class Orbit:
         Derivative of the map over n cycles.
     root : numpy.ndarray, shape (4, 4), or None
         For a symmetric orbit of odd n, the derivative of the map over n/2 cycles followed by a
-        change of sign. Its square is the monodromy matrix.
+        change of sign. It is called root because its square is the monodromy matrix.
     residual : float
         Largest difference between the state and the state a period later.
     touching : float
@@ -53,12 +55,12 @@ class Orbit:
         state, or times 1 if all components are smaller. If not, the state is the best state that
         Newton's method found.
     maps : int
-        Number of maps over the period that Newton's method computed.
+        How often Newton's method integrated over the period.
     chain : segments.Chain or None
-        Segments of an orbit that was found by multiple shooting. The state is the state of the
-        first segment. The monodromy matrix and its root are products of the derivatives of the
-        segments, which are accurate only relative to their norm. All other properties are computed
-        from the segments, with the accuracy of the segments.
+        Segments of an orbit that was found by multiple shooting. The state is that at the beginning
+        of the first segment. The monodromy matrix and its root are products of the derivatives of
+        the segments. Their small entries are inaccurate, because rounding errors are relative to
+        the largest entry. All other properties are computed from the segments, without this loss.
     """
 
     p: np.ndarray
@@ -84,7 +86,7 @@ class Orbit:
 
     @property
     def factors(self):
-        """Derivatives of the segments of a cycle, shape (m, 4, 4)."""
+        """Derivatives of the m segments of a cycle, shape (m, 4, 4); m is 1 without a chain."""
         if self.chain is not None:
             return self.chain.factors
         return (self.monodromy if self.root is None else self.root)[None]
@@ -97,7 +99,7 @@ class Orbit:
 
     @property
     def active(self):
-        """Number of unknowns: 4, or 2 if the loose mass touches no wall and stays where it is."""
+        """Number of unknowns: 4, or 2 (Z1, Z1') if the loose mass touches no wall and rests."""
         return 4 if self.touching > 0 else 2
 
     @cached_property
@@ -111,7 +113,7 @@ class Orbit:
 
     @cached_property
     def cycle_multipliers(self):
-        """Multipliers of the map over a cycle, shape (active,)."""
+        """Eigenvalues of the derivative of the map over a cycle, shape (active,)."""
         n = self.active
         return segments.multipliers(self.factors[:, :n, :n])
 
@@ -125,7 +127,8 @@ class Orbit:
         """Relative error of the determinant of the monodromy matrix.
 
         By Liouville's theorem the determinant is exp(-h n 2 pi/W - c (1 + 1/rm) t_c), with the
-        dashpot coefficient c = 2 zeta_c sqrt(r1 rm) and the time in contact t_c.
+        damping h, the mass ratio rm, the time in contact t_c and the coefficient c of the dashpot
+        of a wall.
         """
         p = self.p
         contact_damping = p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO])
@@ -152,7 +155,8 @@ class Orbit:
             return np.concatenate([log, log * [-1, 1, 1, -1, -1] + [0, shift, shift, 0, 0]])
         begin = self.phase / self.p[FREQUENCY]
         end = begin + self.periods * TURN / self.p[FREQUENCY]
-        # A contact during which the first state lies is complete only a period later.
+        # If the first state lies in a contact, the end of this contact is reached at once, but its
+        # beginning only a period later.
         touching = side_of(self.p, self.state) != 0
         last = end + touching * (end - begin)
         log = np.empty(((1 + touching) * self.periods * CONTACTS, 5))
@@ -174,7 +178,11 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls touched in order, such as "+-"; the first of all cyclic shifts in the alphabet."""
+        """Walls touched in the order of time, such as "+-" for one contact with each wall.
+
+        Of all cyclic shifts of these signs the first in alphabetical order is taken, so that the
+        sequence does not depend on the first contact.
+        """
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
@@ -202,11 +210,12 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """Difference, shape (4,), of the orbit from one of more symmetry.
+        """Difference, shape (4,), between the state and its image half a period later.
 
-        The branches of both orbits meet where the difference changes sign. The other orbit is the
-        symmetric one if the period n is odd, and one of half the period if n is even. A symmetric
-        orbit has no such branch to meet; the difference is then replaced by ones.
+        For odd n the image is mirrored, so the difference is 0 for a symmetric orbit. For even n
+        it is 0 for an orbit of half the period. A branch of orbits meets a branch of such orbits
+        of more symmetry where the difference changes sign. A symmetric orbit has no such branch to
+        meet; its difference is replaced by ones.
         """
         if self.root is not None:
             return np.ones(4)
@@ -234,8 +243,8 @@ class Orbit:
         begin = self.phase + (STROBE - self.phase) % TURN
         sums = self.at(begin) + self.at(begin + self.periods * TURN / 2)
         record["asymmetry"] = np.max(np.abs(sums)) if self.periods % 2 else np.nan
-        # A symmetric orbit has only odd harmonics, so half the orbit has the same mean as the
-        # whole.
+        # The first harmonic is a mean over the period. A symmetric orbit has the same mean over
+        # half the period.
         phases, states = self.chain.samples(STROBE, TURN / records.SAMPLES)
         first, _, second, _ = 2 / len(states) * (np.exp(-1j * phases) @ states)
         record["harmonic_displacement"], record["harmonic_relative"] = first, second
@@ -251,7 +260,7 @@ class Orbit:
         return bool(np.min(np.max(np.abs(states - other.strobe_states[0]), axis=1)) < tolerance)
 
     def repeats_sooner(self, tolerance=1e-6):
-        """Return whether the state repeats after fewer cycles than n, a divisor of n."""
+        """Return whether the state repeats after fewer than n cycles."""
         shift = np.max(np.abs(self.strobe_states - self.strobe_states[0]), axis=1)
         return any(shift[k] < tolerance for k in range(1, self.periods) if self.periods % k == 0)
 

@@ -1,9 +1,9 @@
 """Motions with their derivatives by the first state, at all times.
 
-Each step of the integrator has the Taylor series of the motion and of its tangents (the derivatives
-of the state by the first state), accurate to the tolerance of the integration. The series are
-evaluated at Chebyshev points of the step. Polynomials through these points give values and
-integrals at all times.
+The tangents of a motion are the derivatives of its state by the first state. In each step the
+integrator computes the Taylor series of the motion and of its tangents, accurate to its tolerance.
+A path stores these series. They are evaluated at Chebyshev points of each step. Polynomials through
+these points give values and integrals at all times.
 """
 
 from dataclasses import dataclass
@@ -28,24 +28,30 @@ from impact_damper.kernel.single import (
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.system.packed import CLEARANCE
 
-# Number of points of a step, including its ends. A step in contact turns the phase of the contact
-# by up to 3.5 radian, and the phase of a product of two such oscillations by up to 7 radian. With
-# 21 points the error of integrals of such products is about 1e-13.
+# Number of points of a step, including its ends. In a step in contact the phase of the contact's
+# oscillation grows by up to 3.5 radian, and the phase of a product of two such oscillations by up
+# to 7 radian. With 21 points the error of integrals of such products is about 1e-13.
 POINTS = 21
-# Number of Newton corrections of the time of a turn.
+# Number of Newton corrections of the time of a turn (extremum).
 CORRECTIONS = 4
+# Number of coefficients of a Taylor series.
 TERMS = max(FLIGHT_ORDER, CONTACT_ORDER) + 1
+# _ON_CIRCLE: the Chebyshev points on [-1, 1], projections of points on a circle.
+# _TO_SERIES: matrix that maps values at the points to coefficients of Chebyshev polynomials.
 _ON_CIRCLE = -np.cos(np.pi * np.arange(POINTS) / (POINTS - 1))
 _TO_SERIES = np.linalg.inv(chebyshev.chebvander(_ON_CIRCLE, POINTS - 1))
-# PLACES: places of the points on a step of length 1. INTEGRALS: matrix that maps values at the
-# points to the integrals from the beginning of the step to each point.
+# PLACES: the points on a step of length 1.
+# INTEGRALS: matrix that maps values at the points to the integrals from the beginning of the step
+#     to each point.
 PLACES = (_ON_CIRCLE + 1) / 2
 INTEGRALS = chebyshev.chebval(_ON_CIRCLE, chebyshev.chebint(_TO_SERIES, lbnd=-1)).T / 2
 
 
 @dataclass(frozen=True)
 class Path:
-    """A motion in m steps, each in flight or in contact, with its derivative.
+    """A motion in m steps, each in flight or in contact, with its tangents.
+
+    N = m POINTS is the number of points of all steps.
 
     Attributes
     ----------
@@ -104,10 +110,10 @@ class Path:
 
     @cached_property
     def events(self):
-        """Beginnings and ends of contacts, three arrays.
+        """Beginnings and ends of contacts (events), three arrays with an entry for each event.
 
-        They hold the index of the last point before each event, the wall, and 1 for a beginning or
-        -1 for an end.
+        They hold the index of the last of the N points before the event, the wall, and 1 for a
+        beginning or -1 for an end.
         """
         change = np.abs(self.sides[1:]) - np.abs(self.sides[:-1])
         at = np.flatnonzero(change)
@@ -147,7 +153,10 @@ class Path:
 
 
 def _derivative(series, times, order):
-    """Return a derivative (order 0: the value) of n series, shape (n, terms), each at its time."""
+    """Return a derivative of each of n series at its time, shape (n,); the value for order 0.
+
+    `series` are coefficients, shape (n, terms), and `times` has the shape (n,).
+    """
     for _ in range(order):
         series = series[:, 1:] * np.arange(1, series.shape[1])
     return np.sum(series * times[:, None] ** np.arange(series.shape[1]), axis=1)
@@ -189,7 +198,8 @@ def follow_path(p, state, begin, end) -> Path:
 def _series(p, work, side, first):
     """Return the series of a step, shape (TERMS, 2, 5).
 
-    They come from the workspace of the step and from the state and tangents at its beginning.
+    They come from the workspace of the integrator after the step, and from the state and tangents
+    at the beginning of the step (`first`). `side` is the wall in contact.
     """
     series = np.zeros((TERMS, 2, 5))
     count = (FLIGHT_ORDER if side == 0 else CONTACT_ORDER) + 1

@@ -22,13 +22,15 @@ from impact_damper.system import packed
 # Phase W T of the states, far from contacts. Contacts lie between about -0.2 and pi/2, and half a
 # cycle later.
 PHASE = 0.75 * np.pi
-# Newton's method. ITERATIONS: largest number of corrections. REACH: largest distance from the
-# guess.
+# Newton's method.
+# ITERATIONS: largest number of corrections.
+# REACH: largest distance of the state from the guess.
 ITERATIONS = 10
 REACH = 0.05
 # Shortest step between cells, divided by their distance.
 SHORTEST = 2.0**-12
-# A row ends at a fold if extrapolation predicts a fold within NEAR shortest steps (see `_end`).
+# The orbits of a row end at a fold if extrapolation predicts a fold closer to the last orbit than
+# NEAR shortest steps (`_end`).
 NEAR = 4
 
 
@@ -58,12 +60,13 @@ class QuietOrbits(NamedTuple):
 def straight_flight_end(oscillator, clearance, restitution) -> float:
     """Return the frequency W at which the quiet orbit folds, in the limit of straight flight.
 
-    The limit is that of rigid walls and high frequency. The equations of
-    `theory.optimum_clearance.straight_flight_ratio` then give W^2 d0/f = k sin(s) - cos(s) for the
-    phase s of the impacts, with k = (pi/2) (1 + e)/(1 - e) and the forcing amplitude
-    f = F + U W^2 + V/W^2, for any mass ratio. For W^2 d0/f > sqrt(1 + k^2) there is no solution,
-    because the forcing cannot supply the energy that the impacts dissipate. The equality is a
-    quadratic equation in W^2.
+    In this limit, of rigid walls and high frequency, the loose mass flies at constant speed. The
+    equations of `theory.optimum_clearance.straight_flight_ratio` then give, for any mass ratio,
+    W^2 d0/f = k sin(s) - cos(s), with the phase s of the impacts, the restitution e and
+    k = (pi/2) (1 + e)/(1 - e). The forcing amplitude f = F + U W^2 + V/W^2 has parts from a force,
+    an unbalance and a shaker. For W^2 d0/f > sqrt(1 + k^2) there is no solution, because the
+    forcing cannot supply the energy that the impacts dissipate. At the fold both sides are equal,
+    which is a quadratic equation in W^2.
 
     Parameters
     ----------
@@ -94,12 +97,12 @@ def is_symmetric_pair(records):
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Return the quiet orbits of a grid, followed from known orbits to all cells that they reach.
+    """Return the quiet orbits of a grid, followed from known orbits as far as possible.
 
     Parameters
     ----------
     parameters : array, shape (rows, columns, packed.COUNT)
-        Packed parameters of the cells. Along a row only the frequency changes.
+        Packed parameters of the cells. Within a row only the frequency differs.
     states : array, shape (rows, columns, 4)
         States of known orbits at W T = pi/2, NaN in cells without a known orbit.
 
@@ -158,7 +161,8 @@ def find_quiet_orbit(p, guess):
     -------
     orbit : Orbit or None
     status : str
-        "found", "not_converged" or "contacts_change".
+        "found"; "not_converged" if Newton's method fails; or "contacts_change" if the orbit has
+        another number of contacts.
     """
     state = guess
     for _ in range(ITERATIONS):
@@ -177,14 +181,17 @@ def find_quiet_orbit(p, guess):
 
 
 def dominant_root(orbit):
-    """Return the multiplier of the root with the largest modulus, its imaginary part >= 0."""
+    """Return the multiplier of the root with the largest modulus and an imaginary part >= 0."""
     values = np.linalg.eigvals(orbit.root)
     value = values[np.argmax(np.abs(values))]
     return complex(value.real, abs(value.imag))
 
 
 def _row_ends(grid, row):
-    """Return the fractional columns at which the orbits of a row end, and flags of the reasons."""
+    """Return the columns at which the orbits of a row end, as fractional numbers, and the reasons.
+
+    The reasons are flags of `quiet_end_event`.
+    """
     columns = [column for first, column in grid.orbits if first == row]
     if not columns:
         return [np.nan] * 2, [flag("quiet_end_event", "no_orbit")] * 2
@@ -199,13 +206,16 @@ def _row_ends(grid, row):
 
 
 def _end(followed):
-    """Return the fraction of the distance at which following ended, and the event there.
+    """Return where between two cells the orbit ends, as a fraction, and the event at which it ends.
 
-    Towards a fold, det(1 - root) decreases with the square root of the distance from the fold. The
-    event is a fold if this law, extrapolated from the last two orbits, predicts a fold close to the
-    last orbit.
+    `followed` is the result of an attempt to follow the orbit from one cell to the next. Towards a
+    fold, det(1 - root) decreases with the square root of the distance from the fold. The event is a
+    fold if this law, extrapolated from the last two orbits, predicts a fold close to the last
+    orbit.
     """
-    if followed.arrived:  # `spread` failed here, because it did not know the cell behind yet
+    # The attempt may succeed although `Grid.spread` failed earlier, when it did not yet know the
+    # orbit of the cell behind and predicted less accurately.
+    if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
     squares = [np.linalg.det(np.eye(4) - each.root) ** 2 for each in followed.orbits]

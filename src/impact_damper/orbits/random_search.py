@@ -1,6 +1,7 @@
-"""Find stable orbits by Newton's method from random states, for branches without a settled motion.
+"""Find stable periodic orbits by Newton's method from random states.
 
-Newton's method also finds orbits with small basins, to which hardly any random start leads.
+Newton's method also finds orbits to which hardly any motion from a random state leads, because
+their basins are small. Simulations would miss the branches of such orbits.
 """
 
 import numpy as np
@@ -8,8 +9,9 @@ import numpy as np
 from impact_damper.motions.simulate import random_states
 from impact_damper.orbits.shooting import find_orbit
 
-# FREQUENCIES: number of frequencies, spread evenly over the range. STATES: number of random states
-# at each frequency. PERIODS: periods of the orbits, in forcing cycles.
+# FREQUENCIES: number of frequencies, spread evenly over the range.
+# STATES: number of random states at each frequency.
+# PERIODS: periods of the orbits, in forcing cycles.
 FREQUENCIES, STATES, PERIODS = 20, 6, (1, 2, 3)
 # Radius of the ball from which states are drawn, as in the paper, and seed of the draws.
 RADIUS, SEED = 2.0, 4

@@ -3,11 +3,12 @@
 A strongly unstable orbit amplifies rounding errors over a period by its largest multiplier. To keep
 its accuracy, the orbit is cut into segments that amplify little. The unknowns are the states y_k at
 the beginnings of the segments. They solve F_k = Phi_k(y_k) - y_(k+1) = 0 for all segments k, where
-Phi_k is the flow over segment k. The last segment leads back to the first, with a change of sign if
-the chain is half of a symmetric orbit. The derivatives of the segments are called factors. The
-multipliers of the orbit are the eigenvalues of the product of the factors and are computed without
-forming the product. The sections between segments lie at phases of the forcing at which the loose
-mass is in flight, so that the flow is smooth there.
+Phi_k is the flow over segment k, which integrates a state from its beginning to its end. The last
+segment leads back to the first, with a change of sign if the chain is half of a symmetric orbit.
+The derivatives of the flows are called factors. The multipliers of the orbit are the eigenvalues of
+the product of the factors and are computed without forming the product. The sections, at which one
+segment ends and the next begins, lie at phases of the forcing at which the loose mass is in flight,
+so that the flow is smooth there.
 """
 
 from dataclasses import dataclass
@@ -23,8 +24,9 @@ from impact_damper.orbits.paths import follow_path
 from impact_damper.system.packed import FREQUENCY
 
 # Multipliers whose moduli differ by more than the factor APART are separated by orthogonal
-# iteration. The iteration ends after SWEEPS sweeps, or when the basis changes by less than SETTLED.
-# Other multipliers are eigenvalues of products of small blocks.
+# iteration. Multipliers of similar moduli are eigenvalues of products of small blocks.
+# SWEEPS: largest number of iterations.
+# SETTLED: the iteration ends if its basis changes by less than this.
 APART = 30.0
 SWEEPS, SETTLED = 14, 1e-15
 # A segment ends before the norm of its derivative exceeds AMPLIFIED.
@@ -73,7 +75,7 @@ class Chain:
 
     @cached_property
     def defects(self):
-        """The values F_k, shape (m, 4), which are zero for an orbit."""
+        """The differences F_k, shape (m, 4), which are zero for an orbit."""
         defects = np.empty_like(self.ends)
         defects[:-1] = self.ends[:-1] - self.states[1:]
         defects[-1] = self.sign * self.ends[-1] - self.states[0]
@@ -89,7 +91,15 @@ class Chain:
         return self.sign**turns * state
 
     def log(self):
-        """Return the contacts in the order of time, shape (k, 5), as `Orbit.contacts`."""
+        """Return the contacts in the order of time, shape (k, 5).
+
+        A row holds the wall (-1 or 1), the times of beginning and end, and Z2' at both.
+
+        Raises
+        ------
+        ArithmeticError
+            If a segment has more than CONTACTS contacts.
+        """
         logs = []
         for k, state in enumerate(self.states):
             begin, end = self.phases[k : k + 2] / self.p[FREQUENCY]
@@ -103,12 +113,13 @@ class Chain:
         return np.concatenate(logs)
 
     def samples(self, first, spacing):
-        """Return phases, shape (n,), and states, shape (n, 4), at equal distances over the chain.
+        """Return equally spaced phases over the chain, shape (n,), and the states, shape (n, 4).
 
         Parameters
         ----------
         first, spacing : float
-            A phase of the grid, which need not lie on the chain, and the spacing, radian.
+            Spacing of the phases, and a phase from which they are counted, radian. The latter need
+            not lie on the chain.
         """
         begin = self.phases[0] + (first - self.phases[0]) % spacing
         count = round(self.cycle / spacing)
@@ -163,7 +174,10 @@ def ends_of(p, phases, states):
 
 
 def cyclic(factors):
-    """Return the derivative of `Chain.defects` with respect to the states, shape (m n, m n)."""
+    """Return the derivative of `Chain.defects` with respect to the states, shape (m n, m n).
+
+    `factors` are those of the chain, or their leading n by n blocks, shape (m, n, n).
+    """
     m, n = factors.shape[:2]
     matrix, k = np.zeros((m, n, m, n)), np.arange(m)
     matrix[k, :, k] = factors
@@ -174,8 +188,8 @@ def cyclic(factors):
 def multipliers(factors):
     """Return the eigenvalues of the product of matrices, without forming it.
 
-    Orthogonal iteration on the cyclic product separates eigenvalues of different moduli.
-    Eigenvalues of similar moduli are computed from the product of diagonal blocks.
+    Orthogonal iteration separates eigenvalues of different moduli. Eigenvalues of similar moduli
+    are computed from the product of diagonal blocks.
 
     Parameters
     ----------
@@ -207,14 +221,15 @@ def log_determinant(factors):
 def cut(orbit, cycle, between=()):
     """Return the phases at which an orbit is cut into segments, shape (m + 1,).
 
-    Sections can lie in the middle of flights. A segment ends at the last of these phases at which
-    the norm of its derivative is below AMPLIFIED, or at the first if the norm is larger at all.
+    Possible phases are the middles of flights. A segment ends at the last of these phases at which
+    the norm of its derivative is below AMPLIFIED. If the norm is larger at all of them, the segment
+    ends at the first.
 
     Parameters
     ----------
     orbit : Orbit
     cycle : float
-        Phase that the segments cover, radian: the period or half the period.
+        Range of phases that the segments cover, radian: the period or half the period.
     between : sequence of float
         Phases at which the loose mass comes close to a wall in flight. Such a flight is cut twice,
         before and after this phase.
@@ -237,10 +252,11 @@ def cut(orbit, cycle, between=()):
 
 
 def _sections(orbit, cycle, between):
-    """Return the possible phases of sections in a cycle, shape (k,), and the forced sections.
+    """Return the possible phases of cuts, shape (k,), and a list of those at which to cut always.
 
-    The phases are the middles of flights, ascending from the middle of the longest flight. Sections
-    before and after the phases `between` are forced.
+    The phases are the middles of flights, ascending from the middle of the longest flight. A flight
+    is always cut before and after the phases `between`, at which the loose mass comes close to a
+    wall.
     """
     log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
@@ -256,7 +272,8 @@ def _sections(orbit, cycle, between):
                 forced += [middle] * (len(marks) > 2)
             longest = max(longest, (high - low, middle))
     start = longest[1]
-    # In a symmetric orbit each section occurs twice in a period, so duplicates are removed.
+    # The contacts cover the whole period. If the cycle is half of it, each phase occurs twice, so
+    # duplicates are removed. The shift by 1e-9 keeps `start` first in spite of rounding errors.
     places = np.sort(start + (np.array([*middles, start]) - start + 1e-9) % cycle - 1e-9)
     places = places[np.append(True, np.diff(places) > 1e-6)]
     places = places[places < start + cycle - 1e-6]

@@ -1,11 +1,13 @@
 """Exact derivatives of a periodic orbit by its parameters: state, largest |Z1|, stability.
 
-An orbit solves y = R(y, p), where R is the map over its period or, for a symmetric orbit, the map
-over half the period followed by a change of sign. The derivative of its state is therefore
+An orbit solves y = R(y, p) with its state y and the parameters p. R is the map over its period or,
+for a symmetric orbit, the map over half the period followed by a change of sign. With R_y and R_p,
+the derivatives of R by y and p, the derivative of the state is therefore
 y_p = (1 - R_y)^-1 R_p. The derivative of max |Z1| is the derivative of |Z1| at the phase of the
-maximum, because Z1' is zero there. The derivative of a simple multiplier with the right and left
-eigenvectors r and l is l (dR_y/dp) r / (l r), where dR_y/dp is the total derivative along the orbit
-(`variations`). No difference quotients are used.
+maximum, because Z1' is zero there. Multipliers are the eigenvalues of R_y. The derivative of a
+simple multiplier with the right and left eigenvectors r and l is l (dR_y/dp) r / (l r), where
+dR_y/dp is the total derivative, which includes the change of y (`variations`). No difference
+quotients are used.
 """
 
 from dataclasses import dataclass
@@ -36,18 +38,18 @@ class Sensitivity:
     displacement_slopes : numpy.ndarray, shape (packed.COUNT,)
         Derivatives of max |Z1|.
     displacement_smooth : bool
-        Whether max |Z1| is differentiable. It is not, but has a kink, if |Z1| is largest at two
-        phases with different derivatives.
+        Whether max |Z1| is differentiable. It has a kink if |Z1| is largest at two phases with
+        different derivatives.
     modulus : float
         Modulus of the largest Floquet multiplier.
     modulus_slopes : numpy.ndarray, shape (packed.COUNT,)
         Derivatives of the modulus.
     modulus_smooth : bool
-        Whether the modulus is differentiable. It is not if two multipliers that are not a conjugate
-        pair have the largest modulus, or if a real multiplier is double.
+        Whether the modulus is differentiable. It has a kink if two multipliers that are not a
+        conjugate pair have the largest modulus, or if a real multiplier is double.
     matrix_slopes : numpy.ndarray, shape (packed.COUNT, n, n)
-        Total derivatives of the root (`Orbit.root`) along the orbits or, for an orbit without root,
-        of the monodromy matrix; n is `Orbit.active`.
+        Total derivatives of R_y, which is the root of the orbit (`Orbit.root`) or, without a root,
+        its monodromy matrix. n is `Orbit.active`.
     """
 
     orbit: Orbit
@@ -79,7 +81,7 @@ class Sensitivity:
 
 
 def path_of(orbit) -> Path:
-    """Return the path of an orbit over its period, or over half the period if it has a root."""
+    """Return the motion of an orbit over its period, or over half the period if it has a root."""
     begin = orbit.phase / orbit.p[FREQUENCY]
     turns = orbit.periods * (1.0 if orbit.root is None else 0.5)
     return follow_path(orbit.p, orbit.state, begin, begin + turns * TURN / orbit.p[FREQUENCY])
@@ -93,7 +95,7 @@ def sensitivity(orbit) -> Sensitivity:
     ValueError
         If the orbit has not converged.
     numpy.linalg.LinAlgError
-        If a multiplier is exactly 1. At a fold the derivatives do not exist.
+        If a multiplier is exactly 1, as at a fold, where the derivatives do not exist.
     """
     if not orbit.converged:
         raise ValueError(f"orbit: must have converged, its residual is {orbit.residual:.1e}")
@@ -144,7 +146,8 @@ def _displacement(path, changes):
 def _modulus(matrix, slopes):
     """Return the largest modulus of the eigenvalues of a matrix, and its relative derivatives.
 
-    The third result states whether the modulus is differentiable.
+    `slopes` are the derivatives of the matrix. The third result states whether the modulus is
+    differentiable.
     """
     values, right = np.linalg.eig(matrix)
     first = int(np.argmax(np.abs(values)))

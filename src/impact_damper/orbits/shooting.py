@@ -1,8 +1,10 @@
 """Find periodic orbits, stable or unstable, by Newton's method on the event-driven flow.
 
-The state of an orbit is stored at a phase W T of the forcing at which the loose mass is in flight,
-far from contacts, so that the map over the period is smooth and well scaled. The derivative of this
-map comes from the variational equations, with saltation matrices where the dashpot's force jumps.
+The map over the period integrates a state over this time; an orbit is one of its fixed points. The
+state of an orbit is stored at a phase W T of the forcing at which the loose mass is in flight, far
+from contacts, so that the map is smooth and well scaled. The derivative of the map comes from the
+variational equations, with saltation matrices (jumps of the derivative) where the dashpot's force
+jumps. Multiple shooting (`segments`) cuts an orbit into several segments.
 """
 
 from dataclasses import replace
@@ -15,15 +17,17 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import STROBE, TURN, Orbit
 from impact_damper.system.packed import FREQUENCY
 
-# Newton's method. RESIDUAL: largest residual of a converged orbit, relative to its state.
-# ITERATIONS: largest number of corrections. FAR: largest size of a correction.
+# Newton's method.
+# RESIDUAL: largest residual of a converged orbit, relative to its state.
+# ITERATIONS: largest number of corrections.
+# FAR: largest size of a correction.
 RESIDUAL = 1e-12
 ITERATIONS = 20
 FAR = 10.0
 # If the residual is below NEAR, the state of an orbit can be integrated to another phase.
 NEAR = 1e-6
-# If the norm of the derivative of the map exceeds AMPLIFYING, single shooting is not accurate
-# enough.
+# If the norm of the derivative of the map over the period exceeds AMPLIFYING, Newton's method on
+# this map (single shooting) is not accurate enough, and multiple shooting is used.
 AMPLIFYING = 100.0
 # Multiple shooting: while the derivative of the map over a segment has a norm of more than
 # ROUGH * `segments.AMPLIFIED`, the orbit is cut again into segments, at most CUTS times.
@@ -69,8 +73,8 @@ def shoot(p, state, periods, phase, *, symmetric=False):
 def find_orbit(p, state, periods=1, phase=STROBE):
     """Find the orbit near a state by Newton's method, and move its phase into a flight.
 
-    If no wall is touched, only Z1 and Z1' are unknown, and the loose mass does not move. An orbit
-    that amplifies disturbances by more than AMPLIFYING is found by multiple shooting.
+    If no wall is touched, only Z1 and Z1' are unknown, and the loose mass rests. An orbit that
+    amplifies disturbances by more than AMPLIFYING is found by multiple shooting.
 
     Parameters
     ----------
@@ -88,8 +92,8 @@ def find_orbit(p, state, periods=1, phase=STROBE):
         chain = polish(orbit if orbit.residual < NEAR else shoot(p, state, periods, phase)[0])
         if chain.residual < orbit.residual:
             return replace(chain, maps=orbit.maps + chain.maps)
-    # In a contact rounding errors grow at the contact's natural frequency. Therefore the test uses
-    # NEAR in place of the stricter attribute `converged`.
+    # The first phase may lie in a contact, where rounding errors grow, so that the orbit cannot
+    # converge. It is moved to a flight if its residual is below NEAR.
     if not orbit.residual < NEAR or orbit.flight_phase() == orbit.phase:
         return orbit
     phase = orbit.flight_phase()
@@ -156,12 +160,12 @@ def orbit_of(chain, periods):
 
 
 def polish(orbit):
-    """Return an orbit by multiple shooting, from an approximate orbit.
+    """Return an orbit by multiple shooting, near an approximate orbit.
 
     Parameters
     ----------
     orbit : Orbit
-        Approximate orbit, which need not have converged.
+        The approximate orbit, which need not have converged.
 
     Returns
     -------
@@ -180,7 +184,10 @@ def polish(orbit):
 
 
 def _newton_of_chain(orbit, phases, states):
-    """Return the iterate of Newton's method with the smallest residual, and the number of maps."""
+    """Return the best iterate of Newton's method by multiple shooting, and the number of maps.
+
+    The best iterate has the smallest residual. `phases` and `states` are those of the segments.
+    """
 
     def shot(states):
         sign = 1 if orbit.root is None else -1

@@ -1,16 +1,19 @@
 """Tori that branch off at Neimark-Sacker points: their stability and their rotation numbers.
 
-At a Neimark-Sacker point a pair of multipliers exp(+-i angle) crosses the unit circle. Let r be the
-amplitude of a motion close to the orbit, in the plane of the pair. At the point, log r changes by
+A torus is a surface in the space of states that surrounds a periodic orbit; motions on it revolve
+around the orbit. The rotation number is the mean number of revolutions in a period of the orbit. A
+branch is the curve of the orbits over a parameter. At a Neimark-Sacker point of a branch a pair of
+Floquet multipliers exp(+-i angle) crosses the unit circle. Let r be the amplitude of a motion close
+to the orbit, in the plane of the eigenvectors of the pair. At the point, log r changes by
 growth * r^2 in each period of the orbit. If the coefficient `growth` is negative, a stable torus
-surrounds the unstable orbit, with the amplitude sqrt(-log |multiplier| / growth). If it is
-positive, an unstable torus surrounds the stable orbit, and no stable torus branches off (Yu. A.
-Kuznetsov, Elements of Applied Bifurcation Theory, section 4.7). A torus is also unstable if another
-multiplier lies outside the unit circle.
+surrounds the unstable orbit, with the amplitude sqrt(-log |multiplier| / growth). If the
+coefficient is positive, an unstable torus surrounds the stable orbit, and no stable torus branches
+off (Yu. A. Kuznetsov, Elements of Applied Bifurcation Theory, section 4.7). A torus is also
+unstable if another multiplier lies outside the unit circle.
 
 The coefficient is measured on motions that begin close to the orbit. Then motions are run onto the
-stable torus at two distances from the point, and their rotation numbers are extrapolated to the
-point.
+stable torus at two values of the parameter near the point, and their rotation numbers are
+extrapolated to the point.
 """
 
 import math
@@ -24,25 +27,30 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.orbit import TURN, Orbit
 from impact_damper.system.packed import FREQUENCY
 
-# Measurement of the growth. AMPLITUDES: amplitudes of the motions. ITERATES: number of periods of
-# each motion. The results of two successive amplitudes must agree to AGREEMENT, and the relative
-# change of 1/r^2 must lie between SEEN, which is above rounding errors, and LARGE.
+# Measurement of the growth.
+# AMPLITUDES: amplitudes of the motions.
+# ITERATES: number of periods of each motion.
+# AGREEMENT: largest relative difference between the results of two successive amplitudes.
+# SEEN, LARGE: least and largest relative change of 1/r^2 during a motion. A smaller change is
+#     hidden by rounding errors; with a larger one higher powers of r matter.
 AMPLITUDES = tuple(10.0**-k for k in (2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6))
 ITERATES = 400
 AGREEMENT, SEEN, LARGE = 0.1, 3e-6, 0.5
 # A multiplier lies on the unit circle if its modulus differs from 1 by at most ON_CIRCLE.
 ON_CIRCLE = 1e-6
 # Tori are searched for at orbits with log |multiplier| close to one of LEVELS, until two are found.
-# CLOSE: largest relative error of log |multiplier|. STEPS: largest number of steps to such an
-# orbit.
+# CLOSE: largest relative error of log |multiplier|.
+# STEPS: largest number of steps of the search for such an orbit.
 LEVELS = tuple(0.01 * 0.5**k for k in range(4))
 CLOSE, STEPS = 0.1, 4
 # Largest distance of such an orbit from the point, in units of the parameter.
 FARTHEST = 0.1
-# Changes of the parameter in the difference quotient of log |multiplier|.
+# Changes of the parameter in the difference quotient of log |multiplier|. A smaller one is used if
+# log |multiplier| varies too fast.
 NUDGES = (1e-7, 1e-9, 1e-11)
-# A motion approaches a torus for APPROACH / level periods. Then it runs for the numbers of periods
-# in BLOCKS, one after the other, until the rotation number is known.
+# APPROACH: a motion approaches the torus of a level for APPROACH / level periods.
+# BLOCKS: then it runs for these numbers of periods, one after the other, until the rotation number
+#     is known.
 APPROACH, BLOCKS = 8.0, (1000, 3000)
 # Largest number of forcing cycles of the approach.
 MOST_PERIODS = 30_000
@@ -59,11 +67,11 @@ class Torus(NamedTuple):
     angle : float
         Angle of the multiplier, revolutions, from 0 to 1/2.
     growth : float
-        Coefficient `growth` of the module docstring. The amplitude is that of the complex
-        eigenvector of length 1. NaN if not found.
+        Coefficient `growth` of the module docstring, with the amplitude r measured in complex
+        eigenvectors of length 1. NaN if not found.
     value : float
-        Parameter of a stable torus that a motion was run onto, the closer one of two; NaN without
-        two such tori.
+        Value of the parameter at which a motion was run onto a stable torus; of two such values the
+        one closer to the point. NaN without two such tori.
     number : float
         Rotation number of this torus, revolutions per period of the orbit, from 0 to 1/2.
     error : float
@@ -136,11 +144,11 @@ def _pair(orbit: Orbit):
 
 
 def amplitude_growth(orbit) -> float:
-    """Return the coefficient `growth` of an orbit at a Neimark-Sacker point, NaN if not found.
+    """Return the coefficient `growth` of an orbit at a Neimark-Sacker point; NaN if not found.
 
-    With a pair on the unit circle 1/r^2 decreases by 2 * growth in each period. The coefficient is
-    computed from weighted averages of 1/r^2 over both halves of a motion, because averages do not
-    depend on the variation of r within a revolution.
+    With a pair on the unit circle 1/r^2 decreases by 2 * growth in each period. The coefficient
+    follows from weighted averages of 1/r^2 over both halves of a motion. Averages are used because
+    r also varies within each revolution.
     """
     pair, last = _pair(orbit), math.nan
     if pair is None:
@@ -166,7 +174,10 @@ def _iterates(orbit, state, count):
 
 
 def _beyond(point, level):
-    """Return the point of the branch with log |multiplier| close to a level, or None."""
+    """Return a point of the branch with log |multiplier| close to a level, or None.
+
+    `point` is the Neimark-Sacker point.
+    """
     for nudge in NUDGES:
         sides = [_logarithm(_at(point, point.value + step)) for step in (nudge, -nudge)]
         if max(map(abs, sides)) < level:
@@ -194,7 +205,7 @@ def _at(point, value):
 
 
 def _logarithm(point):
-    """Return log |multiplier| of the pair at a point, infinite if there is no pair."""
+    """Return log |multiplier| of the complex pair at a point; infinity if there is no pair."""
     pair = None if point is None else _pair(point.orbit)
     return math.inf if pair is None else math.log(abs(pair.multiplier))
 

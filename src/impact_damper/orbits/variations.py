@@ -1,8 +1,9 @@
 """First and second variations of a motion: derivatives of its end and of its derivative matrix.
 
-Let y be the state (Z1, Z1', Z2, Z2'), f its time derivative, A the Jacobian of f, and P the
-derivative of y with respect to the first state. A direction d is a simultaneous change of the first
-state, by s, and of the parameters. At a given phase W T of the forcing it changes y by
+The first state is the one at which a motion begins. Let y be the state (Z1, Z1', Z2, Z2'), f its
+time derivative, A the Jacobian of f, and P the derivative of y with respect to the first state. A
+direction d is a simultaneous change of the first state, by s, and of the parameters. At a given
+phase W T of the forcing it changes y by
 
     y_d = P (s + integral of P^-1 f_d dT)      (Duhamel's integral)
 
@@ -10,12 +11,11 @@ and P by P B with
 
     B = integral of P^-1 A_d P dT.
 
-Here f_d is the change of f by the parameters, and A_d the change of A along the motion, by the
-parameters and by y_d. Where a contact begins or ends at the wall n = -1 or 1, Z2 = n d0, the state
-is continuous, but f and A jump. There y_d jumps by the jump of f times the delay of the event, and
-B has a corresponding additional term. The independent variable is the phase W T. The derivative of
-y by the phase is f/W, so a change dW of W changes f by its derivative at constant phase minus f
-dW/W.
+Here f_d is the change of f by the parameters, and A_d the change of A by the parameters and by y_d.
+A contact begins or ends (event) at a wall, Z2 = d0 or Z2 = -d0. There the state is continuous, but
+f and A jump. y_d jumps by the jump of f times the delay of the event in the changed motion, and B
+has a corresponding additional term. The independent variable is the phase W T. The derivative of y
+by the phase is f/W, so a change dW of W changes f by its derivative at constant phase minus f dW/W.
 """
 
 from dataclasses import dataclass
@@ -50,7 +50,8 @@ class Variations:
     ----------
     path : Path
     directions : numpy.ndarray, shape (COUNT, k), or None
-        Changes of the parameters by which the variations are taken; None for each parameter.
+        Changes of the parameters by which the variations are taken. None means that each parameter
+        is changed alone, by 1.
     """
 
     path: Path
@@ -64,10 +65,11 @@ class Variations:
 
     @cached_property
     def _columns(self):
-        """P^-1 times three directions of a rate, each of shape (4, N).
+        """P^-1 times three unit changes of f, each of shape (4, N).
 
-        A force on the primary mass changes Z1'' and Z2'' by the same amount. The force of a wall
-        changes Z2'' by (1 + 1/rm) times the change of Z1''. The third direction is Z2'' alone.
+        The first is that by a force on the primary mass, which changes Z1'' and Z2'' by the same
+        amount. The second is that by the force of a wall, which changes Z2'' by (1 + 1/rm) times
+        the change of Z1''. The third changes Z2'' alone.
         """
         first, second = self._inverse[:, 1], self._inverse[:, 3]
         return first + second, first + (1 + self.path.p[INVERSE_MASS_RATIO]) * second, second
@@ -80,7 +82,8 @@ class Variations:
         rates = rates.reshape(4, count, len(self.path.sides), POINTS)
         integrals = self.path.lengths[:, None] * (rates @ INTEGRALS.T)
         gains = integrals[..., -1].copy()
-        # A change of the clearance moves the wall. This adds a jump by the dashpot's force.
+        # A change of the clearance moves the wall and so delays the event. In the meantime the
+        # dashpot's force, which jumps at the event, acts or is missing.
         for point, wall, begun in zip(*self.path.events, strict=True):
             moved = begun * wall * self.path.p[DASHPOT] * self._columns[1][:, point + 1]
             for k, share in self._along(CLEARANCE):
@@ -89,7 +92,7 @@ class Variations:
         return integrals.reshape(4, count, -1)
 
     def _along(self, parameter):
-        """Return pairs of a direction and its component along a parameter, those of 0 left out."""
+        """Return pairs of a direction's index and its component along a parameter, if not 0."""
         if self.directions is None:
             return [(parameter, 1.0)]
         row = self.directions[parameter]
@@ -121,7 +124,7 @@ class Variations:
     def slopes(self):
         """Return the derivatives of the last state by the directions, shape (4, k).
 
-        The first state and the first and last phase of the forcing are held fixed.
+        The first state, and the phases of the forcing at both ends, are held fixed.
         """
         return self.path.matrix @ self._integrals[..., -1]
 
@@ -133,7 +136,8 @@ class Variations:
         first : array, shape (4, n)
             Changes of the first state.
         parameters : array, shape (k, n)
-            Changes of the parameters, each a sum of the directions with these factors.
+            Changes of the parameters: a column holds the factors with which the k directions are
+            added.
 
         Returns
         -------
@@ -157,7 +161,8 @@ class Variations:
     def _smooth(self, change, parameters):
         """Return the part of B between events, shape (n, 4, 4), from the change of Z1.
 
-        A_d is a sum of products of a column and a row.
+        A_d is a sum of products of a column and a row, so each term of B is an integral over a
+        column of P^-1 times a row of P.
         """
         p, tangents, inverse = self.path.p, self.path.tangents, self._inverse
         both, pushed, loose = self._columns
