@@ -10,6 +10,7 @@ about half a second.
 import ctypes
 import functools
 import math
+import re
 import shutil
 import subprocess
 import tempfile
@@ -18,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.system.packed import COUNT
+from impact_damper.system.packed import COUNT, NAMES
 
 TOLERANCE = 1e-20
 PROGRAM = Path(__file__).with_name("motion.c")
@@ -40,6 +41,12 @@ def _library():
     """Return the compiled program, or raise RuntimeError with the text of `obstacle`."""
     if obstacle():
         raise RuntimeError(obstacle())
+    (members,) = re.findall(r"real ([\w,\s]*);\n} Parameters;", PROGRAM.read_text())
+    if tuple(re.findall(r"\w+", members.upper())) != NAMES:
+        raise RuntimeError(
+            "tests/references/extended/motion.c: the members of Parameters must be those of "
+            f"packed.NAMES, in lower case: {', '.join(NAMES)}"
+        )
     with tempfile.TemporaryDirectory(prefix="impact-damper-") as folder:
         library = Path(folder) / "motion.so"
         command = ["cc", "-O2", "-std=c11", "-shared", "-fPIC", "-o", library, PROGRAM, "-lm"]

@@ -20,9 +20,10 @@ typedef long double real;
 enum { ORDER = 32, TERMS = ORDER + 1, MOST_ROOTS = ORDER };
 enum { DONE = 0, LOG_FULL = 1, NO_MEMORY = 2, TOO_MANY_STEPS = 3 };
 
+/* The members bear the names of the packed parameters, in their order. */
 typedef struct {
-    real frequency, damping, stiffness, cubic, force, unbalance, shaker, clearance, spring,
-        inverse_mass, dashpot;
+    real frequency, damping, stiffness, cubic, force, unbalance, shaker, clearance,
+        contact_stiffness, inverse_mass_ratio, dashpot;
 } Parameters;
 
 /* Number of entries in an array of packed parameters. */
@@ -182,21 +183,21 @@ static void expand(const Run *run, Series *s)
         for (int j = 0; j <= k; j++) square += s->x[j] * s->x[k - j];
         s->square[k] = square;
         for (int j = 0; j <= k; j++) cube += s->square[j] * s->x[k - j];
-        real force = touching ? p->spring * s->z[k] + p->dashpot * (k + 1) * s->z[k + 1] : 0;
+        real force = touching ? p->contact_stiffness * s->z[k] + p->dashpot * (k + 1) * s->z[k + 1] : 0;
         real rest = drive[k % 4] * factor - p->damping * (k + 1) * s->x[k + 1]
                     - p->stiffness * s->x[k] - p->cubic * cube - force;
         s->x[k + 2] = rest / both;
-        s->z[k + 2] = (rest - p->inverse_mass * force) / both;
+        s->z[k + 2] = (rest - p->inverse_mass_ratio * force) / both;
         factor *= w / (k + 1);
         for (int i = 0; i < columns; i++) {
             real *dx = s->dx[i], *dz = s->dz[i];
             cube = 0;
             for (int j = 0; j <= k; j++) cube += s->square[j] * dx[k - j];
-            force = touching ? p->spring * dz[k] + p->dashpot * (k + 1) * dz[k + 1] : 0;
+            force = touching ? p->contact_stiffness * dz[k] + p->dashpot * (k + 1) * dz[k + 1] : 0;
             rest = -p->damping * (k + 1) * dx[k + 1] - p->stiffness * dx[k]
                    - 3 * p->cubic * cube - force;
             dx[k + 2] = rest / both;
-            dz[k + 2] = (rest - p->inverse_mass * force) / both;
+            dz[k + 2] = (rest - p->inverse_mass_ratio * force) / both;
         }
     }
 }
@@ -294,7 +295,7 @@ static void saltation(Run *run, int direction)
     for (int j = 0; j < 4; j++) {
         real jump = direction * p->dashpot * run->since.m[2][j];
         run->since.m[1][j] += jump;
-        run->since.m[3][j] += jump * (1 + p->inverse_mass);
+        run->since.m[3][j] += jump * (1 + p->inverse_mass_ratio);
     }
 }
 
@@ -379,8 +380,8 @@ int motion(const double *packed, const real *first, real start, const real *time
            long contact_room, real *turnings, long turning_room, real *flow, real *summary,
            long *counts)
 {
-    Parameters p = {packed[0], packed[1], packed[2], packed[3], packed[4],
-                    packed[5], packed[6], packed[7], packed[8], packed[9], packed[10]};
+    Parameters p;
+    for (int i = 0; i < WIDTH; i++) ((real *)&p)[i] = packed[i];
     Run run = {.p = &p, .t = start, .since = IDENTITY, .margin = INFINITY,
                .turnings = turnings, .turning_room = turning_room};
     Series s;
