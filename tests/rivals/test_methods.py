@@ -42,10 +42,10 @@ def test_compared_integrators_implement_what_the_stage_calls(stage):
             assert getattr(type(integrators()[name]), function) is not getattr(Integrator, function)
 
 
-def test_methods_of_accuracy_have_a_colour_and_tolerances():
+def test_methods_of_accuracy_have_tolerances():
     names = {name_and_mode(label)[0] for label in COMPARED["accuracy"]}
     for name in names:
-        assert METHODS[name].colour and METHODS[name].tolerances in TOLERANCE_KEYS
+        assert METHODS[name].tolerances in TOLERANCE_KEYS
         assert METHODS[name].slow == (name in LIMITED)
 
 

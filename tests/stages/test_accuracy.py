@@ -18,7 +18,7 @@ from impact_damper.motions import records
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals import averages, orbit_models, runs, taylor_runs
 from impact_damper.rivals.comparison_scenes import ComparisonScene
-from impact_damper.rivals.methods import integrators
+from impact_damper.rivals.methods import LIMITED, TOLERANCE_KEYS, integrators
 from impact_damper.rivals.operations import ELEMENTARY, operations
 from impact_damper.stages import accuracy
 from impact_damper.system.parameters import Damper, Oscillator
@@ -28,11 +28,11 @@ ROOT = Path(__file__).resolve().parents[2]
 CONFIG = configurations.read()
 REFERENCES = json.loads((ROOT / "workflow/resources/references.json").read_text())
 FEW = {
+    **dict.fromkeys(TOLERANCE_KEYS, [1e-6]),
     "taylor": [1e-3, 1e-6, 1e-9],
     "orders": [[10, 13]],
     "merson": [1e-5, 1e-7],
-    "scipy": [1e-6],
-    "evaluations": {"DOP853": 2000, "LSODA": 2000, "Radau": 300},
+    "evaluations": dict.fromkeys(LIMITED, 2000) | {"Radau": 300},
     "harmonics": 15,
     "batch": 10,
     "scipy_periods": 20,

@@ -45,6 +45,7 @@ from impact_damper.theory.single_harmonic import (
 from impact_damper.theory.slow_flow import jacobian, slow_flow
 from impact_damper.theory.straight_flight import flight_of
 
+ROOT = Path(__file__).parents[2]
 SOURCES = Path(impact_damper.__file__).parent
 PARAMETERS = [each.name for each in fields(Oscillator)]
 SPRING = {"linear_frequency", *NONLINEAR}
@@ -160,6 +161,15 @@ OTHERS = {
 }
 
 
+# Files that know the damping h Z1', and files that rely on a spring that is odd in Z1.
+DAMPED = """rivals/equations.py, kernel/templates/separation.py, orbits/orbit.py,
+contact/rigid_impacts.py, contact/rigid_orbits.py, attraction/boundary.py,
+stages/harmonic_convergence.py, stages/suppression_band.py, benchmarks/heyoka_runs.py, and the
+closed forms of theory/"""
+SYMMETRIC = """theory/ (hardening in system/parameters.py), theory/many_harmonics.py,
+orbits/quiet_orbits.py, orbits/shooting.py"""
+
+
 def flat(result):
     """Return all numbers of a result as one array."""
     if isinstance(result, tuple) and not hasattr(result, "_fields"):
@@ -240,11 +250,16 @@ def test_parameters_are_named_by_their_kind(name):
 
 @every_parameter
 def test_damping_is_the_only_term_in_the_velocity(name):
-    """A second term in Z1' also needs the changes that CONTRIBUTING.md lists for the velocity."""
+    """A second term in Z1' must also stand in the files that know the damping."""
     for _, other in pairs(name):
         p, still, fast = packed(other), STATE * (1, 0, 1, 1), STATE
         drag = kernel.acceleration(p, still, 0.4) - kernel.acceleration(p, fast, 0.4)
-        assert_allclose(drag, other.damping * fast[1], rtol=1e-12)
+        assert_allclose(
+            drag,
+            other.damping * fast[1],
+            rtol=1e-12,
+            err_msg=f"{name} acts on the velocity: change also, or refuse it in, {DAMPED}",
+        )
 
 
 @every_parameter
@@ -252,7 +267,9 @@ def test_the_spring_is_odd(name):
     """An even term excludes symmetric motions; modules that seek these must refuse the term."""
     for _, other in pairs(name):
         force = kernel.spring.py_func(packed(other), Z1)
-        assert np.array_equal(force, -force[::-1])
+        assert np.array_equal(force, -force[::-1]), (
+            f"{name} is not odd in Z1, so motions are not symmetric: refuse it in {SYMMETRIC}"
+        )
 
 
 @every_parameter
@@ -323,11 +340,13 @@ def test_equations_of_the_package_are_those_of_the_reference(name):
 
 
 @every_parameter
-def test_every_parameter_is_in_the_systems_of_the_tests(name):
+def test_every_parameter_is_in_the_systems_of_the_tests_and_the_manual(name):
     usual = Oscillator(0.1)
     assert any(getattr(each, name) != getattr(usual, name) for each in SPRINGS.values()), (
         f"tests/helpers/springs.py: SPRINGS need an oscillator with {name}"
     )
+    symbols = (ROOT / "docs/index.md").read_text()
+    assert f"`{name}`" in symbols, f"docs/index.md: the table of symbols lacks {name}"
     drawn = set(USUAL).union(*KINDS.values())
     assert name in drawn, f"tests/references/extended/starts.py: KINDS need one that draws {name}"
 

@@ -21,7 +21,7 @@ from impact_damper.figures.style import (
     letter_panels,
     style,
 )
-from impact_damper.rivals.methods import COMPARED, METHODS, name_and_mode
+from impact_damper.rivals.methods import COMPARED, METHODS, colour_of, name_and_mode
 from impact_damper.rivals.words import method_in_words
 
 CAPTION = """
@@ -156,12 +156,12 @@ def _method(axes, role, work, error, bars, good, bad):
 
 def _roles(data):
     """Return label, colour, marker and line of each method, in the order of the legend."""
-    roles = {"taylor": (METHODS["taylor"].title, METHODS["taylor"].colour, "o", "-")}
+    roles = {"taylor": (METHODS["taylor"].title, colour_of("taylor"), "o", "-")}
     further = sorted(set(data["method"].values) - {*COMPARED["accuracy"], *ORBIT_LOOKS})
     for name, (marker, line) in zip(further, cycle(OTHER_ORDERS)):
-        roles[name] = (method_in_words(name), METHODS["taylor"].colour, marker, line)
+        roles[name] = (method_in_words(name), colour_of("taylor"), marker, line)
     for label in COMPARED["accuracy"]:
         if label not in roles:
             name, located = name_and_mode(label)
-            roles[label] = (method_in_words(label), METHODS[name].colour, *LOOKS[located])
+            roles[label] = (method_in_words(label), colour_of(name), *LOOKS[located])
     return roles | {name: (method_in_words(name), *look) for name, look in ORBIT_LOOKS.items()}

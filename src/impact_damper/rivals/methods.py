@@ -17,8 +17,6 @@ class Method(NamedTuple):
     Attributes
     ----------
     title : str
-    colour : str
-        Colour of matplotlib's colour cycle, if the stage `accuracy` compares the integrator.
     tolerances : str
         Key in the section `comparison` of the configuration. Its value is the list of tolerances
         with which the stage `accuracy` runs the integrator.
@@ -35,7 +33,6 @@ class Method(NamedTuple):
     """
 
     title: str
-    colour: str = ""
     tolerances: str = ""
     fixed: bool = False
     slow: bool = False
@@ -43,15 +40,15 @@ class Method(NamedTuple):
 
 
 METHODS = {
-    "taylor": Method("Taylor series", "C0", "taylor"),
+    "taylor": Method("Taylor series", "taylor"),
     "heun": Method("Heun", fixed=True),
     "verlet": Method("velocity Verlet", fixed=True),
     "runge_kutta_4": Method("Runge-Kutta 4", fixed=True),
-    "merson": Method("Merson", "C1", "merson"),
+    "merson": Method("Merson", "merson"),
     "RK45": Method("RK45", slow=True),
-    "DOP853": Method("DOP853", "C2", "scipy", slow=True),
-    "LSODA": Method("LSODA", "C3", "scipy", slow=True),
-    "Radau": Method("Radau", "C4", "scipy", slow=True, implicit=True),
+    "DOP853": Method("DOP853", "scipy", slow=True),
+    "LSODA": Method("LSODA", "scipy", slow=True),
+    "Radau": Method("Radau", "scipy", slow=True, implicit=True),
 }
 
 # Labels of the integrators in the datasets of each stage, in their order. `name_and_mode` explains
@@ -130,6 +127,12 @@ def name_and_mode(label):
     """
     name = label.removesuffix("_located").removesuffix("_kink")
     return name, label.endswith("_located") or name == "taylor"
+
+
+def colour_of(name):
+    """Return the colour of matplotlib's colour cycle for a name that `accuracy` compares."""
+    names = list(dict.fromkeys(name_and_mode(label)[0] for label in COMPARED["accuracy"]))
+    return f"C{names.index(name)}"
 
 
 def title_with_mode(label):

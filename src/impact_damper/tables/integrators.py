@@ -20,6 +20,8 @@ def _setting(label):
     return "steps a cycle" if METHODS[name_and_mode(label)[0]].fixed else "tolerance"
 
 
+# Number of integrators, the first of `COMPARED`, that the Markdown table `method_verdicts` shows.
+SHOWN_METHODS = 8
 # Columns of the Markdown tables with their heads; the CSV files have all columns.
 SHOWN = {
     "missed_contacts": {
@@ -47,7 +49,7 @@ SHOWN = {
     "method_verdicts": {"scene": "scene"}
     | {
         label: f"{title_with_mode(label)} [{_setting(label)}]"
-        for label in COMPARED["method_verdicts"]
+        for label in COMPARED["method_verdicts"][:SHOWN_METHODS]
     },
 }
 # Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
