@@ -2,6 +2,8 @@
 
 The data are those of `helpers.made_up.world`, with which all claims are reproduced. A change makes
 a criterion just hold or just fail. Wp is the peak frequency without the damper.
+
+Z1 is the displacement of the primary mass and rm the mass ratio.
 """
 
 import numpy as np

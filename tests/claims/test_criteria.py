@@ -2,6 +2,10 @@
 
 The data are those of `helpers.made_up.world`, with which all claims are reproduced. A change makes
 a criterion just hold or just fail.
+
+W is the forcing frequency, e the restitution and h the damping of the oscillator. Free means
+without the damper. The quiet orbit is the small symmetric periodic motion for which a damper is
+designed.
 """
 
 import numpy as np

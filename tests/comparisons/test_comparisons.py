@@ -1,4 +1,7 @@
-"""Numbers that this package compares with published ones, checked by SciPy."""
+"""Numbers that this package compares with published ones, checked by SciPy.
+
+Multipliers are Floquet multipliers.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,7 @@
-"""Choice of a gap from a table of outcomes, against brute force."""
+"""Choice of a gap from a table of outcomes, against brute force.
+
+A start is an initial state.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,7 @@
-"""Ranges of quiet gaps that are too narrow to build a gap in, with made-up edges."""
+"""Ranges of quiet gaps that are too narrow to build a gap in, with made-up edges.
+
+A motion is quiet if its largest displacement is at most the quiet limit.
+"""
 
 import numpy as np
 import pytest

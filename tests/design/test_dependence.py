@@ -1,4 +1,7 @@
-"""Derivatives of the quiet orbit of a design, compared with orbits at slightly changed values."""
+"""Derivatives of the quiet orbit of a design, compared with orbits at slightly changed values.
+
+The quiet orbit is the small symmetric periodic motion for which a damper is designed.
+"""
 
 from dataclasses import replace
 

@@ -2,6 +2,9 @@
 
 A corner is a set of values in which each deviates by its whole tolerance. A `Cloud` holds the
 results of starts at several sets of values.
+
+A start is an initial state. A motion is quiet if its largest displacement is at most the quiet
+limit.
 """
 
 from dataclasses import replace

@@ -1,4 +1,8 @@
-"""Random starts of a design, and which of their motions are quiet."""
+"""Random starts of a design, and which of their motions are quiet.
+
+A start is an initial state. A motion is quiet if its largest displacement is at most the quiet
+limit.
+"""
 
 import numpy as np
 import pytest

@@ -2,6 +2,8 @@
 
 Powers of two scale a linear machine exactly in binary arithmetic, so that the same starts lead to
 the same motions, chaotic ones too.
+
+A start is an initial state.
 """
 
 import numpy as np

@@ -2,6 +2,8 @@
 
 The orbit is compared with the closed form for rigid walls, and shares of starts with binomial
 bounds. The cliff is the gap at which the share of quiet starts falls from 1 to nearly 0.
+
+A start is an initial state.
 """
 
 from dataclasses import replace

@@ -1,4 +1,7 @@
-"""The conclusion of a design: which sentences it contains for which results."""
+"""The conclusion of a design: which sentences it contains for which results.
+
+A motion is quiet if its largest displacement is at most the quiet limit.
+"""
 
 from dataclasses import replace
 

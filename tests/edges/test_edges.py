@@ -1,6 +1,9 @@
 """Edges of stability compared with bifurcations on branches, closed forms, and limits.
 
 An edge is a curve in the plane of two parameters on which a symmetric orbit loses its stability.
+
+Z2 is the displacement of the primary mass relative to the loose mass, W the forcing frequency and
+d0 the clearance.
 """
 
 from dataclasses import replace

@@ -1,6 +1,8 @@
 """Branches over several parameters, compared with closed forms and a scaling law.
 
 A branch is the curve of the periodic orbits over a parameter.
+
+Z1 is the displacement of the primary mass and W T the phase of the forcing.
 """
 
 import numpy as np

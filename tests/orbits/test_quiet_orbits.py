@@ -2,6 +2,9 @@
 
 The quiet orbit is the symmetric periodic motion with two contacts for which a damper is designed.
 Its root is the derivative of the map over half a cycle.
+
+W is the forcing frequency and d0 the clearance. A strobe is the time in each cycle at which the
+forcing has the phase W T = pi/2. Multipliers are Floquet multipliers.
 """
 
 from dataclasses import replace

@@ -1,6 +1,8 @@
 """Multiple shooting compared with single shooting, exact arithmetic and 80-bit motions.
 
 In multiple shooting an orbit is a chain of segments. Factors are the derivatives of the segments.
+
+W is the forcing frequency.
 """
 
 import math

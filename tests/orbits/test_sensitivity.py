@@ -1,4 +1,7 @@
-"""Derivatives of orbits compared with differences of orbits, and with Liouville's theorem."""
+"""Derivatives of orbits compared with differences of orbits, and with Liouville's theorem.
+
+Z1 is the displacement of the primary mass. Multipliers are Floquet multipliers.
+"""
 
 from dataclasses import replace
 

@@ -1,4 +1,7 @@
-"""Periodic orbits: residual, Liouville's theorem, symmetry, and multipliers by heyoka."""
+"""Periodic orbits: residual, Liouville's theorem, symmetry, and multipliers by heyoka.
+
+Multipliers are Floquet multipliers.
+"""
 
 import math
 

@@ -1,6 +1,8 @@
 """Tori at Neimark-Sacker points, compared with the normal form and with long motions.
 
 A torus surrounds an orbit, and motions on it revolve around the orbit.
+
+Multipliers are Floquet multipliers.
 """
 
 import itertools

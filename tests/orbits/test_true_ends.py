@@ -1,4 +1,8 @@
-"""Branches to their ends: bifurcations and grazings against 80-bit arithmetic, and ends."""
+"""Branches to their ends: bifurcations and grazings against 80-bit arithmetic, and ends.
+
+W is the forcing frequency. Multipliers are Floquet multipliers. The quiet orbit is the small
+symmetric periodic motion for which a damper is designed.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Rival methods: order of convergence on smooth motion, and linear stability limit in contact."""
+"""Other integrators: order of convergence without contacts, and largest stable step in contact."""
 
 import math
 

@@ -1,6 +1,8 @@
 """Errors and counted work of methods on scenes (test cases), and the tolerance that stages use.
 
 The counted work is the number of floating-point operations.
+
+Z1 is the displacement of the primary mass. A stage is a step of the workflow.
 """
 
 import json

@@ -1,4 +1,8 @@
-"""Maps of harmonic balance compared with exact motions, and their counts."""
+"""Maps of harmonic balance compared with exact motions, and their counts.
+
+W is the forcing frequency, Wp the frequency of the resonance peak without the damper and e the
+restitution. A start is an initial state.
+"""
 
 import numpy as np
 import pytest

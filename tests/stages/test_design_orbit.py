@@ -1,6 +1,9 @@
 """The exact quiet orbit at peak frequencies, compared with simulations.
 
 Motions settle on the orbit where it is stable, and leave it where it is unstable.
+
+A start is an initial state. The quiet orbit is the small symmetric periodic motion for which a
+damper is designed.
 """
 
 import numpy as np

@@ -1,4 +1,8 @@
-"""Optima of exact orbits compared with clearance sweeps, quadrature and runs; table and figure."""
+"""Optima of exact orbits compared with clearance sweeps, quadrature and runs; table and figure.
+
+Z1 is the displacement of the primary mass, W the forcing frequency, d0 the clearance, rm the mass
+ratio and e the restitution.
+"""
 
 import numpy as np
 import pytest

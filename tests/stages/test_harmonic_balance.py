@@ -1,4 +1,7 @@
-"""Design rule (19) and response by harmonic balance, compared with closed forms and limits."""
+"""Design rule (19) and response by harmonic balance, compared with closed forms and limits.
+
+Wp is the frequency of the resonance peak without the damper.
+"""
 
 import numpy as np
 import pytest

@@ -2,6 +2,9 @@
 
 The controller switches the damper on and off (release) until the oscillator settles on its small
 motion, the goal.
+
+W is the forcing frequency. Free means without the damper. The quiet orbit is the small symmetric
+periodic motion for which a damper is designed.
 """
 
 import numpy as np

@@ -1,6 +1,8 @@
 """Contacts near grazing: passages compared with heyoka, SciPy's events, and counts.
 
 A passage is a flight without walls whose largest |Z2| is known.
+
+Z2 is the displacement of the primary mass relative to the loose mass.
 """
 
 import math

@@ -1,4 +1,10 @@
-"""Optimum clearance compared with simulations and closed forms; ends of sweep and branch."""
+"""Optimum clearance compared with simulations and closed forms; ends of sweep and branch.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, d0 the clearance, rm the mass ratio, r1 the contact stiffness and e the
+restitution. A start is an initial state. The quiet orbit is the small symmetric periodic motion for
+which a damper is designed.
+"""
 
 import numpy as np
 import pytest

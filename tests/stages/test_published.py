@@ -1,4 +1,7 @@
-"""Published numbers compared with those of this package, and the table of the differences."""
+"""Published numbers compared with those of this package, and the table of the differences.
+
+r1 is the contact stiffness.
+"""
 
 import numpy as np
 import pytest

@@ -2,6 +2,8 @@
 
 Suppression leaves the damper on; migration switches it on and off to reach the small motion of the
 oscillator without a damper.
+
+The quiet orbit is the small symmetric periodic motion for which a damper is designed.
 """
 
 import numpy as np

@@ -3,6 +3,8 @@
 A policy decides when to switch the damper off (release), so that the free oscillator settles to its
 small motion, the goal. A hold is the time with the damper on. The release set contains the states
 from which a release leads to the goal.
+
+W is the forcing frequency.
 """
 
 import numpy as np

@@ -1,4 +1,7 @@
-"""Frequency response as a labelled dataset, and the share of starts that collide."""
+"""Frequency response as a labelled dataset, and the share of starts that collide.
+
+W is the forcing frequency. A start is an initial state.
+"""
 
 import math
 

@@ -1,6 +1,8 @@
 """The quiet motion between rigid walls, corrected walls (`mended`) and compliant walls.
 
 Corrected walls are rigid walls that account for the penetration at finite stiffness r1.
+
+The quiet orbit is the small symmetric periodic motion for which a damper is designed.
 """
 
 from dataclasses import replace

@@ -1,4 +1,7 @@
-"""Largest stable steps: exact orbits compared with heyoka and a power law; verdicts and slopes."""
+"""Largest stable steps: exact orbits compared with heyoka and a power law; verdicts and slopes.
+
+r1 is the contact stiffness.
+"""
 
 import math
 

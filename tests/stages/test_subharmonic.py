@@ -1,6 +1,9 @@
 """One-third subharmonic compared with long runs on both sides of its ends, and the energy balance.
 
 Without the damper (free) the subharmonic is a motion of period 3.
+
+W is the forcing frequency and W T the phase of the forcing. The quiet orbit is the small symmetric
+periodic motion for which a damper is designed.
 """
 
 import numpy as np

@@ -1,4 +1,7 @@
-"""The suppression band by harmonic balance, compared with solutions on both sides of its edges."""
+"""The suppression band by harmonic balance, compared with solutions on both sides of its edges.
+
+Wp is the frequency of the resonance peak without the damper.
+"""
 
 import numpy as np
 import pytest

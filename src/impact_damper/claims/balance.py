@@ -4,6 +4,8 @@ Equation (7) of the paper is harmonic balance with elastic contacts, equation (1
 rigid walls. a is the amplitude of the primary mass, rm the mass ratio, d0 the clearance and W the
 forcing frequency, with the value Wp at the peak of the response without the damper. Rule (19) is
 rm Wp^2 d0 = 1. A solution is called impacting if the loose mass touches the walls.
+
+Wp is the frequency of the resonance peak without the damper. A stage is a step of the workflow.
 """
 
 import numpy as np

@@ -6,6 +6,8 @@ motion is violent if its largest displacement exceeds half of that on the resona
 orbit is a periodic motion of one forcing cycle that is not violent. The reduction is 1 minus the
 ratio of the amplitudes with and without the damper. omega_l is the linear frequency, rm the mass
 ratio, e the restitution and d0 the clearance. Numbers in brackets are equations of the paper.
+
+Z1 is the displacement of the primary mass.
 """
 
 import numpy as np

@@ -2,6 +2,8 @@
 
 A measure is a number computed from datasets, with the bounds that the claim requires. Misprints and
 omissions of the paper are treated as claims that the print is correct.
+
+A stage is a step of the workflow.
 """
 
 import math

@@ -7,6 +7,8 @@ large motions of period 1 without the damper; it ends at a fold, where it turns 
 is high (violent) if its largest displacement exceeds half of that on this branch at the same W. A
 quiet orbit has period 1 and is not high. `branches` and `free` are datasets of the stage
 `branches`, with and without the damper. The one-third subharmonic is a motion of period 3.
+
+Z1 is the displacement of the primary mass.
 """
 
 import numpy as np

@@ -7,6 +7,8 @@ without the damper. The design point of a damper is the peak frequency Wp of thi
 Equation (7) of the paper is harmonic balance, with the amplitude a of Z1. `design` is a dataset of
 the stage `harmonic_balance`, and `response` one of the stage `response`: the motions to which
 random starts (initial states) lead at each frequency W.
+
+Z1 is the displacement of the primary mass.
 """
 
 import numpy as np

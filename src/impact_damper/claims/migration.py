@@ -5,6 +5,8 @@ non-resonance branch. Migration leads from the large to the small one by switchi
 off again. Switching off is called release. A case is a dataset of one oscillator, damper and
 frequency, with many runs. Period 3 is a motion without the damper that repeats after three forcing
 cycles, the one-third subharmonic.
+
+W is the forcing frequency. A stage is a step of the workflow.
 """
 
 import numpy as np

@@ -4,6 +4,8 @@ A motion is violent (of high amplitude) if its largest displacement |Z1| exceeds
 resonance branch without the damper, at the same forcing frequency W. A quiet motion (of low
 amplitude) has the period of the forcing and is not violent. A start is a random initial state.
 Equation (7) of the paper is harmonic balance with elastic contacts.
+
+A stage is a step of the workflow.
 """
 
 import numpy as np

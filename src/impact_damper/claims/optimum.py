@@ -5,6 +5,8 @@ damper is designed, over the clearance d0 at one frequency W. The optimum d0 is 
 the smallest max |Z1|. rm is the mass ratio, h the damping of the oscillator and e the restitution.
 Numbers in brackets are equations of the paper: (7) is harmonic balance, (19) its rule for d0. The
 band is the range of W in which no motion is large.
+
+Z1 is the displacement of the primary mass.
 """
 
 import itertools

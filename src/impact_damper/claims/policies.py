@@ -4,6 +4,8 @@ Migration leads the oscillator from its large motion (resonance) to its small on
 switching the damper on and off. A release switches the damper off. A policy decides when to
 release. A case is a dataset of one oscillator, damper and frequency. The basin of the goal is the
 set of states from which a release leads to the goal.
+
+Free means without the damper.
 """
 
 import numpy as np

@@ -4,6 +4,8 @@ A printed value agrees with a computed one if it is the computed one rounded to 
 Numbers in brackets are equations of the paper: (7) is harmonic balance, and (19) the rule
 rm Wp^2 d0 = 1 with the mass ratio rm, the clearance d0 and the peak frequency Wp. A sweep is a
 dataset of orbits over d0.
+
+W is the forcing frequency. A stage is a step of the workflow.
 """
 
 import math

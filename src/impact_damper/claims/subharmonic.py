@@ -5,6 +5,8 @@ It exists between two folds, the frequencies W at which its branch turns back. W
 motion whose period is a multiple of 3 is called a subharmonic. h is the damping of the oscillator
 and rm the mass ratio. The suppression band is the range of W in which no motion with the damper is
 large. A start is a random initial state.
+
+Z1 is the displacement of the primary mass.
 """
 
 from typing import NamedTuple

@@ -3,6 +3,8 @@
 The free resonance branch consists of the large motions of period 1 without the damper. A motion is
 violent, called high in the names of functions, if its max |Z1| exceeds half of that on this branch.
 The band is the range of the forcing frequency W in which no motion with the damper is violent.
+
+Z1 is the displacement of the primary mass.
 """
 
 from typing import NamedTuple

@@ -1,6 +1,8 @@
 """Registry of all claims of Chatterjee, Mallik and Ghosh (1995), and the table of verdicts.
 
 Misprints and omissions of the paper, S1 to S6, are called slips in the names of the code.
+
+A stage is a step of the workflow.
 """
 
 import re

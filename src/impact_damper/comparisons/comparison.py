@@ -1,4 +1,7 @@
-"""A published number beside the number computed by this package."""
+"""A published number beside the number computed by this package.
+
+A start is an initial state.
+"""
 
 from typing import NamedTuple
 

@@ -3,6 +3,8 @@
 The share of a motion is the fraction of random initial states that lead to it. On a curve of
 amplitude over frequency, a motion ends at a fold, where the curve turns back. A slow sweep of the
 frequency then jumps to another motion.
+
+W T is the phase of the forcing.
 """
 
 import numpy as np

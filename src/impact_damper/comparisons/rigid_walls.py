@@ -3,6 +3,8 @@
 In this motion the loose mass meets each wall once in a forcing cycle, and half a cycle later the
 motion is the mirror image. The closed form of Masri and Caughey holds for rigid walls. The orbits
 of this package have contacts of finite stiffness r1.
+
+W is the forcing frequency, d0 the clearance and rm the mass ratio.
 """
 
 from dataclasses import replace

@@ -5,6 +5,9 @@ mirror image. Let s be the speed of the loose mass between contacts, divided by 
 linear spring and a given force and frequency, the clearance of a symmetric orbit is a function of
 s. Two orbits may have the same clearance, but only one orbit has a given s. Therefore orbits are
 computed for a given s.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass and d0
+the clearance. Multipliers are Floquet multipliers.
 """
 
 from dataclasses import replace

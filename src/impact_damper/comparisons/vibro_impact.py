@@ -5,6 +5,8 @@ of a loose mass that meets each wall once in a cycle. Its closed forms
 (`literature.slow_invariant_manifold`) hold for a small mass ratio rm. The speed w of the loose mass
 is stated as the ratio t = pi w/(2 W d0), with the forcing frequency W and the clearance d0. The
 computed numbers come from orbits and simulations with finite rm.
+
+Z2 is the displacement of the primary mass relative to the loose mass.
 """
 
 import numpy as np

@@ -3,6 +3,8 @@
 A start is an initial state. Random starts are drawn. Placed starts are chosen states: motions at
 neighbouring frequencies, and motions of the machine without the damper. A motion is quiet if its
 largest displacement is at most the quiet limit.
+
+W T is the phase of the forcing.
 """
 
 import numpy as np

@@ -1,4 +1,7 @@
-"""Choice of a restitution that the user left free within a range, by coarse comparisons of gaps."""
+"""Choice of a restitution that the user left free within a range, by coarse comparisons of gaps.
+
+A start is an initial state.
+"""
 
 from collections.abc import Sequence
 from dataclasses import replace

@@ -4,6 +4,8 @@ The quiet orbit is the symmetric periodic motion for which a damper is designed.
 followed from cell to cell, with exact derivatives of its state by the parameters. An edge is a
 curve in the plane of the parameters on which the orbit loses its stability (`curves`). A test
 function is zero on an edge, and its sign differs on the two sides (`problem`).
+
+Multipliers are Floquet multipliers.
 """
 
 from typing import NamedTuple
@@ -79,8 +81,10 @@ class EdgeGrid(Grid):
 
     Attributes
     ----------
-    family, spans
-        Arguments of `problem.scaled_slopes`.
+    family : callable
+        Maps both parameters to the array of all (packed) parameters of the system.
+    spans : numpy.ndarray, shape (2, 2)
+        Least and greatest value of each parameter.
     contacts : int
         Number of contacts in half a period.
     failed : list
@@ -141,8 +145,8 @@ class EdgeGrid(Grid):
         """Return a list of the pairs of neighbours between which a test function changes sign.
 
         Each entry consists of the kind of edge, the `Place` on one side, and the scaled parameters
-        on the other side. If the orbit ends between two cells, its last place takes the part of the
-        second cell.
+        on the other side. If the orbit ends between two cells, the pair consists of the first cell
+        and the last place that was reached.
         """
         pairs = [(self.orbits[cell], last) for _, cell, _, last in self.failed]
         pairs += [
@@ -159,7 +163,7 @@ class EdgeGrid(Grid):
         ]
 
     def locate(self, kind, first, beyond):
-        """Find a point of an edge between two neighbours of a pair listed by `crossings` or `ends`.
+        """Find a point of an edge between two points on both sides of it.
 
         Parameters
         ----------
@@ -220,9 +224,10 @@ class EdgeGrid(Grid):
         return Followed((0.0, fraction), (start, last), end, fraction == 1)
 
     def _step(self, last, coordinates):
-        """Return the place at scaled parameters near those of the place `last`, and "".
+        """Follow an orbit from the place `last` to nearby scaled parameters, in one step.
 
-        If the orbit ends between the two, return None and the kind of edge at which it ends.
+        Return the new place and "". If the orbit ends before, return None and the kind of edge at
+        which it ends.
         """
         p = self.family(*self.values(coordinates))
         guess = last.orbit.state + last.slopes @ (coordinates - last.coordinates)

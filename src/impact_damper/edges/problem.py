@@ -15,9 +15,9 @@ called multipliers, the test functions, one of which is zero on an edge, are
 
 Z2 is the displacement between the primary and the loose mass, and d0 the clearance on each side.
 All test functions are smooth, also where multipliers coincide. The unknowns are the state of the
-orbit and both parameters. The derivatives of the map and of the test functions are exact
-(`orbits.variations`). Only the derivatives of the packed parameters by the two parameters are
-difference quotients.
+orbit and both parameters. The packed parameters, the array of all parameters of the system, are
+functions of both. Their derivatives are difference quotients. All other derivatives are exact
+(`orbits.variations`).
 """
 
 from collections.abc import Callable

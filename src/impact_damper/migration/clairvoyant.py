@@ -37,7 +37,7 @@ FIRST, MOMENTS, TRIALS = 4, 32, 256
 # A hold is first recorded for HORIZON forcing cycles, because the goal is often reached in this
 # time. Only if an earlier arrival is still possible is the hold recorded to the limit.
 HORIZON = 32
-# A hold that is ended early ends at every APART-th moment of its second cycle.
+# To end a hold early, only every APART-th moment of its second cycle is examined.
 APART = 4
 
 
@@ -54,7 +54,7 @@ def clairvoyant(on, free, trials, limit, seed, examined=None):
     holds = 0
 
     def look_ahead(rows, horizon):
-        """Record the next hold of some trials, and store its releases that arrive earlier."""
+        """Record the next hold of some trials; store releases that arrive earlier than the best."""
         left = np.minimum(best.cycles[rows], limit) - spent[rows]
         starts = free.strobe_states(place[rows], drawn[rows, DRAWS])
         limits = np.minimum(left, horizon)
@@ -97,12 +97,12 @@ def earliest(free, recording, latest):
     free : FreeCase
     recording : Recording
     latest : array, shape (n,)
-        Forcing cycles since the switching on after which an arrival does not count.
+        Latest arrival that counts, in forcing cycles from the time at which the hold begins.
 
     Returns
     -------
     arrival : numpy.ndarray, shape (n,)
-        Forcing cycles since the switching on; infinite without an arrival.
+        Forcing cycles from the beginning of the hold; infinite without an arrival.
     at : numpy.ndarray of int, shape (n,)
         Index of the moment of the release, or -1 without an arrival.
     """
@@ -128,13 +128,13 @@ def earliest(free, recording, latest):
 def soonest(free, recording):
     """Return the earliest arrival at a motion other than the goal after each of n short holds.
 
-    A short hold ends between one and two forcing cycles after the switching on.
+    A short hold ends between one and two forcing cycles after the damper is switched on.
 
     Returns
     -------
     settled : numpy.ndarray, shape (n,)
-        Forcing cycles since the switching on. Infinite if all these releases lead to the goal, or
-        if the recorded hold is shorter than a cycle.
+        Forcing cycles from the beginning of the hold. Infinite if all these releases lead to the
+        goal, or if the recorded hold is shorter than a cycle.
     at : numpy.ndarray of int, shape (n,)
         Index of the moment of the release.
     place : numpy.ndarray of int, shape (n,)

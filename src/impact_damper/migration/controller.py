@@ -9,6 +9,8 @@ drawn uniformly over the period of this motion. If the motion has not settled af
 forcing cycles, the damper is switched off during the next cycle.
 
 A strobe is the time in each forcing cycle at which the forcing has the phase W T = pi/2.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
 """
 
 import numpy as np

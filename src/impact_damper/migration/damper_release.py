@@ -81,8 +81,10 @@ def _free_motion(oscillator, frequency, start, which, settling):
 def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     """Return the `ReleaseCase` of a damper at a frequency.
 
-    The resonance motion is followed upward in frequency and the non-resonance motion, the goal of
-    migration, downward. With a softening spring both directions are reversed.
+    With a hardening spring the resonance motion ends at a fold at a higher frequency, and the
+    non-resonance motion, the goal of migration, at a lower one. Therefore the first is followed
+    upward in frequency and the second downward. With a softening spring both directions are
+    reversed.
 
     Raises
     ------
@@ -263,8 +265,8 @@ def transient_data(lives, motions, lifetime, known):
 def release_data(case, motions, entries, settling):
     """Return a dict of dataset variables of the releases from the unsettled and settled motions.
 
-    `entries` are the releases from the unsettled motion, and `motions` the settled motions. From a
-    settled motion the damper is released at as many phases, spread evenly over its period. While
+    `entries` are the releases from the unsettled motion, and `motions` the settled motions. From
+    each settled motion there are equally many releases, spread evenly over its period. While
     the loose mass flies, the primary mass moves as without the damper. All releases within one
     flight therefore lead to the same free motion. The share of releases that lead to a free motion
     is, apart from the short contacts, the total duration of the flights that lead to this motion,

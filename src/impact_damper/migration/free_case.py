@@ -3,6 +3,8 @@
 Without the damper the oscillator has a large motion, the resonance motion, and a small one, the
 non-resonance motion. A release switches the damper off. Its goal is the non-resonance motion. The
 release set contains the states from which the free motion settles to the goal.
+
+Z1 is the displacement of the primary mass.
 """
 
 import math

@@ -5,6 +5,9 @@ the switching. A leg ends at the first strobe at which the motion is near a stab
 given number of strobes. A strobe is the time in each forcing cycle at which the forcing has the
 phase W T = pi/2 (`motions.strobe_map`). The state is not moved onto the orbit, so that a run is one
 continuous motion.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass and d0
+the clearance.
 """
 
 import math

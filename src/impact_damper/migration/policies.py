@@ -15,6 +15,8 @@ free motion settles to the goal. The policies release
     phase    at a fixed phase of the forcing, after a number of cycles
     state    as soon as the measured state lies inside the release set, at a distance from its
              boundary; without such a state after a number of cycles
+
+Z1 is the displacement of the primary mass and W the forcing frequency.
 """
 
 import math

@@ -5,6 +5,8 @@ is the index of the attractor, the stable motion, to which the free motion settl
 contains the states, at evenly spaced phases of the forcing, from which the free motion settles to
 the goal, the small free motion. A strobe is the time in each cycle at which the forcing has the
 phase W T = pi/2.
+
+Z1 is the displacement of the primary mass. Free means without the damper.
 """
 
 import math

@@ -6,6 +6,8 @@ free motion settles to the goal. The set is computed on a grid of states Z1, Z1'
 phases of the forcing. Each state of the grid has a depth: its distance from the boundary of the
 set, positive inside and negative outside. The distance is in units of Z1, with Z1' divided by the
 frequency W.
+
+Z1 is the displacement of the primary mass.
 """
 
 import math

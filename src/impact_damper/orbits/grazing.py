@@ -9,6 +9,8 @@ a grazing the branch is therefore followed in steps of h, not of its length. As 
 orbits are smooth except for the term of power 3/2, so Newton's method at fixed h converges.
 Derivatives by the parameter are integrated (`variations`), because difference quotients would reach
 across the grazing.
+
+Multipliers are Floquet multipliers.
 """
 
 from typing import NamedTuple

@@ -4,6 +4,8 @@ The tangents of a motion are the derivatives of its state by the first state. In
 integrator computes the Taylor series of the motion and of its tangents, accurate to its tolerance.
 A path stores these series. They are evaluated at Chebyshev points of each step. Polynomials through
 these points give values and integrals at all times.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
 """
 
 from dataclasses import dataclass

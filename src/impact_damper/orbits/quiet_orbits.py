@@ -6,6 +6,8 @@ sign. The derivative of this map is called the root. The multipliers (eigenvalue
 determine how the orbit becomes unstable: at a fold a multiplier is 1, at the loss of symmetry it is
 -1, and at a Neimark-Sacker bifurcation a conjugate pair has modulus 1. The multipliers over a whole
 cycle are the squares of these multipliers, so a period doubling would require a pair at i and -i.
+
+Z1 is the displacement of the primary mass, W T the phase of the forcing and d0 the clearance.
 """
 
 from typing import NamedTuple

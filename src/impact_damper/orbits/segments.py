@@ -9,6 +9,8 @@ The derivatives of the flows are called factors. The multipliers of the orbit ar
 the product of the factors and are computed without forming the product. The sections, at which one
 segment ends and the next begins, lie at phases of the forcing at which the loose mass is in flight,
 so that the flow is smooth there.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
 """
 
 from dataclasses import dataclass

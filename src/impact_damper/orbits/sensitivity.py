@@ -8,6 +8,8 @@ maximum, because Z1' is zero there. Multipliers are the eigenvalues of R_y. The 
 simple multiplier with the right and left eigenvectors r and l is l (dR_y/dp) r / (l r), where
 dR_y/dp is the total derivative, which includes the change of y (`variations`). No difference
 quotients are used.
+
+Z1 is the displacement of the primary mass.
 """
 
 from dataclasses import dataclass

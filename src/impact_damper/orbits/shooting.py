@@ -5,6 +5,8 @@ state of an orbit is stored at a phase W T of the forcing at which the loose mas
 from contacts, so that the map is smooth and well scaled. The derivative of the map comes from the
 variational equations, with saltation matrices (jumps of the derivative) where the dashpot's force
 jumps. Multiple shooting (`segments`) cuts an orbit into several segments.
+
+Z1 is the displacement of the primary mass.
 """
 
 from dataclasses import replace

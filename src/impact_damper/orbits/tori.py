@@ -14,6 +14,8 @@ unstable if another multiplier lies outside the unit circle.
 The coefficient is measured on motions that begin close to the orbit. Then motions are run onto the
 stable torus at two values of the parameter near the point, and their rotation numbers are
 extrapolated to the point.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
 """
 
 import math

@@ -16,6 +16,9 @@ A contact begins or ends (event) at a wall, Z2 = d0 or Z2 = -d0. There the state
 f and A jump. y_d jumps by the jump of f times the delay of the event in the changed motion, and B
 has a corresponding additional term. The independent variable is the phase W T. The derivative of y
 by the phase is f/W, so a change dW of W changes f by its derivative at constant phase minus f dW/W.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, d0 the clearance and rm the mass ratio.
 """
 
 from dataclasses import dataclass

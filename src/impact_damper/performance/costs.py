@@ -14,6 +14,9 @@ their impulses J. By Campbell's theorem this is the two-sided spectral density o
 impacts at random times, for frequencies between n and the inverse of the duration of an impact.
 With this density impacts excite the thin plates of a machine's casing, which radiate noise.
 (S. O. Rice, Bell System Technical Journal 23, 1944, section 1.5.)
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass and rm
+the mass ratio.
 """
 
 import numpy as np
@@ -230,7 +233,7 @@ def _extremes_and_powers(p, panels, time):
     depth, rate = _penetration(p, panels)
     contact = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * rate
     x, v = panels.states[..., 0], panels.states[..., 1]
-    # `py_func` is the Python function of a kernel, which accepts arrays.
+    # `py_func` is the Python function of a compiled function; it accepts arrays.
     external = forcing_amplitude.py_func(p) * np.cos(p[FREQUENCY] * panels.times)
     acceleration = external - p[DAMPING] * v - spring.py_func(p, x)
     powers = external * v, p[DAMPING] * v**2, p[DASHPOT] * rate**2

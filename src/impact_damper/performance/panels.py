@@ -4,6 +4,8 @@ Time is divided at the beginnings and ends of contacts, and further into short i
 panels. In each panel the motion is represented by its states at the Chebyshev nodes. The polynomial
 through these states is accurate to about twelve digits. (L. N. Trefethen, Spectral Methods in
 MATLAB, 2000, chapters 6 and 12.)
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
 """
 
 from typing import NamedTuple

@@ -1,4 +1,7 @@
-"""The ring-down (unforced decay) of a machine from a displacement, with its damper and without."""
+"""The ring-down (unforced decay) of a machine from a displacement, with its damper and without.
+
+Z1 is the displacement of the primary mass.
+"""
 
 import math
 

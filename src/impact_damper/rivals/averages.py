@@ -2,6 +2,8 @@
 
 The forcing cycles of a run are grouped into batches of successive cycles. The average is the mean
 of the batch means, and its standard error follows from the scatter of the batch means.
+
+W T is the phase of the forcing.
 """
 
 import math
@@ -50,7 +52,8 @@ def of_run(p, run, begin, periods, batch):
 def exponents(p, start, tolerance, periods, batch):
     """Return the largest Lyapunov exponent per unit of time T in each batch, by the Taylor series.
 
-    The arguments are those of `of_run`, with the state `start` at the strobe (W T = pi/2).
+    `start` is the state at W T = pi/2, and `tolerance` that of the integrator. The other arguments
+    are those of `of_run`.
     """
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]

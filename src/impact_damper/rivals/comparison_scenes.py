@@ -2,6 +2,9 @@
 
 A stage is a step of the workflow. A motion that is not chaotic has a reference: the state at its
 end, its contacts and its amplitude, computed with 80-bit numbers and taken as exact.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass and W T
+the phase of the forcing.
 """
 
 from typing import NamedTuple

@@ -2,6 +2,9 @@
 
 Contacts are not located. Each evaluation of the rate (time derivative of the state) adds the
 contact force if the position Z2 is beyond a wall.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass. A
+strobe is the time in each cycle at which the forcing has the phase W T = pi/2.
 """
 
 import math

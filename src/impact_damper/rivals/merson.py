@@ -5,6 +5,8 @@ control keeps the estimate below the tolerance times 1 + |y| in each component y
 located as in common codes. In flight the distance to the wall is checked at the end of each step,
 in contact the penetration. If this number is negative, the step is shortened until the number is
 zero at its end.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
 """
 
 import math

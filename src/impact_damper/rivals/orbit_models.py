@@ -6,11 +6,11 @@ initial state of the test case is taken, which favours the model. The numbers in
 of equations in the paper. The counted work of a model is its number of floating-point operations:
 
 - Rigid balance (14): the eigenvalues of the companion matrices of a polynomial of degree 6 and of
-  its derivative, with 10 n^3 operations for n eigenvalues, and a root by bracketing between
-  extrema.
+  its derivative, with 10 n^3 operations for n eigenvalues, and the search for roots of the
+  polynomial between its extrema.
 - Full balance (7): BALANCE_EVALUATIONS evaluations of the equation with BALANCE_OPERATIONS each,
   and the eigenvalues of a companion matrix of degree BALANCE_DEGREE. These numbers were measured in
-  the search for all roots on the scenes. For the free oscillator, the eigenvalues for two cubics.
+  the search for all roots in the test cases. Without a damper: the eigenvalues for two cubics.
 - Many harmonics: for each Newton step with n unknowns and N harmonics, 2/3 n^3 + 4 n^2 operations
   for the linear systems, 8 n^2 to fill the matrix, and 5 M log2(M) for each Fourier transform of M
   values (two with M = 16 N and three with M = 4 N). The balances with fewer harmonics, whose
@@ -18,6 +18,8 @@ of equations in the paper. The counted work of a model is its number of floating
 - Rigid impacts and shooting: Newton's method integrates the motion and its four variational
   equations over a cycle, once for each iteration, by steps of the Taylor series. The balance with
   `methods.START_HARMONICS`, whose solution is the first guess, is included.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
 """
 
 import math

@@ -5,6 +5,8 @@ from the middle of the gap. A wall that is placed slightly nearer than the large
 once, for a short time. A wall that is placed slightly further away is not touched. A method that
 computes the distance to the wall only at the ends of its steps can hardly distinguish the two
 cases.
+
+Z1 is the displacement of the primary mass.
 """
 
 import math

@@ -1,4 +1,8 @@
-"""The interface of integrators, and the contacts and peaks of a run from the ends of its steps."""
+"""The interface of integrators, and the contacts and peaks of a run from the ends of its steps.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass. A
+strobe is the time in each cycle at which the forcing has the phase W T = pi/2.
+"""
 
 from typing import NamedTuple
 
@@ -10,7 +14,7 @@ from impact_damper.system.bounds import METHOD_TOLERANCE_RANGE, STEPS_RANGE, che
 from impact_damper.system.checks import check_increasing, check_numbers
 from impact_damper.system.packed import CLEARANCE
 
-# Number of bisections that locate a root.
+# Number of bisections that locate a root, enough for the accuracy of floating-point numbers.
 HALVINGS = 54
 
 
@@ -20,7 +24,8 @@ class Run(NamedTuple):
     Attributes
     ----------
     status : str
-        "ended", "failed", or "capped" if the run took too many evaluations of the rate.
+        "ended", "failed", or "capped" if the run took too many evaluations of the time derivative
+        of the state.
     operations : float
         Counted work, in floating-point operations.
     state : numpy.ndarray, shape (4,)

@@ -2,6 +2,9 @@
 
 The force has a kink where a contact begins or ends. The integrators step across these kinks, or
 locate contacts as events of `solve_ivp`.
+
+Z2 is the displacement of the primary mass relative to the loose mass. A strobe is the time in each
+cycle at which the forcing has the phase W T = pi/2.
 """
 
 import math
@@ -35,8 +38,8 @@ COMBINING = {
 FACTORISING = {"DOP853": 0, "LSODA": 2 * SIZE**3 // 3, "Radau": (2 + 8) * SIZE**3 // 3 // 2}
 # Value of the argument `side` with which the position Z2 determines the wall in contact.
 BY_POSITION = 2
-# Largest number of evaluations of the rate: EVALUATIONS in each forcing cycle of a run, or
-# MOST_TIMED in a whole run of the benchmarks.
+# Largest number of evaluations of the rate: EVALUATIONS in each forcing cycle of a run, MOST_TIMED
+# in a whole run of the benchmarks, and a number that is never reached.
 EVALUATIONS, MOST_TIMED = 2000, 200_000
 UNLIMITED = 2**62
 

@@ -6,6 +6,8 @@ work of a run is its number of floating-point operations: the sum over the kinds
 steps times the operations of a step (`operations.operations`). Two parts are left out because few
 steps need them: the search for a contact that the step did not expect, and repeated iterations of a
 search.
+
+Z1 is the displacement of the primary mass.
 """
 
 import math

@@ -3,6 +3,9 @@
 An attractor is a stable periodic motion, and its basin the set of all states that lead to it.
 Without a damper the boundaries of basins are the stable manifolds of unstable orbits: curves of
 states that lead to such an orbit.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass. A
+start is an initial state.
 """
 
 import math

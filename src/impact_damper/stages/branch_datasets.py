@@ -2,6 +2,8 @@
 
 A branch is the curve of the orbits over a parameter. An event is a point of a branch at which an
 orbit changes, such as a fold or a loss of stability.
+
+Z1 is the displacement of the primary mass.
 """
 
 import numpy as np

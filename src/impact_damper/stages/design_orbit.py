@@ -4,6 +4,8 @@ The quiet orbit is the periodic motion for which a damper is designed. It has pe
 contacts per cycle. The orbit may be unstable, so that no simulation settles on it. With heavy
 damping motions do settle on it. From there the orbit is followed by Newton's method down to the
 damping h of the oscillator.
+
+A start is an initial state.
 """
 
 from dataclasses import replace

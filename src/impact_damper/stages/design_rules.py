@@ -7,6 +7,9 @@ theory of straight flight (`theory.straight_flight`), in which the loose mass fl
 speed between the walls. Clearances d0 are given as the ratio rm W^2 d0/f, with the mass ratio rm,
 the forcing frequency W and the forcing amplitude f. This ratio is 1 by rule (18) of the paper.
 Displacements are given as W^2 Z1/f.
+
+Z1 is the displacement of the primary mass, W T the phase of the forcing, d0 the clearance and r1
+the contact stiffness.
 """
 
 import itertools

@@ -5,6 +5,8 @@ displacement Z1 of the primary mass and its displacement Z2 relative to the loos
 brackets are equations of the paper: (7) is the balance with elastic contacts, (14) its limit for
 rigid walls. Free means without the damper. The slow flow is the equation by which amplitude and
 phase of a solution change slowly; from it the stability of the solution follows.
+
+d0 is the clearance.
 """
 
 import numpy as np

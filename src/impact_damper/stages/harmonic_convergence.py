@@ -4,6 +4,8 @@ A balance is the system of equations for the coefficients of the harmonics 1, 3,
 orbit is a periodic motion found by Newton's method with an accurate integrator. Equation (7) of the
 paper is the balance with one harmonic, of amplitude |a|; e is the restitution. Floquet multipliers
 say whether a motion is stable.
+
+Z1 is the displacement of the primary mass, W T the phase of the forcing and rm the mass ratio.
 """
 
 import numpy as np

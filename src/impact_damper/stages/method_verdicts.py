@@ -5,6 +5,8 @@ Its truth is the motion to which the start leads, computed by the Taylor series,
 this package, at a tolerance of 1e-13. Newton's method gives the orbit, if it exists at the
 frequency, and its Floquet multipliers. The same rule judges all methods. It uses only strobed
 states, the states at the phase W T = pi/2 in each cycle.
+
+Z1 is the displacement of the primary mass.
 """
 
 from typing import NamedTuple

@@ -5,6 +5,8 @@ has two contacts per cycle. A branch consists of the quiet motions at successive
 belong together. If there are several branches, the one nearest to the clearance of rule (18) of the
 paper, rm W^2 d0 = f, is taken. Here rm is the mass ratio, W the forcing frequency, d0 the clearance
 and f the forcing amplitude.
+
+Z1 is the displacement of the primary mass. A start is an initial state.
 """
 
 import numpy as np

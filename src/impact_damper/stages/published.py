@@ -2,6 +2,8 @@
 
 Each group of numbers is compared by a function in the package `comparisons`; the published numbers
 are in the package `literature`. All groups together take some ten seconds.
+
+A start is an initial state.
 """
 
 from impact_damper.comparisons.duffing import basin_shares, jump_frequencies

@@ -4,6 +4,8 @@ Suppression means that the damper stays on and keeps the motion small. Migration
 damper is switched on and off until the oscillator without it changes from its large motion, the
 resonance motion, to its small one, the goal. A policy decides when to switch the damper off (to
 release it). A hold is the time with the damper on.
+
+A stage is a step of the workflow.
 """
 
 import math

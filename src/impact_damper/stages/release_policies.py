@@ -8,6 +8,9 @@ the goal; its margin is a required distance of the measured state from the bound
 Each policy of `migration.policies` is tried from the resonance motion. The parameters of a policy
 are chosen in trials with other random numbers than the trials that measure its success. The success
 of a controller that knows the future (`migration.clairvoyant`) is an upper bound.
+
+Z1 is the displacement of the primary mass and W the forcing frequency. A stage is a step of the
+workflow.
 """
 
 import math

@@ -4,6 +4,8 @@ Without the damper (free) the oscillator has a large motion, the resonance motio
 the non-resonance motion. Migration leads from the large to the small one by switching the damper on
 and off. A policy decides when to switch the damper off. The release set contains the states from
 which the free motion settles to the small motion.
+
+A stage is a step of the workflow.
 """
 
 import math

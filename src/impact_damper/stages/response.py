@@ -1,6 +1,8 @@
 """All motions at each frequency, and the share of random starts that lead to a collision.
 
 A start is an initial state of oscillator and loose mass.
+
+Z1 is the displacement of the primary mass. Multipliers are Floquet multipliers.
 """
 
 import numpy as np

@@ -5,6 +5,8 @@ contacts of stiffness r1. The quiet orbits of both, periodic motions of one cycl
 contacts, are compared, stable or unstable. The compliant orbit is followed through a grid of
 frequencies and r1. The rigid orbit does not depend on r1 and is followed in frequency. It is also
 computed with corrected walls (`mended`), which account for the penetration at finite r1.
+
+Z1 is the displacement of the primary mass. Multipliers are Floquet multipliers.
 """
 
 from dataclasses import replace

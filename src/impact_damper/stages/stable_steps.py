@@ -5,6 +5,8 @@ keeps it if its computed motion stays close. Every run starts on the exact quiet
 equal steps h, a whole number of them in each cycle, without locating contacts. The linear stability
 of a method limits h omega_c, where omega_c = sqrt(r1 (1 + 1/rm)) is the natural frequency of an
 undamped contact and rm the mass ratio.
+
+Z1 is the displacement of the primary mass and W T the phase of the forcing.
 """
 
 import itertools

@@ -5,6 +5,8 @@ restitution. The cells are numbered in the order of `AXES`, the last axis fastes
 study is a range of these numbers. The seed and the number of a cell determine its random starts, so
 the results do not depend on the division into chunks. After every few cells the runs are reduced to
 a few numbers per cell, so the memory of a chunk hardly grows with its size.
+
+r1 is the contact stiffness.
 """
 
 import math

@@ -3,6 +3,8 @@
 Free means without the damper. The free subharmonic is a symmetric motion that repeats after three
 forcing cycles (period 3). With the damper, every motion whose period is a multiple of 3 counts as a
 subharmonic. A start is an initial state.
+
+Z1 is the displacement of the primary mass.
 """
 
 import numpy as np
