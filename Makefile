@@ -1,5 +1,5 @@
-# The paper, end to end: `make reproduce`. The tests: `make test`. Times: `make benchmark`.
-# Needs Python 3.11 or newer, make and a C compiler; everything else goes to .venv.
+# Compute the paper: `make reproduce`. Run the tests: `make test`. Measure times: `make benchmark`.
+# Needs Python 3.11 or newer, make and a C compiler. Everything else is installed into .venv.
 
 PYTHON ?= python3
 CORES ?= 2
@@ -16,36 +16,41 @@ reproduce: $(READY)
 smoke: $(READY)
 	$(BIN)/snakemake everything --cores $(CORES) --configfile config/smoke.yaml
 
-# The smoke run on a Slurm that is set up for it alone; needs root and Slurm's packages.
+# The smoke run (every stage, with little data) on a Slurm that is set up only for it; needs root
+# and the packages of Slurm.
 slurm: $(READY)
 	profiles/slurm/try.sh $(abspath $(BIN))/snakemake
 
-# Compiled before the tests, so that their processes load the kernels and do not all compile them.
+# Compile the kernels (functions compiled by numba) before the tests, so that the processes of the
+# tests load them instead of each compiling them.
 kernels: $(READY)
 	$(BIN)/python -m impact_damper.workflow.compile_kernels '[2, []]'
 
-# On all cores, each file in one process, so that its fixtures are made once; in the order of the
-# collection, in which the longest files come first.
+# On all cores. One process runs all tests of a file, so that the fixtures are made once. The files
+# run in the order in which tests/conftest.py puts them, the longest first.
 # PYTEST= adds arguments, for example PYTEST="-k recurrence --durations=20".
 PYTEST ?=
 TESTS := $(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder
 test: kernels
 	$(TESTS) $(PYTEST)
 
-# Without the tests marked `workflow` or `thorough`; pyproject.toml says what these are.
+# Without the tests marked `workflow` or `thorough`; pyproject.toml describes these marks.
 quick: kernels
 	$(TESTS) -m "not workflow and not thorough" $(PYTEST)
 
-# Two runs, on one core and two, are compared; the whole paper with CONFIG= and nothing after it.
+# Compare the results of two runs, on one core and on two, byte by byte. `make same-bytes CONFIG=`,
+# with nothing after the equals sign, compares runs of the whole paper instead of the smoke run.
 CONFIG ?= config/smoke.yaml
 same-bytes: $(READY)
 	PYTHONPATH=tests $(BIN)/python -m helpers.same_bytes $(CONFIG)
 
-# Into results/benchmarks/; the tests hold the reference.
+# Times of the integrator and of others, into results/benchmarks/. The reference program that
+# measures errors is in tests/references/.
 benchmark: $(READY)
 	PYTHONPATH=tests $(BIN)/python -m benchmarks
 
-# Into results/faults/: what a run makes of kills, damaged files, full disks and the like.
+# Trials whether a run recovers from kills, damaged files, full disks and so on, into
+# results/faults/.
 faults: $(READY)
 	PYTHONPATH=tests $(BIN)/python -m faults
 
@@ -60,14 +65,15 @@ format: $(READY)
 	$(BIN)/ruff format benchmarks docs src tests workflow
 	$(BIN)/snakefmt Snakefile workflow
 
-# Made anew when the lock or the package's metadata change, and not otherwise.
+# The environment in .venv, made again only if requirements.lock or pyproject.toml has changed.
 $(READY): requirements.lock pyproject.toml
 	$(PYTHON) -m venv --clear $(VENV)
 	$(BIN)/pip install --require-hashes -r requirements.lock
 	$(BIN)/pip install --no-deps --no-build-isolation --editable .
 	touch $@
 
-# The documentation, into docs/_build/html; runs the tutorials. Shows claims and figures of `results/`.
+# The documentation, into docs/_build/html. Sphinx runs the tutorials; the pages show claims and
+# figures of the last run in results/.
 docs: kernels
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going --jobs auto docs docs/_build/html
 	$(BIN)/python -m pytest -q tests/docs
@@ -77,8 +83,8 @@ lock:
 	uv pip compile pyproject.toml --all-extras --group build --universal --python-version 3.11 \
 		--generate-hashes --no-emit-index-url --no-header --output-file requirements.lock
 
-# For developers, after a change of the lower bounds in pyproject.toml; needs uv. Installs the oldest
-# versions that these bounds allow and runs the tests of the library with them.
+# For developers, after a change of the lower bounds in pyproject.toml; needs uv. Installs the
+# oldest versions that these bounds allow and runs the tests of the library with them.
 LOWEST := .venv-lowest
 lowest:
 	$(PYTHON) -m venv --clear $(LOWEST)

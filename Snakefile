@@ -40,7 +40,7 @@ onsuccess:
     write_provenance()
 
 
-# Targets with all data of a stage: `all_harmonic_balance`, `all_design_orbit`, ...
+# For each stage a target that makes all its data: `all_harmonic_balance`, `all_design_orbit`, ...
 for stage in STAGES:
 
     rule:

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# The smoke run on a Slurm of one node, against a local run: the same bytes, or it fails.
+# Do the smoke run on a Slurm of one node and locally, and fail unless the results have the same
+# bytes.
 #   make slurm, or profiles/slurm/try.sh [PATH OF SNAKEMAKE]
-# Another run on the same Slurm, with results in this folder and no comparison:
+# Do another run on such a Slurm, with results in the repository and without comparison:
 #   profiles/slurm/try.sh PATH-OF-SNAKEMAKE TARGETS --configfile FILE
-# Slurm is set up for this alone, in namespaces of its own (processes, network, mounts), and goes
-# with them: nothing outside is changed, and no other Slurm is touched.
+# This Slurm runs in its own Linux namespaces (processes, network, mounts) and ends with them.
+# Nothing outside changes, and no other Slurm is affected.
 set -euo pipefail
 
 stop() {
@@ -22,7 +23,7 @@ if [[ -z ${SLURM_TRIAL:-} ]]; then
     done
     [[ $(id -u) == 0 ]] || stop "must be run by root: slurmd starts jobs for any user"
     unshare --mount --net --pid --fork true ||
-        stop "namespaces are not allowed here (see above); in a container, start it privileged"
+        stop "namespaces are not allowed here (see above); a container must be privileged"
     SLURM_TRIAL=$(mktemp -d)
     export SLURM_TRIAL
     trap 'rm -rf "$SLURM_TRIAL"' EXIT
@@ -37,7 +38,7 @@ fi
 chmod 755 "$SLURM_TRIAL"
 mkdir "$SLURM_TRIAL"/{etc,state,spool,local,slurm}
 ip link set lo up
-# Slurm asks for addresses in a way that finds none while the host has no other than 127.0.0.1.
+# Slurm ignores 127.0.0.1 when it looks for an address of the host, so it needs another one.
 ip address add 127.0.0.2/8 dev lo
 node=$(hostname -s)
 memory=$(awk '/MemTotal/ { print int($2 / 1024) }' /proc/meminfo)
@@ -61,7 +62,7 @@ MinJobAge=86400
 NodeName=$node NodeAddr=127.0.0.1 CPUs=$(nproc) RealMemory=$memory
 PartitionName=trial Nodes=$node Default=YES MaxTime=INFINITE State=UP
 END
-# Jobs look for it there, whatever the environment says.
+# Jobs read Slurm's configuration in /etc/slurm, whatever the environment says.
 mount --bind "$SLURM_TRIAL/etc" /etc/slurm
 head -c 1024 /dev/urandom > "$SLURM_TRIAL/munge.key"
 chmod 400 "$SLURM_TRIAL/munge.key"
@@ -89,7 +90,7 @@ run() {
 }
 run local --cores "$(nproc)"
 run slurm --profile profiles/slurm
-# What ran when and for how long may differ, and nothing else.
+# Only logs, times and the record of the run may differ.
 diff --recursive --brief --exclude=logs --exclude=timings --exclude=benchmarks \
     --exclude=provenance.json "$SLURM_TRIAL"/{local,slurm}/results-smoke ||
     stop "Slurm and the local run differ, as listed above"

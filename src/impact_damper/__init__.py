@@ -2,7 +2,8 @@
 
 After S. Chatterjee, A. K. Mallik and A. Ghosh, "On impact dampers for non-linear vibrating
 systems", Journal of Sound and Vibration 187(3), 403-420, 1995. Results are labelled datasets of
-xarray. The public names are loaded when they are first used:
+xarray. A quiet motion is the small motion with damper for which a damper is designed. The public
+names are loaded when they are first used:
 
 The system without units
     Oscillator, Damper
@@ -16,10 +17,10 @@ The system in SI units: all functions below take a machine in place of the oscil
 Motions
     simulate                    one motion from a given state
     steady_motion               the motion to which a state leads
-    frequency_response          all motions at each frequency
+    frequency_response          all motions found at each frequency
     subharmonic_suppression     the one-third subharmonic without and with a damper
     basins                      the motion to which each state of a plane leads
-    migrate                     from the resonance to the small motion, by switching the damper
+    migrate                     from the resonance to a small motion, by switching the damper
 
 Periodic orbits, stable or not
     periodic_orbit, orbit_branch, complete_branches
@@ -41,6 +42,7 @@ from importlib import import_module
 
 __version__ = "0.1.0"
 
+# Module of each public name.
 _HOMES = {
     "Oscillator": "system.parameters",
     "Damper": "system.parameters",
@@ -69,7 +71,7 @@ _HOMES = {
     "decode": "data.datasets",
 }
 
-# Functions that take a machine in place of the oscillator too, with all else in SI units.
+# Functions that also take a machine in place of the oscillator, with all arguments in SI units.
 _OF_MACHINES = {
     "simulate",
     "steady_motion",

@@ -14,9 +14,9 @@ OLDEST = 1
 def check_results(folder):
     """Raise if a dataset is truncated, and set dates in the future to OLDEST.
 
-    Snakemake compares the contents of an input only if the input is newer than the output. If the
-    clock was set back, outputs have dates in the future, and later edits would be overlooked. With
-    the oldest date, contents decide.
+    Snakemake compares the contents of an input only if the input is newer than the output. After
+    the clock was set back, outputs have dates in the future, and later edits of inputs would be
+    overlooked. With the oldest date of the outputs the contents of all inputs are compared.
     """
     ahead = []
     try:
@@ -50,7 +50,7 @@ def unwritable(folder):
 
 
 def check_writable(folder):
-    """Raise if the folder cannot be written to."""
+    """Raise a WorkflowError if the folder has no write permission."""
     if words := unwritable(folder):
         raise WorkflowError(words)
 

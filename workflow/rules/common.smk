@@ -21,18 +21,19 @@ from impact_damper.workflow.registry import CHAPTERS, PAPER, STAGES
 from impact_damper.workflow.registry.clearance import study_chunk
 from impact_damper.workflow.sources import PACKAGE, compiled_kernels, module_file, sources
 
-# Planning makes many small objects and keeps them all. Collecting garbage less often saves a
-# fifteenth of the time of a dry run.
+# Planning makes many small objects, none of which becomes garbage. Collecting garbage less often
+# than by default saves a fifteenth of the time of a dry run.
 gc.set_threshold(100_000)
 
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = str(ROOT / "workflow/envs/impact-damper.yaml")
-# A job that needs compiled kernels waits for this file. `ancient`: its date reruns no job.
+# Jobs that need compiled kernels (functions compiled by numba) wait for this marker file. With
+# `ancient` a new date of the file reruns no job.
 KERNELS = ancient("<results>/kernels.compiled")
 
 
-# Whether `--cache` is given. Rules are cacheable only then, because Snakemake otherwise prints a line
-# for each cacheable rule.
+# Whether the option `--cache` is given. Rules are cacheable only with this option, because without
+# it Snakemake prints a line for each cacheable rule.
 SHARED = workflow.workflow_settings.cache is not None
 
 
@@ -41,7 +42,7 @@ wildcard_constraints:
 
 
 def checked(config):
-    """Return the configuration with its keys sorted, or raise an error that lists its faults.
+    """Return the configuration with its keys sorted, or raise an error that lists its problems.
 
     Only the main process checks, since jobs run in other processes and the check takes half a second.
     """
@@ -67,27 +68,31 @@ def local(path):
 
 @cache
 def code(script, *modules):
-    """Return the source files of a job: a script, modules named, and all that they import.
+    """Return the source files of a job: script, modules, and all modules of the package they
+    import.
 
-    The lock file is included in place of all other packages.
+    The lock file stands for the versions of all other packages.
     """
     paths = {ROOT / "workflow/scripts" / f"{script}.py", *map(module_file, modules)}
     return sorted(map(local, sources(*paths) | {ROOT / "requirements.lock"}))
 
 
 def data(stage, names=None):
-    """Return the files of a stage, for all its entries or for those named."""
+    """Return the datasets of a stage, for all its entries in the configuration or for `names`."""
     names = selection.entries(config, stage) if names is None else names
     return [f"<results>/{stage}/{name}.nc" for name in names]
 
 
 def data_by_stage(names):
-    """Return the files of several stages as keyword arguments of `input`."""
+    """Return the datasets of several stages as keyword arguments of `input`.
+
+    `names` holds the names of the entries, keyed by stage.
+    """
     return {stage: data(stage, chosen) for stage, chosen in names.items()}
 
 
 def read_by(stage):
-    """Return an input function: the files of earlier stages that the job of an entry reads."""
+    """Return an input function of Snakemake: the datasets of earlier stages that a job reads."""
 
     def files(wildcards):
         chosen = selection.read_by(config, stage, wildcards.name)
@@ -99,10 +104,10 @@ def read_by(stage):
 def parameters(stage, function=None):
     """Return the parameters of a stage's jobs, each as {key: value}.
 
-    Snakemake compares only the set of values. Without the keys two parameters could swap unnoticed.
-    One parameter for each key lets a dry run show which parameter changed. The name of the entry is
-    a parameter because the dataset holds it: with `--cache` another entry with equal values must
-    not get the same file.
+    Snakemake compares only the set of values, so that without the keys two parameters could be
+    exchanged unnoticed. One parameter for each key lets a dry run show which parameter changed. The
+    name of the entry is a parameter too, because the dataset holds it: with `--cache` another entry
+    with equal values must not get the same file.
     """
     function = function or STAGES[stage].parameters
 
@@ -118,7 +123,7 @@ def parameters(stage, function=None):
 
 
 def parameters_of_all(stage):
-    """Return the parameters of a stage with one job for all entries: {name: its parameters}."""
+    """Return the parameters of a stage with one job for all entries, keyed by entry."""
     return {
         name: {name: STAGES[stage].parameters(config, name)}
         for name in selection.entries(config, stage)
@@ -161,10 +166,10 @@ def table_files(chapter):
 
 
 def target_files(stage):
-    """Return the files of the target of a stage.
+    """Return the files that the target of a stage makes.
 
-    These are its data and, for a stage that is not part of the paper, the figures and tables of its
-    chapter and its pages.
+    These are its datasets and, if the stage is not part of the paper, also its pages, and the
+    figures and tables of its chapter.
     """
     if STAGES[stage].paper:
         return data(stage)
@@ -183,7 +188,7 @@ def page_files(stage):
 
 
 def chapter_files(chapter):
-    """Return the outputs of the job of a chapter: figures and tables in two formats, captions."""
+    """Return the outputs of the job of a chapter: figures, tables and captions."""
     figures = selection.figures_of(config, chapter)
     tables = [table.name for table in CHAPTERS[chapter].TABLES]
     return [
@@ -195,7 +200,7 @@ def chapter_files(chapter):
 
 
 def in_report(chapter, folder, name, kind):
-    """Return a file that the report shows, with the caption that the job of the chapter writes."""
+    """Return a file that Snakemake's report shows, with the caption by the job of the chapter."""
     return report(
         f"<results>/{folder}/{name}.{kind}",
         caption=os.path.abspath(f"{config['results']}/{folder}/{name}.rst"),
@@ -205,7 +210,10 @@ def in_report(chapter, folder, name, kind):
 
 
 def compile_again():
-    """Compile the kernels if their sources were edited since the marker file was written."""
+    """Compile the kernels if their sources were edited since the marker file was written.
+
+    The marker file holds a digest of the sources.
+    """
     marker, now = Path(config["results"]) / "kernels.compiled", compiled_kernels(config)
     if not marker.exists() or marker.read_bytes() == now.encode():
         return

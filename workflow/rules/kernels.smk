@@ -1,13 +1,15 @@
 # The marker file holds the digest of the compiled sources. This rule has neither inputs nor
-# parameters: if an edit of an input started this rule, Snakemake would not check the jobs that depend
-# on the marker for their own changes (its issue 4166). `compile_again` compiles after edits.
+# parameters: if an edit of an input started this rule, Snakemake would not check whether the jobs
+# that depend on the marker have changed themselves (issue 4166 of Snakemake). After an edit of
+# kernels the function `compile_again` compiles them, at the start of a run.
 rule compile_kernels:
     output:
         "<results>/kernels.compiled",
     log:
         "<logs>/compile_kernels.log",
-    # Priority 3: most jobs wait for this one. Priority 2: other jobs wait for these. Priority 1: the
-    # longest jobs, which at the end of a run would leave the other core idle.
+    # Priorities of all rules. 3: this job, for which most jobs wait. 2: jobs for which other jobs
+    # wait. 1: the longest jobs; begun last, they would leave the other core idle at the end of a
+    # run.
     priority: 3
     conda:
         ENVIRONMENT

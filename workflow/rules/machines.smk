@@ -18,7 +18,7 @@ rule machines:
         "../scripts/machines.py"
 
 
-# One job for the pages of all machines: starting a process for each would take as long as its page.
+# One job makes the pages of all machines, because starting a job takes as long as making a page.
 rule machine_pages:
     input:
         machines=data("machines"),

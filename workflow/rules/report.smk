@@ -8,7 +8,8 @@ rule tables:
         [table_files(chapter) for chapter in PAPER],
 
 
-# One job makes a chapter, because starting a process takes longer than a figure or table.
+# One job makes all figures and tables of a chapter, because starting a job takes longer than
+# drawing a figure.
 for chapter in filter(chapter_files, CHAPTERS):
 
     rule:

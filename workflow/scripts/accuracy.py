@@ -1,4 +1,4 @@
-"""Errors of methods against counted work, on one scene."""
+"""Errors of integrators and models against counted work, on one scene (test case)."""
 
 import json
 from pathlib import Path

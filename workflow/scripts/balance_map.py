@@ -1,4 +1,4 @@
-"""Map of the errors of harmonic balance over frequency and another parameter."""
+"""A map of the errors of harmonic balance over frequency and another parameter."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.balance_map import balance_map

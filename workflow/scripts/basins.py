@@ -1,4 +1,4 @@
-"""Basins of attraction of the motions without a damper and with one (section 5)."""
+"""Basins of attraction of motions without or with a damper (section 5 of the paper)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.basins import basins

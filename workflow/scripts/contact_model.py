@@ -1,4 +1,4 @@
-"""The contact model over restitution and load, and contacts of motions in it."""
+"""Errors of the contact model over restitution and load, and contacts of simulated motions."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.contact_model import contact_model, spread_loads

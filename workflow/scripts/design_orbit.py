@@ -1,4 +1,4 @@
-"""The exact quiet orbits at the peak frequencies, followed in damping (figure 3)."""
+"""Exact quiet orbits of all curves at their peak frequencies, followed in damping (figure 3)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.design_orbit import design_orbit

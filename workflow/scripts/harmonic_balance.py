@@ -1,4 +1,4 @@
-"""Response by harmonic balance and suppression band (section 2, figures 2, 3, 5 and 8)."""
+"""Response by harmonic balance, and suppression band (section 2, figures 2, 3, 5 and 8)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.harmonic_balance import harmonic_balance

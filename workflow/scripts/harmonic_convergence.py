@@ -1,4 +1,4 @@
-"""Harmonic balance with many harmonics against the exact orbit."""
+"""Harmonic balance with more and more harmonics, compared with the exact orbit."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.harmonic_convergence import harmonic_convergence, ladder

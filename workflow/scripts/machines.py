@@ -1,4 +1,8 @@
-"""An impact damper designed for a machine; finished steps are kept until the whole is saved."""
+"""An impact damper designed for a machine.
+
+Finished steps of the design are kept in a folder until the design is saved, so that an interrupted
+job continues.
+"""
 
 import shutil
 from pathlib import Path

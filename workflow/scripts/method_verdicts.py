@@ -1,4 +1,4 @@
-"""Verdicts on integrators by tolerance, on motions near orbits of known stability."""
+"""Verdicts on integrators by tolerance: do they find the right motion near known orbits?"""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.method_verdicts import make_scene, verdicts

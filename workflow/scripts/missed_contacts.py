@@ -1,4 +1,4 @@
-"""Contacts near grazing that integrators miss, counted over random passages."""
+"""Contacts near grazing that integrators miss, counted over random flights of the loose mass."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.missed_contacts import missed_contacts

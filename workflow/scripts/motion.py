@@ -4,7 +4,8 @@ from impact_damper.workflow.job import Job
 from impact_damper.motions.steady import steady_orbit
 
 job = Job(snakemake)
-# The three numbers under figure 4, and no relative velocity. From rest nothing would collide.
+# The three numbers under figure 4 of the paper, and relative velocity 0. A start at rest would lead
+# to a motion without contact.
 start = (1.0, 0.5, 0.0, 0.0)
 job.save(
     steady_orbit(

@@ -1,4 +1,4 @@
-"""Published numbers compared with numbers computed by the package."""
+"""Published numbers compared with numbers computed by this package."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.published import published

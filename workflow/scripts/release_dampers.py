@@ -1,4 +1,5 @@
-"""Dampers compared for migration and for suppression, by mass, gap and restitution (section 5)."""
+"""Dampers compared for migration control and for suppression, by mass, clearance and
+restitution."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.release_dampers import release_dampers

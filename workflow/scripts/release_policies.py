@@ -1,4 +1,4 @@
-"""Policies of migration: rules that say when to switch the damper off (section 5)."""
+"""Policies of migration control compared: rules that say when to switch the damper off."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.release_policies import release_policies

@@ -1,4 +1,4 @@
-"""Rigid impacts against compliant contact over frequency and contact stiffness."""
+"""Rigid impacts compared with compliant contact, over frequency and contact stiffness."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.rigid_limit import rigid_limit

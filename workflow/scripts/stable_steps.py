@@ -1,4 +1,4 @@
-"""The quiet motion by fixed-step methods, over stiffness and step."""
+"""The quiet motion by fixed-step methods, over contact stiffness and step."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.stable_steps import stable_steps

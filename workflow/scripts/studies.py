@@ -1,6 +1,6 @@
-"""A study over mass ratio, clearance, frequency and restitution: its chunks as one file.
+"""A study over mass ratio, clearance, frequency and restitution, joined from its chunks.
 
-Without chunks the whole study is computed here, as a single chunk.
+If the study is not divided into chunks, this script computes it as a single chunk.
 """
 
 from tempfile import TemporaryDirectory
