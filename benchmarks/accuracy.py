@@ -1,4 +1,8 @@
-"""The loosest tolerance with which the error of a method stays within a limit."""
+"""The loosest tolerance with which the error of a method stays within a limit.
+
+A method is an integrator, and a scene a test case: a motion with starts (initial states) and exact
+states at the end.
+"""
 
 import math
 from typing import NamedTuple

@@ -1,7 +1,8 @@
 """States of the free oscillator at W = 1.85 that are labelled, and looked up, in a second.
 
-Free means without damper. To label a state is to find the motion to which it leads. A release set
-holds the states from which the free motion settles on the small motion; it is a precomputed table.
+Free means without damper, and a release is the switching off of the damper. To label a state is to
+find the motion to which it leads. A release set is a precomputed table of the states from which the
+free motion settles on the small motion.
 """
 
 import numpy as np

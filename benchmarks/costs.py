@@ -1,6 +1,7 @@
 """Time that the kernel takes for a forcing cycle, over amplitude, contacts and tolerance.
 
-In this module and its tables a period is a forcing cycle.
+The kernel is the package's compiled integrator. In this module and its tables a period is a forcing
+cycle, and a scene is a motion with its initial state.
 """
 
 import math

@@ -52,7 +52,7 @@ class Motions:
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
-        Packed parameters.
+        Packed parameters, from `system.packed.pack`.
     tolerance : float
     batch : int
         Trajectories integrated together; 1 is the scalar integrator.

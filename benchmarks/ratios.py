@@ -1,4 +1,8 @@
-"""The kernel against heyoka.py and SciPy at equal error, in one interleaved run."""
+"""Speed of the kernel against heyoka.py and SciPy at equal error, in one interleaved run.
+
+The kernel is this package's compiled integrator. A scene is a test case: a motion with several
+initial states.
+"""
 
 import pandas as pd
 

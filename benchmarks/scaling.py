@@ -1,6 +1,7 @@
 """Speed of ensembles over their size, and over the number of cores that share an ensemble.
 
-An ensemble is a set of trajectories that the kernel integrates together.
+An ensemble is a set of trajectories that the kernel, the package's compiled integrator, advances
+together. A scene is a test case: a motion with several starts (initial states).
 """
 
 import os

@@ -34,7 +34,7 @@ class Context:
     def __init__(self, folder, given):
         self.folder, self.seed, self.moments = folder, given.seed, given.moments
         self._whole = Project(folder / "undisturbed")
-        code, told = self._whole.run()  # the first run also compiles the kernels
+        code, told = self._whole.run()  # the first run also compiles the kernels (numba)
         expect(code == 0, told)
         self.undisturbed = self._whole.outputs()
         begin = time.monotonic()

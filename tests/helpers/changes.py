@@ -1,4 +1,4 @@
-"""Changes of the invented datasets of `made_up.world`.
+"""Changes of the invented datasets of `made_up.world`, each of which makes a claim fail.
 
 Most functions return a change: a function that takes the datasets, keyed by stage and name, and
 changes them. `power` and `fourth` are changes themselves.
@@ -78,10 +78,10 @@ def unstable(name, lower, upper):
 
 
 def share(name, kind, subharmonic):
-    """Return the change that sets where releases from a motion with damper lead.
+    """Return the change that sets where releases (switching the damper off) lead.
 
-    `kind` is "unsettled" or "quiet", `subharmonic` the share of releases that lead to the
-    subharmonic; the others lead to the non-resonance motion.
+    `kind` is the motion before the release, "unsettled" or "quiet". `subharmonic` is the share of
+    releases that lead to the subharmonic; the others lead to the non-resonance motion.
     """
 
     def change(data):
@@ -95,7 +95,10 @@ def share(name, kind, subharmonic):
 
 
 def early(subharmonic):
-    """Return the change by which `subharmonic` of 10 early releases lead to the subharmonic."""
+    """Return the change that sets where 10 releases from an unsettled motion lead.
+
+    `subharmonic` of them lead to the subharmonic, the others to the non-resonance motion.
+    """
 
     def change(data):
         case = data["migration"]["figure_16"].copy(deep=True)

@@ -16,7 +16,8 @@ rule harmonic_balance:
         "../scripts/harmonic_balance.py"
 
 
-# One job computes all entries, because an entry takes less time than the start of a job.
+# One job computes all entries of the configuration, because computing an entry takes less time than
+# starting a job.
 rule design_orbit:
     input:
         code=code("design_orbit"),

@@ -1,4 +1,4 @@
-"""Shares of random starts that lead to collisions (section 3 of the paper, claim 8)."""
+"""Shares of random initial states that lead to collisions (section 3 of the paper, claim 8)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.response import collisions

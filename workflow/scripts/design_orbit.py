@@ -1,4 +1,7 @@
-"""Exact quiet orbits of all curves at their peak frequencies, followed in damping (figure 3)."""
+"""Exact quiet orbits of all curves at their peak frequencies, followed in damping (figure 3).
+
+A quiet orbit is the small periodic motion for which a damper is designed.
+"""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.design_orbit import design_orbit

@@ -1,4 +1,4 @@
-"""Rules for the clearance against the optimum of the quiet motion, on a grid of dampers."""
+"""Rules for the clearance, compared with the clearance of the smallest quiet motion."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.design_rules import design_rules

@@ -27,8 +27,8 @@ from impact_damper.rivals.words import method_in_words
 CAPTION = """
 Error against work in floating-point operations. A line joins runs with different tolerances or, for
 harmonic balance, with different numbers of harmonics. Open marker: wrong number of contacts; for
-chaos, an error within the standard error of the run. Plus: the run failed. Dashed: required
-accuracy. Reference: a program in 80-bit arithmetic; for chaos, a longer run.
+chaos, an error smaller than its standard error. Plus: the run failed. Dashed: required accuracy.
+Reference: a program in 80-bit arithmetic; for chaos, a longer run.
 """
 
 # Colour, marker and line of models that solve for an orbit directly.
@@ -44,7 +44,7 @@ ORBIT_LOOKS = {
 LOOKS = {True: ("^", "-"), False: ("v", ":")}
 # Marker and line of Taylor series of other orders than the package uses.
 OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]
-# Values of the flag `run_status` of complete runs.
+# Names of the values of the variable `run_status`, for complete runs.
 ENDED = ("ok", "missed_contacts", "invented_contacts")
 # Quantity of the required accuracy -> variable or statistic of the dataset, and label of the axis.
 QUANTITIES = {

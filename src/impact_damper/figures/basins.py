@@ -1,4 +1,8 @@
-"""Basins of attraction in a plane of states (figure kind `basins`)."""
+"""Basins of attraction in a plane of states (figure kind `basins`).
+
+The basin of a motion is the set of initial states that lead to it. An attractor is a motion to
+which states lead, and its share is the fraction of the plane that its basin covers.
+"""
 
 import numpy as np
 from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap

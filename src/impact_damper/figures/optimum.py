@@ -1,6 +1,7 @@
 """Largest displacement against clearance, with the optimum: figures 6, 7 and 11.
 
-Figure kind `optimum`.
+Figure kind `optimum`. The quiet motion is the small motion for which a damper is designed.
+Equations (7) of the paper are harmonic balance with one harmonic.
 """
 
 import numpy as np

@@ -1,4 +1,7 @@
-"""Differences between published numbers and ours, by publication (figure kind `published`)."""
+"""Differences between published numbers and ours, by publication (figure kind `published`).
+
+Ours are the numbers that this package computes.
+"""
 
 import numpy as np
 

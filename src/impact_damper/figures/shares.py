@@ -1,4 +1,8 @@
-"""Shares of random starts that lead to each motion (figure kinds `shares`, `clearance_shares`)."""
+"""Shares of random starts that lead to each motion (figure kinds `shares`, `clearance_shares`).
+
+A start is an initial state. The motions are listed for each value of a parameter, the frequency or
+the clearance. Chaos is called transient if it ended in one of several longer runs.
+"""
 
 from collections import Counter
 

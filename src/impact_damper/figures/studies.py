@@ -1,4 +1,7 @@
-"""Maps of the largest displacement against mass ratio and clearance (figure kind `studies`)."""
+"""Maps of the largest displacement against mass ratio and clearance (figure kind `studies`).
+
+A study runs motions from random starts (initial states) in each cell of a grid of parameters.
+"""
 
 from itertools import product
 

@@ -1,4 +1,8 @@
-"""The head of the page of a machine: advice in a few words, with reasons."""
+"""The head of the page of a machine: advice in a few words, with reasons.
+
+A design chooses a gap and promises a share of starts (random initial states) that lead to quiet
+motions, which are below a displacement limit. It tests the promise with new starts.
+"""
 
 import json
 

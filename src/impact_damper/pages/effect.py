@@ -1,4 +1,7 @@
-"""Section of a page: the effect of the damper."""
+"""Section of a page: the effect of the damper.
+
+A motion is quiet if the displacement of the machine is below a limit. A start is an initial state.
+"""
 
 import numpy as np
 

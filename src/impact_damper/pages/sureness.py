@@ -1,4 +1,9 @@
-"""Section of a page: how sure the result is."""
+"""Section of a page: how sure the result of a design is.
+
+A start is a random initial state. It is quiet if it leads to a quiet motion, one below the
+displacement limit. The cliff is the gap at which the share of quiet starts falls. A corner combines
+extreme values of all tolerances.
+"""
 
 import numpy as np
 

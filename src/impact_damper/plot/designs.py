@@ -1,4 +1,8 @@
-"""Plots for the choice of a damper: a sweep of the clearance, and a finished design."""
+"""Plots for the choice of a damper: a sweep of the clearance, and a finished design.
+
+A quiet motion is a small motion with damper. A start is a random initial state; a quiet start leads
+to a quiet motion.
+"""
 
 from impact_damper.figures.machines.cliff import share_panel, size_panel
 from impact_damper.figures.machines.response import response_panel

@@ -1,4 +1,7 @@
-"""Plots over a parameter: motions, harmonic balance, exact orbits, and shares of random starts."""
+"""Plots over a parameter: motions, harmonic balance, exact orbits, and shares of random starts.
+
+A start is an initial state; the share of a motion is the fraction of starts that lead to it.
+"""
 
 import numpy as np
 

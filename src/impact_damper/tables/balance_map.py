@@ -14,7 +14,8 @@ from impact_damper.data.variables import VARIABLES
 from impact_damper.data.variables.balance_map import BALANCE_VERDICT
 from impact_damper.theory.map_cells import NEAR
 
-# What is asked about each cell, and the variable of the dataset that holds the answer as a flag.
+# What is asked about each cell, and the variable of the dataset that holds the answer as a flag: an
+# integer for each meaning.
 QUESTIONS = {
     "quiet motion": "quiet_verdict",
     "start at the quiet solution": "quiet_run_motion",

@@ -55,7 +55,10 @@ SHOWN = {
 
 
 def _counts(name, values):
-    """Return the number of cells with each value of a flag, keyed by the meaning of the value."""
+    """Return the number of cells with each value of a flag, keyed by the meaning of the value.
+
+    A flag is a variable whose integers have a meaning each.
+    """
     flags = VARIABLES[name].flags
     return {meaning.replace("_", " "): int(np.sum(values == flags[meaning])) for meaning in flags}
 

@@ -1,6 +1,8 @@
 """Tables of harmonic balance: dampers at their design points, and convergence with harmonics.
 
-A curve is a frequency response of the configuration; its design point is the peak frequency Wp.
+A curve is a frequency response of the configuration; its design point is the peak frequency Wp. The
+quiet orbit is the small periodic motion for which the damper is designed. A start is a random
+initial state.
 """
 
 import numpy as np

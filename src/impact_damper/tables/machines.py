@@ -1,7 +1,8 @@
 """Table of the dampers designed for machines in SI units.
 
 The gap is the full play of the loose mass. A design promises a share of starts (initial states)
-that lead to a quiet motion, and tests this promise with new starts.
+that lead to a quiet motion, one below a displacement limit, and tests this promise with new starts.
+The dataset of a design holds its choices as flags, integers with a meaning each.
 """
 
 import json

@@ -1,6 +1,7 @@
 """Reader of the YAML file that describes a machine for the command `impact-damper`.
 
-The file has the same keys as an entry of the section `machines` in the workflow's configuration.
+The file has the same keys as an entry of the section `machines` in the workflow's configuration. A
+start is a random initial state, and a motion is quiet if it is below a displacement limit.
 """
 
 import re

@@ -1,4 +1,7 @@
-"""The designed damper compared with tuned absorbers of the same mass."""
+"""The designed damper compared with tuned absorbers of the same mass.
+
+A tuned absorber is the mass on a spring and a dashpot. A start is a random initial state.
+"""
 
 import numpy as np
 from matplotlib.ticker import NullLocator

@@ -1,6 +1,7 @@
 """Maps of the share of quiet starts and of displacement, over two pairs of parameters.
 
-The pairs are frequency and force, and gap and restitution.
+The pairs are frequency and force, and gap and restitution. A start is a random initial state; it is
+quiet if it leads to a motion below the quiet limit, the displacement limit of the design.
 """
 
 import numpy as np

@@ -1,4 +1,7 @@
-"""Displacement against forcing frequency, without and with the damper that was designed."""
+"""Displacement against forcing frequency, without and with the damper that was designed.
+
+The motions with the damper were found from random starts (initial states).
+"""
 
 import numpy as np
 

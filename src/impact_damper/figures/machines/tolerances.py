@@ -1,4 +1,8 @@
-"""Worst displacement against the share of quiet starts, for values changed within tolerances."""
+"""Worst displacement against the share of quiet starts, for values changed within tolerances.
+
+A start is a random initial state. It is quiet if it leads to a quiet motion, one below the
+displacement limit of the design.
+"""
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.figures.machines.looks import STAR, decades, limit_line, plot_sizes

@@ -1,4 +1,4 @@
-"""Studies of random starts over a grid of dampers and frequencies."""
+"""Studies: motions from random starts (initial states) over a grid of dampers and frequencies."""
 
 import math
 

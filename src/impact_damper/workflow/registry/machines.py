@@ -1,6 +1,6 @@
 """Chapter of the report: dampers designed for machines in SI units, which the paper does not have.
 
-The function `machines` returns the parameters of the job of an entry.
+The function `machines` returns the parameters of the job for an entry of the configuration.
 """
 
 from impact_damper.workflow.registry.records import Kind, Stage, Table

@@ -1,6 +1,7 @@
 """Chapter of the report: methods compared.
 
-The functions with the names of stages return the parameters of the job of an entry.
+A function with the name of a stage returns the parameters of its job for an entry of the
+configuration.
 """
 
 from impact_damper.system.parameters import Damper, Oscillator, pick

@@ -1,6 +1,6 @@
 """Chapter of the report: numbers that others published, beside the numbers computed here.
 
-The function `published` returns the parameters of the job of an entry.
+The function `published` returns the parameters of the job for an entry of the configuration.
 """
 
 from impact_damper.workflow.registry.records import Kind, Stage, Table

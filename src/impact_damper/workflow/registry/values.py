@@ -22,7 +22,10 @@ def settling(config) -> dict:
 
 
 def search(config, starts) -> dict:
-    """Return the arguments of a search: radius, seed, and the number under `starts` of `search`."""
+    """Return the arguments of a search: radius, seed, and the number of starts (initial states).
+
+    `starts` is the key of the section `search` that holds this number.
+    """
     given = config["search"]
     return {"starts": given[starts], "radius": given["radius"], "seed": config["seed"]}
 
