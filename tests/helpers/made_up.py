@@ -4,6 +4,8 @@ Tests of claims, tables and figures change one dataset and expect one claim to f
 the name of a stage return a dataset of this stage. Wp is the peak frequency without damper.
 """
 
+from functools import cache
+
 import numpy as np
 
 from helpers.made_up_orbits import branch, branches
@@ -403,7 +405,26 @@ def design_orbit(linear):
 
 
 def world():
-    """Return datasets by stage and name in which every claim is reproduced."""
+    """Return datasets by stage and name in which every claim is reproduced.
+
+    The datasets are made once and cannot be changed in place; the mappings are new.
+    """
+    return {stage: dict(named) for stage, named in _world().items()}
+
+
+@cache
+def _world():
+    """Return the datasets of `world`, with arrays that cannot be written to."""
+    made = _made()
+    for named in made.values():
+        for data in named.values():
+            for variable in data.data_vars.values():
+                variable.values.flags.writeable = False
+    return made
+
+
+def _made():
+    """Return the datasets of `world`."""
     linear = {"a": 1.5, "b": 1.0}
     designs = {
         name: design(name, rm)
