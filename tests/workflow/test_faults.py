@@ -8,9 +8,13 @@ import time
 import pytest
 from faults.project import DELETE, Project
 
+from impact_damper.workflow.sources import compiled_kernels
+
 pytestmark = pytest.mark.workflow
 
 FILE = "results/harmonic_balance/figure_05a.nc"
+KERNELS = "results/kernels.compiled"
+COMPILING = "Compiling the kernels again"
 YEAR = 365 * 86400
 
 # Code of a job: it opens its log, prints "begun" and runs a statement that is inserted.
@@ -32,12 +36,32 @@ def job_log(folder):
 
 
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory):
-    """Return a copy of the project with the result of one job, which needs no compiled kernels."""
+def first(tmp_path_factory):
+    """Return a copy of the project with the result of one job, and what its run printed.
+
+    Before the run the marker file says that the kernels were edited.
+    """
     project = Project(tmp_path_factory.mktemp("faults") / "a project")
+    marker = project.folder / KERNELS
+    marker.parent.mkdir()
+    marker.write_text("the digest of other sources")
     code, told = project.run(targets=[FILE])
     assert code == 0, told
-    return project
+    return project, told
+
+
+@pytest.fixture
+def finished(first):
+    """Return the copy of the project with the result of one job."""
+    return first[0]
+
+
+def test_kernels_that_were_edited_are_compiled_before_the_first_job(first):
+    project, told = first
+    assert told.count(COMPILING) == 1
+    assert told.index(COMPILING) < told.index("Harmonic balance of the curve")
+    expected = compiled_kernels({"comparison": {"orders": []}})
+    assert (project.folder / KERNELS).read_text() == expected
 
 
 def test_a_file_that_is_cut_off_is_told_and_made_again(finished):
@@ -50,19 +74,22 @@ def test_a_file_that_is_cut_off_is_told_and_made_again(finished):
     assert f"{FILE} has {len(whole) - 1} bytes instead of {len(whole)}: {DELETE}." in told
     path.unlink()
     code, told = finished.run(targets=[FILE])
-    assert code == 0, told
+    assert code == 0 and COMPILING not in told, told
     assert path.read_bytes() == whole
 
 
-def test_an_edit_after_the_clock_was_set_back_is_seen(finished):
+def test_a_dry_run_sees_an_edit_after_the_clock_was_set_back_and_compiles_nothing(finished):
     path, script = finished.folder / FILE, finished.folder / "workflow/scripts/harmonic_balance.py"
-    text = script.read_text()
+    marker = finished.folder / KERNELS
+    text, compiled = script.read_text(), marker.read_text()
     for edited in ("", "# A word.\n"):
         os.utime(path, (time.time() + YEAR,) * 2)
         script.write_text(text + edited)
+        marker.write_text("the digest of other sources")
         code, told = finished.run("-n", targets=[FILE])
         script.write_text(text)
-        assert code == 0, told
+        marker.write_text(compiled)
+        assert code == 0 and COMPILING not in told, told
         assert "dates in the future" in told
         assert ("Harmonic balance of the curve" in told) == bool(edited)
 

@@ -12,7 +12,6 @@ from pathlib import Path
 
 import pytest
 import yaml
-from faults.project import Project
 from helpers import configurations, planning
 from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
@@ -215,40 +214,26 @@ def test_an_edit_of_a_file_concerns_what_runs_it(path, noted, jobs):
     assert planning.reruns(jobs, jobs, edited) == matching(jobs, FILES[path])
 
 
-def test_snakemake_reruns_what_edits_of_values_concern(project, edit, config, jobs):
-    edited = config
-    for path in VALUES:
-        edited = changed(edited, path)
-    edit("config/config.yaml", yaml.safe_dump(edited, sort_keys=False))
-    assert to_do(project, config) == planning.reruns(jobs, planning.jobs(edited))
+def test_snakemake_reruns_what_edits_concern(project, edit, config, jobs):
+    """The edits concern values, a script, a module that two stages import, and a template.
 
-
-def test_snakemake_reruns_what_edits_of_files_concern(project, edit, config, jobs):
-    """The edits concern a script, a module that two stages import, and a template."""
+    Only jobs of chapters follow from edits of values and from edits of files.
+    """
     paths = [
         "workflow/scripts/motion.py",
         "src/impact_damper/stages/studies.py",
         "src/impact_damper/pages/templates/page.html",
     ]
+    edited = config
+    for path in VALUES:
+        edited = changed(edited, path)
+    edit("config/config.yaml", yaml.safe_dump(edited, sort_keys=False))
     for path in paths:
         edit(path, (project / path).read_text() + "\n")
-    patterns = set().union(*(FILES[path] for path in paths))
-    assert to_do(project, config) == matching(jobs, patterns)
-
-
-def test_kernels_that_were_edited_are_compiled_before_the_first_job(tmp_path):
-    project, output = Project(tmp_path), "results/harmonic_balance/figure_05a.nc"
-    marker = tmp_path / "results/kernels.compiled"
-    marker.parent.mkdir()
-    marker.write_text("the digest of other sources")
-    told = "Compiling the kernels again"
-    assert told not in project.run("-n", targets=[output])[1]
-    code, words = project.run(targets=[output])
-    assert code == 0 and words.count(told) == 1, words
-    assert marker.read_text() == compiled_kernels({"comparison": {"orders": []}})
-    (tmp_path / output).unlink()
-    code, words = project.run(targets=[output])
-    assert code == 0 and told not in words, words
+    by_values = planning.reruns(jobs, planning.jobs(edited))
+    by_files = matching(jobs, set().union(*(FILES[path] for path in paths)))
+    assert by_values & by_files <= matching(jobs, chapters(*CHAPTERS))
+    assert to_do(project, config) == by_values | by_files
 
 
 @pytest.mark.parametrize("script", SCRIPTS)
@@ -265,18 +250,6 @@ def test_sources_of_a_script_are_what_python_imports(script, config):
     own = sources(*paths)
     # `sources` omits an `__init__.py` from which no name is imported, since it affects no result.
     assert own <= found and {path.name for path in found - own} <= {"__init__.py"}
-
-
-def test_chunks(project, edit, config):
-    """After a change of `chunks` the whole study is computed again."""
-    edit("config/config.yaml", yaml.safe_dump(config | {"chunks": 2}, sort_keys=False))
-    plan = snakemake(project, "-n", "results/studies/design_plane.nc")
-    messages = re.findall(r"^Job \d+: (.*)$", plan.stdout, re.M)
-    assert sorted(messages) == [
-        "Chunk 1-of-2 of the study design_plane",
-        "Chunk 2-of-2 of the study design_plane",
-        "The study design_plane",
-    ]
 
 
 def test_touched_files_comments_and_order_rerun_nothing(project, edit, config):
@@ -299,7 +272,8 @@ def test_touched_files_comments_and_order_rerun_nothing(project, edit, config):
 
 
 def test_a_dry_run_shows_what_changed(project, edit, config):
-    edited = copy.deepcopy(config)
+    """A value, the number of chunks, and a script; a study in other chunks is computed anew."""
+    edited = copy.deepcopy(config) | {"chunks": 2}
     edited["curves"]["figure_08"]["clearance"] = 1.07
     edit("config/config.yaml", yaml.safe_dump(edited))
     edit("workflow/scripts/motion.py", "# A word.")
@@ -314,3 +288,8 @@ def test_a_dry_run_shows_what_changed(project, edit, config):
     assert yaml.safe_load(before) == {"damper": damper | {"clearance": 1.063}}
     assert yaml.safe_load(now) == {"damper": damper | {"clearance": 1.07}}
     assert "Reason: Updated input files: workflow/scripts/motion.py" in told
+    assert sorted(re.findall(r"^Job \d+: (.* design_plane)$", told, re.M)) == [
+        "Chunk 1-of-2 of the study design_plane",
+        "Chunk 2-of-2 of the study design_plane",
+        "The study design_plane",
+    ]

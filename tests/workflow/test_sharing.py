@@ -30,6 +30,7 @@ raise SystemExit
 """
 DESIGN = "results/harmonic_balance/free_h215.nc"
 BRANCHES = "results/branches/free_h215.nc"
+OTHER = "results/branches/free_h150.nc"
 
 
 def checkout(folder):
@@ -66,8 +67,23 @@ def shared(tmp_path_factory):
     cache = folder / "cache"
     cache.mkdir()
     first, second = checkout(folder / "first"), checkout(folder / "the second")
-    assert run(first, cache, DESIGN, BRANCHES) == [str(first)] * 2
+    assert run(first, cache, DESIGN, BRANCHES, OTHER) == [str(first)] * 3
     return first, second, cache
+
+
+@pytest.fixture
+def edit(shared):
+    """Edit a file of the second checkout until the test ends."""
+    originals = {}
+
+    def change(name, edited):
+        path = shared[1] / name
+        originals[path] = path.read_text()
+        path.write_text(edited(originals[path]))
+
+    yield change
+    for path, text in originals.items():
+        path.write_text(text)
 
 
 def test_a_checkout_takes_what_another_computed(shared):
@@ -77,37 +93,29 @@ def test_a_checkout_takes_what_another_computed(shared):
     assert "Nothing to be done" in told.stdout + told.stderr
 
 
-@pytest.mark.parametrize(
-    "name, old, new",
-    [
-        ("config/config.yaml", "damping: 0.215", "damping: 0.216"),
-        ("src/impact_damper/theory/single_harmonic.py", '"""', '"""A word. '),
-        ("requirements.lock", "numpy==", "# A word.\nnumpy=="),
-    ],
-)
-def test_what_differs_is_not_shared(name, old, new, shared):
-    _, second, cache = shared
-    path = second / name
-    text = path.read_text()
-    path.write_text(text.replace(old, new, 1))
-    try:
-        assert run(second, cache, DESIGN) == [str(second)]
-    finally:
-        path.write_text(text)
+def test_what_differs_is_not_shared(shared, edit):
+    """Each dataset but the last has one difference: its source, its parameters, or its name.
+
+    A dataset holds the name of its entry, and loading it under another name raises.
+    """
+
+    def others(text):
+        config = yaml.safe_load(text)
+        config["oscillators"]["h150"]["damping"] = 0.151
+        config["curves"]["again"] = config["curves"]["free_h215"]
+        return yaml.safe_dump(config)
+
+    first, second, cache = shared
+    edit("src/impact_damper/stages/harmonic_balance.py", lambda text: text + "# A word.\n")
+    edit("config/config.yaml", others)
+    found = run(second, cache, DESIGN, OTHER, "results/branches/again.nc", BRANCHES)
+    assert found == [str(second)] * 3 + [str(first)]
 
 
-def test_an_entry_of_another_name_is_not_shared(shared):
-    """A dataset holds the name of its entry, and loading it under another name raises."""
+def test_nothing_is_shared_between_versions_of_packages(shared, edit):
     _, second, cache = shared
-    path = second / "config/config.yaml"
-    text = path.read_text()
-    config = yaml.safe_load(text)
-    config["curves"]["again"] = config["curves"]["free_h215"]
-    path.write_text(yaml.safe_dump(config))
-    try:
-        assert run(second, cache, "results/harmonic_balance/again.nc") == [str(second)]
-    finally:
-        path.write_text(text)
+    edit("requirements.lock", lambda text: text + "# A word.\n")
+    assert run(second, cache, DESIGN) == [str(second)]
 
 
 def test_without_the_option_nothing_is_shared(shared):
