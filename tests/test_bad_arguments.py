@@ -241,7 +241,7 @@ def test_a_bad_argument_names_itself(name):
         derandomize=True,
         deadline=None,
         database=None,
-        max_examples=24 * len(bad),
+        max_examples=12 * len(bad),
         suppress_health_check=list(HealthCheck),
     )
     @given(st.sampled_from(sorted(bad)).flatmap(lambda k: st.tuples(st.just(k), bad[k])))

@@ -101,7 +101,7 @@ def test_cost_of_a_period_is_fitted_exactly_where_it_is_linear():
 
 
 def test_ensembles_come_to_the_same_on_any_number_of_threads(short):
-    table = scaling.cores([short], 256, 1)
+    table = scaling.cores([short], scaling.SHARE + 1, 1)
     assert (table["same_results"] == "yes").all()
     assert (table["processes_apart"] > 0).all()
     assert len(scaling.sizes([short], (1, 2), 1)) == 4

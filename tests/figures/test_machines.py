@@ -15,7 +15,6 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 CASES = {
     "robust": {},
-    "least_worst": {"choice": "least_worst"},
     "escapes": {
         "reached_displacement": [1, np.inf, 1, 1, 1],
         "coarse_displacement": [np.inf, 1, 1, 1, 1],
@@ -23,7 +22,12 @@ CASES = {
         "other_displacement": [np.inf, 1, 1],
         "sample_displacement": [1, np.inf, 1],
     },
-    "no_orbit": {"best_orbit_status": 0, "best_orbit_gap": np.nan, "stability_gap": [np.nan] * 2},
+    "least_worst_without_orbit": {
+        "choice": "least_worst",
+        "best_orbit_status": 0,
+        "best_orbit_gap": np.nan,
+        "stability_gap": [np.nan] * 2,
+    },
 }
 
 

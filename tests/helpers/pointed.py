@@ -1,10 +1,14 @@
 """Kernels (functions compiled by numba) that take pointers, called with arrays."""
 
+import ctypes
 from functools import cache
 
 import numba
 
+from impact_damper.kernel.by_address import compiled
 from impact_damper.kernel.memory import pointer
+
+NUMBERS = ctypes.POINTER(ctypes.c_double)
 
 
 @cache
@@ -20,3 +24,12 @@ def pointed(kernel):
         kernel(pointer(a), pointer(d))
 
     return lambda *arrays: (one if len(arrays) == 1 else two)(*arrays)
+
+
+def part(module, name):
+    """Return a kernel of a module made by `instance` as a function of arrays.
+
+    Its machine code is cached with that of the package.
+    """
+    call = compiled(getattr(module, name)).ctypes
+    return lambda *arrays: call(*[each.ctypes.data_as(NUMBERS) for each in arrays])

@@ -1,4 +1,4 @@
-"""The kernels against the 80-bit reference: 10 080 random starts, each run over 3 cycles."""
+"""The kernels against the 80-bit reference: 10 200 random starts, each run over 3 cycles."""
 
 import numpy as np
 import pytest

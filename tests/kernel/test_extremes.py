@@ -107,7 +107,7 @@ def scale(least, most):
     derandomize=True,
     deadline=None,
     database=None,
-    max_examples=60,
+    max_examples=40,
     suppress_health_check=list(HealthCheck),
 )
 @given(

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from helpers.pointed import pointed
+from helpers.pointed import part
 from helpers.springs import SPRINGS
 from numpy.polynomial import Polynomial
 from numpy.testing import assert_allclose
@@ -68,8 +68,8 @@ def filled(lanes, p, state, phase):
         a[module.SINE // lanes, i] = size * math.sin(ANGLE)
     flat = a.ravel()
     if lanes == 1:
-        pointed(module.constant_series)(flat)
-    pointed(getattr(module, f"{phase}_series"))(flat)
+        part(module, "constant_series")(flat)
+    part(module, f"{phase}_series")(flat)
     return module, flat
 
 
@@ -155,8 +155,8 @@ def test_tangents_solve_the_variational_equations(lanes, p, phase):
     d[:4, lane] = 0.5, -0.8, 0.3, 1.2
     # With several lanes a tangent belongs to the motion in its lane.
     d = d.ravel()
-    pointed(getattr(module, f"{phase}_squares"))(a)
-    pointed(getattr(module, f"{phase}_tangent_series"))(a, d)
+    part(module, f"{phase}_squares")(a)
+    part(module, f"{phase}_tangent_series")(a, d)
     first, second = (
         Polynomial(d[columns * place + lane :: columns][: order + 1]) for place in (4, 4 + LENGTH)
     )
@@ -255,7 +255,7 @@ def test_constant_series(p):
     module = instance(1)
     a = np.zeros(module.SIZE)
     a[: packed.COUNT] = p
-    pointed(module.constant_series)(a)
+    part(module, "constant_series")(a)
     k = np.arange(max(ORDERS.values()) - 1)
     signs = np.array([1, -1, -1, 1])[k % 4]
     factorials = np.array([math.factorial(i) for i in k], float)
@@ -285,7 +285,7 @@ def test_tail_and_values(lanes, orders, phase):
     searched = ["flight_slope"] if phase == "flight" else ["contact_bound", "contact_values"]
     flat = a.ravel()
     for each in searched:
-        pointed(getattr(module, each))(flat)
+        part(module, each)(flat)
     a = flat.reshape(a.shape)
     places = {"X": (module.Z1, module.Z1_SLOPE)}
     if phase == "contact":

@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from helpers.known_orbits import DESIGN, INELASTIC, PAPER
-from helpers.pointed import pointed
+from helpers.pointed import part
 from helpers.sampling import sample
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -28,7 +28,7 @@ from impact_damper.system.parameters import Damper, Oscillator
 HAIR = Fraction(1, 10**12)
 DEGREE = 7
 coefficients = st.lists(st.integers(-200, 200), min_size=2, max_size=DEGREE + 1)
-examples = settings(max_examples=150, deadline=None, derandomize=True)
+examples = settings(max_examples=100, deadline=None, derandomize=True)
 widths = pytest.mark.parametrize("lanes", [1, 16])
 expected = pytest.mark.parametrize("expecting", [(), ("expect_contact",)], ids=["any", "expected"])
 
@@ -89,7 +89,7 @@ def found(lanes, searched, series_given, length, **numbers):
         a[rows[name]] = number
     flat = a.ravel()
     for each in searched:
-        pointed(getattr(module, each))(flat)
+        part(module, each)(flat)
     return a[rows["T"], lane], a[rows["MODE"], lane] == module.MET, a[rows["WALL"], lane]
 
 

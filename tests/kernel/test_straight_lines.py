@@ -7,7 +7,7 @@ import textwrap
 
 import numpy as np
 import pytest
-from helpers.pointed import pointed
+from helpers.pointed import part, pointed
 from llvmlite import ir
 from numpy.testing import assert_allclose, assert_array_equal
 
@@ -142,11 +142,11 @@ def test_forcing_near_a_known_one(time, shift):
     a[module.SHAKER] = 1.2
     if math.isfinite(shift):
         a[module.TIME], a[module.T] = time - 0.25, 0.25 + shift
-        pointed(module.look_ahead)(a)
+        part(module, "look_ahead")(a)
     else:
         a[module.KNOWN] = shift
     a[module.TIME] = time
-    pointed(module.forcing)(a)
+    part(module, "forcing")(a)
     found = [a[module.COSINE], a[module.SINE]]
     assert_allclose(
         found,
@@ -169,7 +169,7 @@ def test_forcing_of_lanes():
     a[module.FORCE // 16], a[module.UNBALANCE // 16] = force, unbalance
     a[module.SHAKER // 16] = shaker
     amplitude = force + unbalance * frequency**2 + shaker / frequency**2
-    pointed(module.forcing)(a.ravel())
+    part(module, "forcing")(a.ravel())
     assert_allclose(
         a[module.COSINE // 16], amplitude * np.cos(frequency * time), rtol=0, atol=1e-12
     )

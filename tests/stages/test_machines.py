@@ -12,7 +12,7 @@ import impact_damper as idm
 from impact_damper.data.variables import VARIABLES
 from impact_damper.stages import design_steps, machines
 
-MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
+MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.02, force=40)
 SMALL = {
     "mass": 1.2,
     "band": (20.4, 20.7),

@@ -42,7 +42,7 @@ def test_the_small_configuration_is_accepted():
     check_configuration(SMALL)
 
 
-@settings(fuzz, max_examples=200)
+@settings(fuzz, max_examples=100)
 @given(broken)
 def test_what_is_broken_is_told(made):
     lines = problems(made.config())

@@ -128,9 +128,9 @@ def leaves(value, path=()):
 
 def changed(config, path):
     """Return the configuration with another value at a path; None for other kinds of values."""
-    config = copy.deepcopy(config)
-    place = config
+    config = place = dict(config)
     for key in path[:-1]:
+        place[key] = dict(place[key])
         place = place[key]
     value = place[path[-1]]
     if path[-1] == "oscillator":
