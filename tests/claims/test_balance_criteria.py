@@ -3,7 +3,8 @@
 The data are those of `helpers.made_up.world`, with which all claims are reproduced. A change makes
 a criterion just hold or just fail. Wp is the peak frequency without the damper.
 
-Z1 is the displacement of the primary mass and rm the mass ratio.
+Z1 is the displacement of the primary mass, rm the mass ratio and omega_l the linear frequency.
+Equation (7) of the paper is harmonic balance with elastic contacts.
 """
 
 import numpy as np
@@ -66,7 +67,7 @@ BORDERS = [
     ("3", assign("design_orbit", "figure_03a", orbit_multiplier_real=1.01), DIFFERENT),
     ("3", double_period(0.9), REPRODUCED),
     ("3", double_period(0.97), DIFFERENT),
-    # widths at omega_l = 0 and 1: 0.1 and 0.126
+    # the widths of the band at omega_l = 0 and 1 are 0.1 and 0.126
     ("4", scale("harmonic_balance", "figure_03b", band_width=0.85), REPRODUCED),
     ("4", scale("harmonic_balance", "figure_03b", band_width=0.78), NOT_REPRODUCED),
     ("4", assign("design_orbit", "figure_03b", orbit_multiplier_real=0.99), REPRODUCED),

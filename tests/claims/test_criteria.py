@@ -5,7 +5,8 @@ a criterion just hold or just fail.
 
 W is the forcing frequency, e the restitution and h the damping of the oscillator. Free means
 without the damper. The quiet orbit is the small symmetric periodic motion for which a damper is
-designed.
+designed. The subharmonic is a motion of period 3, that is of three forcing cycles. A motion is
+violent if it exceeds half of the free resonance.
 """
 
 import numpy as np
@@ -127,7 +128,7 @@ def test_relative_rise_from_the_optimum(steepness, expected, data):
     [(0.88, REPRODUCED), (0.87, DIFFERENT), (1.04, REPRODUCED), (1.06, NOT_REPRODUCED)],
 )
 def test_optimum_over_that_of_harmonic_balance(factor, expected, data):
-    """The made-up optimum is 5 % above the optimum by (7)."""
+    """The made-up optimum is 5 % above the optimum by harmonic balance."""
     for name in data["optimum"]:
         scale(data, "optimum", name, analytical_optimum=factor)
     assert verdict("9", data) == expected

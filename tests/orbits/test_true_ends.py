@@ -1,7 +1,8 @@
-"""Branches to their ends: bifurcations and grazings against 80-bit arithmetic, and ends.
+"""Ends of branches, and bifurcations and grazings on them compared with 80-bit arithmetic.
 
-W is the forcing frequency. Multipliers are Floquet multipliers. The quiet orbit is the small
-symmetric periodic motion for which a damper is designed.
+A branch is the curve of the periodic orbits over a parameter. At a grazing the loose mass reaches a
+wall with zero speed. W is the forcing frequency. Multipliers are Floquet multipliers. The quiet
+orbit is the small symmetric periodic motion for which a damper is designed.
 """
 
 import numpy as np
@@ -31,7 +32,11 @@ def quiet():
 
 
 def test_branch_ends_at_the_range(quiet):
-    """Through multipliers of 1e7, and from four contacts a period to two."""
+    """The branch reaches both ends of the range of W.
+
+    On the way a multiplier exceeds 1e7, and the number of contacts per period changes from four to
+    two.
+    """
     assert quiet.ends == ("range_ends", "range_ends") and quiet.lost == 0
     assert {quiet.points[0].value, quiet.points[-1].value} == set(SPAN)
     assert max(abs(point.orbit.multipliers[0]) for point in quiet.points) > 1e7
@@ -57,7 +62,10 @@ def test_every_event_is_where_80_bit_arithmetic_has_it(quiet):
 
 
 def test_fold_and_loss_of_symmetry_beside_a_grazing(quiet):
-    """All three lie within 1e-10 of W, where the branch turns from four contacts to two."""
+    """Fold, loss of symmetry and grazing lie within 1e-10 in W.
+
+    At the grazing the number of contacts changes from four to two.
+    """
     kinds = [event.kind for _, event in quiet.events]
     grazing = kinds.index("grazing")
     near = [
@@ -72,7 +80,7 @@ def test_fold_and_loss_of_symmetry_beside_a_grazing(quiet):
 
 @pytest.mark.thorough
 def test_ends_of_all_branches_of_a_damper():
-    """Branches of the inelastic damper end at the range, at another branch, or are closed."""
+    """Each branch ends at the range or at another branch, or it is closed."""
     response = frequency_response(PAPER, INELASTIC, [1.15, 1.2], starts=12)
     branches = complete_branches(PAPER, INELASTIC, (1.1, 1.4), [response])
     ends = branches["branch_end"].values

@@ -38,7 +38,8 @@ def test_harmonics_and_restitution_of_an_orbit(restitution):
         complex(2 * (motion[name] * turn).mean())
         for name in ("displacement", "relative_displacement")
     )
-    # the record samples 64 times a period, and contacts are kinks: harmonics near the 64th alias
+    # `Orbit.record` takes the first harmonics from 64 samples of a period. The kinks of the motion
+    # at contacts cause the tolerance of 2e-4 below.
     for phase, reference in (
         ("orbit_phase_relative", second),
         ("orbit_phase_loose", first - second),
@@ -62,7 +63,7 @@ def test_an_orbit_that_repeats_sooner_is_told_and_not_followed():
 
 
 def test_only_neimark_sacker_points_have_tori_and_the_table_lists_each_once():
-    """A torus surrounds the orbit of period 3 of figure 10; two branches meet its point."""
+    """The stable torus of the damper of figure 10 begins at a point that lies on two branches."""
     damper = Damper(0.25, 1.0, restitution=0.75)
 
     def family(value):

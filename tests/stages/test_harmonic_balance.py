@@ -1,4 +1,4 @@
-"""Design rule (19) and response by harmonic balance, compared with closed forms and limits.
+"""Design rule (19) of the paper and response by harmonic balance, against closed forms and limits.
 
 Wp is the frequency of the resonance peak without the damper.
 """
@@ -25,7 +25,7 @@ def response():
 
 @pytest.mark.parametrize("linear, rounded", [(0.0, 2.07), (1.0, 1.83), (1.5, 1.57)])
 def test_optimum_clearance(linear, rounded):
-    """With the clearance of rule (19) the rigid balance has a solution of amplitude 0 at Wp."""
+    """With the clearance of rule (19), the balance with rigid walls gives amplitude 0 at Wp."""
     oscillator = Oscillator(0.215, linear)
     clearance = optimum_clearance(oscillator, 0.12)
     assert_allclose(clearance, rounded, atol=5e-3)

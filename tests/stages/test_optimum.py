@@ -92,10 +92,10 @@ def test_quiet_motion_is_no_larger_than_the_largest_reached(sweeps):
 
 
 def test_analytical_optimum_has_no_amplitude_and_tends_to_the_rule():
-    """The optimum by (7) has a = 0, which requires rm W^2 b = 1 and r1 B(b) = 1.
+    """By harmonic balance Z1 has the amplitude 0 at the optimum.
 
-    b is the amplitude of Z2, and r1 B(b) the amplitude of the contact force, which grows as
-    (b - d0)^(3/2).
+    This requires rm W^2 b = 1 and r1 B(b) = 1. Here b is the amplitude of Z2, and r1 B(b) the
+    amplitude of the contact force, which grows as (b - d0)^(3/2).
     """
     excess = []
     for stiffness in (2e3, 2e5, 2e7):

@@ -86,7 +86,7 @@ def assert_energy_balance(motion, frequency):
 
 
 def test_free_subharmonic_is_absent_at_low_frequencies(damped):
-    """With h = 0.215 the subharmonic begins above W = 1.7."""
+    """With the paper's damping of 0.215 the subharmonic begins above W = 1.7."""
     lower, upper = damped.free_subharmonic_frequency.values
     assert 1.7 < lower < 1.72 and 2.07 < upper < 2.08
 

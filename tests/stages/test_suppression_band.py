@@ -1,6 +1,7 @@
 """The suppression band by harmonic balance, compared with solutions on both sides of its edges.
 
-Wp is the frequency of the resonance peak without the damper.
+Wp is the frequency of the resonance peak without the damper. The quiet motion is the small motion
+for which a damper is designed.
 """
 
 import numpy as np
@@ -31,7 +32,10 @@ def stable_amplitudes(frequency, oscillator=CUBIC, damper=PAPER):
 
 
 def test_band_of_the_paper(band):
-    """A large antiphase motion is stable below the lower edge; above it only the quiet one is."""
+    """Below the lower edge a large motion is stable too, above it the quiet motion alone.
+
+    The large motion is in antiphase with the forcing, so its amplitude is negative.
+    """
     lower, upper = band.edge_frequency.values
     assert band.band_status == flag("band_status", "found")
     assert lower < band.peak_frequency < upper

@@ -5,7 +5,7 @@ rigid walls. a is the amplitude of the primary mass, rm the mass ratio, d0 the c
 forcing frequency, with the value Wp at the peak of the response without the damper. Rule (19) is
 rm Wp^2 d0 = 1. A solution is called impacting if the loose mass touches the walls.
 
-Wp is the frequency of the resonance peak without the damper. A stage is a step of the workflow.
+A stage is a step of the workflow.
 """
 
 import numpy as np

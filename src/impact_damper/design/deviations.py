@@ -163,7 +163,7 @@ def sample_tolerances(task, gap, frequency, limit, **running) -> Cloud:
 def choose_with_tolerances(task, comparison, choice, **running) -> Choice:
     """Return the choice of a robust gap, moved to where all tolerances together do least harm.
 
-    At a robust gap, deviations of the gap alone leave the damper quiet. Several robust gaps are
+    At a robust gap, deviations of the gap alone leave the motions quiet. Several robust gaps are
     therefore run at samples and corners of all tolerances. If at some gaps the share of quiet
     starts is large enough at every sample and corner, the gap among these with the smallest worst
     displacement is returned. Otherwise the gap whose smallest share is largest is returned.
@@ -206,7 +206,7 @@ def promise(task, kind, samples, unseen) -> str:
     The flag says what a design promises, and whether new starts confirm the promise. A design with
     a quiet gap promises that at its nominal values, at each frequency, at least `task.share` of the
     starts lead to quiet motions. A robust design promises this within all tolerances, provided that
-    the samples and corners of the tolerances agree.
+    the samples and corners of the tolerances agree with this claim.
 
     Parameters
     ----------

@@ -23,8 +23,8 @@ def follow_line(
     Parameters
     ----------
     correct : callable
-        Function of a point and a predicted state. It returns an orbit with the attribute `state`,
-        or None if it fails, and a status, which is "found" for an orbit.
+        Function of a point and a predicted state. It returns a pair: an orbit with the attribute
+        `state` and the status "found", or None and another status, which names the failure.
     first, last : array, shape (m,)
         Points.
     orbit

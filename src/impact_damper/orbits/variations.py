@@ -1,9 +1,9 @@
 """First and second variations of a motion: derivatives of its end and of its derivative matrix.
 
-The first state is the one at which a motion begins. Let y be the state (Z1, Z1', Z2, Z2'), f its
-time derivative, A the Jacobian of f, and P the derivative of y with respect to the first state. A
-direction d is a simultaneous change of the first state, by s, and of the parameters. At a given
-phase W T of the forcing it changes y by
+A motion is stored at N points (`Path`). The first state is the one at which it begins. Let y be the
+state (Z1, Z1', Z2, Z2'), f its time derivative, A the Jacobian of f, and P the derivative of y with
+respect to the first state. A direction d is a simultaneous change of the first state, by s, and of
+the parameters. At a given phase W T of the forcing it changes y by
 
     y_d = P (s + integral of P^-1 f_d dT)      (Duhamel's integral)
 
@@ -155,7 +155,7 @@ class Variations:
         Parameters
         ----------
         first, parameters
-            As in `changes`, for variations by each parameter.
+            As in `changes`. Here each direction must be the change of one parameter alone.
         """
         changes = self.changes(first, parameters)
         inner = self._smooth(changes[0], parameters) + self._at_events(changes[2], parameters)

@@ -153,7 +153,7 @@ def hill_table(solutions, exact):
     trace = -oscillator.damping
     if damper is not None:
         # Sum of the Floquet exponents (Liouville's theorem): the average over a cycle of -h and,
-        # during contact, also of -c (1 + 1/rm).
+        # during contact, also of -c (1 + 1/rm), with the damping h and the dashpot c of the wall.
         trace -= damper.dashpot * (1 + 1 / damper.mass_ratio) * exact.touching / period
     multipliers = np.full((len(solutions), 2 if damper is None else 4), complex(np.nan, np.nan))
     status = np.full(len(solutions), flag("hill_status", "not_tried"))

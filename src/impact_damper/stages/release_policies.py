@@ -94,7 +94,7 @@ def release_policies(
     noisy_frequencies : sequence of float
         Frequencies, among `frequencies`, at which noise, delay and a wrong model are studied.
     trials : int
-        Trials of each policy; half as many with each disturbance, and a quarter of them for the
+        Trials of each policy; half as many with each disturbance, and a quarter as many for the
         clairvoyant bound.
     tested : int
         Releases that test the release set, spread evenly over the phases.
