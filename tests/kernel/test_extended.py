@@ -1,4 +1,7 @@
-"""The 80-bit reference against another method, heyoka.py in 80 bits, laws, and other tolerances."""
+"""The 80-bit reference program against other methods, laws of mechanics, and other tolerances.
+
+One of the other methods is the Taylor integrator heyoka.py, run with 80-bit numbers.
+"""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""Trajectories and contacts against heyoka.py with terminal events."""
+"""Trajectories and contacts against heyoka.py, a Taylor integrator that locates events."""
 
 import math
 

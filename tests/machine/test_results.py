@@ -186,7 +186,7 @@ def test_results_do_not_depend_on_the_scales(name, other_length):
         values = usual[each].values
         if VARIABLES[each].quantity == "mixed" or values.dtype.kind not in "fi":
             continue
-            # these end iterations at tolerances in the scales, so they may differ
+        # these end iterations at tolerances in the scales, so they may differ
         numerical = each in ("periods_run", "run_length") or "multiplier" in each
         if not numerical and "phase" not in each:
             np.testing.assert_allclose(other[each], values, rtol=2e-5, atol=2e-7, err_msg=each)

@@ -50,8 +50,8 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
     dict of numpy.ndarray, shape (n, m)
         `life_ends`: number of runs that ended. `mean_life`: mean life in forcing cycles, NaN if no
         run ended. `mean_life_lower` and `mean_life_upper`: ends of its 95 % interval; the upper end
-        is infinite if no run ended. For motions that are not chaotic the number is -1 and the other
-        values are NaN.
+        is infinite if no run ended. For motions that are not chaotic `life_ends` is -1 and the
+        other values are NaN.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}

@@ -35,7 +35,7 @@ class Solution(NamedTuple):
     iterations : int
         Number of steps of Newton's method.
     residual : float
-        Largest absolute entry of the real residual.
+        Largest modulus of an entry of the residual, in the real form of `Balance.to_real`.
     """
 
     balance: Balance
