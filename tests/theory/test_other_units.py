@@ -1,4 +1,4 @@
-"""The same system in other units: an exact law between sets of parameters."""
+"""A system and the same system in other units of length and time have the same results."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Harmonic balance against quadrature, the equations as printed, scans and limits."""
+"""Harmonic balance against numerical integrals, the printed equations, grids, and limits."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,7 @@
-"""The one-third subharmonic of the free oscillator: a symmetric motion of period 3."""
+"""The one-third subharmonic of the free oscillator (without damper), which has period 3.
+
+The motion is symmetric: half a period later it is its own mirror image.
+"""
 
 from typing import NamedTuple
 
@@ -107,7 +110,8 @@ def switched_on(oscillator, p, state, loose, generator):
     state : array, shape (4,)
         State of the free subharmonic at W T = pi/2.
     loose : array, shape (m, 4)
-        The last two columns are Z2 and Z2' at the switching. Every second Z2' is replaced by 0.
+        The last two columns are Z2 and Z2' at the switching. In every second row Z2' is replaced by
+        0, so that the loose mass moves with the primary mass.
     generator : numpy.random.Generator
 
     Returns
