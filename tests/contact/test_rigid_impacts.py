@@ -1,4 +1,7 @@
-"""The rigid-impact model: laws of one impact, volume, derivative, SciPy, and compliant contact."""
+"""The rigid-impact model: laws of one impact, volume, derivative, SciPy, and compliant contact.
+
+Symbols are as in `system.parameters`.
+"""
 
 import math
 

@@ -1,6 +1,9 @@
 """The 80-bit reference program against other methods, laws of mechanics, and other tolerances.
 
 One of the other methods is the Taylor integrator heyoka.py, run with 80-bit numbers.
+
+Z2 is the displacement of the primary mass relative to the loose mass. Numbers in brackets are
+equations of the paper.
 """
 
 import json

@@ -1,4 +1,7 @@
-"""Trajectories and contacts against heyoka.py, a Taylor integrator that locates events."""
+"""Trajectories and contacts against heyoka.py, a Taylor integrator that locates events.
+
+Z2 is the displacement of the primary mass relative to the loose mass.
+"""
 
 import math
 

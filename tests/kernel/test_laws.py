@@ -1,4 +1,7 @@
-"""Laws that hold whatever the integrator: momentum, energy, volume, symmetry, restitution."""
+"""Laws that hold whatever the integrator: momentum, energy, volume, symmetry, restitution.
+
+Symbols are as in `system.parameters`. Numbers in brackets are equations of the paper.
+"""
 
 import math
 

@@ -1,4 +1,7 @@
-"""Coefficients of the Taylor series put back into the equations of motion."""
+"""Coefficients of the Taylor series put back into the equations of motion.
+
+Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
+"""
 
 import ast
 import math

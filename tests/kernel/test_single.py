@@ -1,4 +1,7 @@
-"""Events against exact arithmetic, steps against their order, tangents against differences."""
+"""Events against exact arithmetic, steps against their order, tangents against differences.
+
+Symbols are as in `system.parameters`.
+"""
 
 import math
 from fractions import Fraction

@@ -1,4 +1,7 @@
-"""The closed form of the symmetric motion against rigid impacts located by SciPy's events."""
+"""The closed form of the symmetric motion against rigid impacts located by SciPy's events.
+
+Symbols are as in `system.parameters`.
+"""
 
 import numpy as np
 import pytest

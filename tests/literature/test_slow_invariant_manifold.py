@@ -2,6 +2,8 @@
 
 The theory is of first order in the mass ratio. Its thresholds, optimum and ring-down are compared
 with exact motions with rigid impacts. The error must fall in proportion to the mass ratio.
+
+Symbols are as in `system.parameters`.
 """
 
 import numpy as np

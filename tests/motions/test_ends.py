@@ -1,4 +1,7 @@
-"""Motions that lead to no orbit escape over a barrier of a softening spring, or come to rest."""
+"""Motions that lead to no orbit escape over a barrier of a softening spring, or come to rest.
+
+Z1 is the displacement of the primary mass.
+"""
 
 import math
 

@@ -1,4 +1,7 @@
-"""Stable orbits with small basins of attraction, found by Newton's method beside other motions."""
+"""Stable orbits with small basins of attraction, found by Newton's method beside other motions.
+
+Z1 is the displacement of the primary mass.
+"""
 
 import numpy as np
 import pytest

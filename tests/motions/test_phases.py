@@ -1,4 +1,7 @@
-"""States of datasets carry their phase, and every function that takes a state begins there."""
+"""States of datasets carry their phase, and every function that takes a state begins there.
+
+W is the forcing frequency, and T the time.
+"""
 
 import numpy as np
 import pytest

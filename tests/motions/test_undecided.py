@@ -1,4 +1,7 @@
-"""Motions that settle on no orbit, against spectra, multipliers and their own neighbours."""
+"""Motions that settle on no orbit, against spectra, multipliers and their own neighbours.
+
+Z1 is the displacement of the primary mass.
+"""
 
 import math
 

@@ -2,6 +2,8 @@
 
 The tests go through the fields of the dataclass, so a new field is tested in all places without a
 change of this module. A message names the file in which its term is missing.
+
+Z1 is the displacement of the primary mass.
 """
 
 import re

@@ -1,4 +1,7 @@
-"""Parameters: their meaning, and the errors for wrong values."""
+"""Parameters: their meaning, and the errors for wrong values.
+
+Symbols are as in `system.parameters`. Numbers in brackets are equations of the paper.
+"""
 
 import math
 from functools import partial

@@ -1,4 +1,7 @@
-"""Springs of any sign, any forcing: linear limit, folds, peaks, and SciPy."""
+"""Springs of any sign, any forcing: linear limit, folds, peaks, and SciPy.
+
+Symbols are as in `system.parameters`. Numbers in brackets are equations of the paper.
+"""
 
 import numpy as np
 import pytest

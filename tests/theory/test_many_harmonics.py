@@ -1,4 +1,8 @@
-"""Harmonic balance against equations (7), sampled forces, differences, and exact orbits."""
+"""Harmonic balance against equations (7), sampled forces, differences, and exact orbits.
+
+Z2 is the displacement of the primary mass relative to the loose mass, W the forcing frequency, and
+T the time. Numbers in brackets are equations of the paper.
+"""
 
 from dataclasses import replace
 

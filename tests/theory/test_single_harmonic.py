@@ -1,4 +1,7 @@
-"""Harmonic balance against numerical integrals, the printed equations, grids, and limits."""
+"""Harmonic balance against numerical integrals, the printed equations, grids, and limits.
+
+Symbols are as in `system.parameters`. Numbers in brackets are equations of the paper.
+"""
 
 import numpy as np
 import pytest

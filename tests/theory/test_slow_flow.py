@@ -1,4 +1,7 @@
-"""The slow flow against the polar equations (17), its Jacobian against differences."""
+"""The slow flow against the polar equations (17), its Jacobian against differences.
+
+Numbers in brackets are equations of the paper.
+"""
 
 import numpy as np
 import pytest

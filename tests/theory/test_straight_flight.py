@@ -1,4 +1,8 @@
-"""Closed forms for the optimum clearance, against sampled motions, laws, and exact orbits."""
+"""Closed forms for the optimum clearance, against sampled motions, laws, and exact orbits.
+
+Symbols of the system are as in `system.parameters`, those of the model as in
+`theory.straight_flight.Flight`.
+"""
 
 import numpy as np
 import pytest

@@ -20,6 +20,8 @@ ellipse tend to the orbit.
 The scalar equation for r is integrated numerically. In each of STEPS steps in a forcing cycle a
 coefficient has the larger of its values at the ends of the step. In place of |R| r(P) < r0 the
 program requires |R| r(P) < FACTOR r0.
+
+Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
 """
 
 from typing import NamedTuple

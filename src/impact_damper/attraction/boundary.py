@@ -7,6 +7,8 @@ stable direction of the saddle. Where neighbouring points of the curve are furth
 given spacing, points are inserted: the midpoint of their images one cycle later is integrated
 backwards. The errors of this interpolation shrink, because backwards in time all nearby curves
 approach the stable manifold.
+
+Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
 """
 
 import math

@@ -2,6 +2,9 @@
 
 No proven neighbourhoods of attractors exist for motions with contacts. Therefore each motion is run
 until it has settled (`motions.watch`).
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, and T the time.
 """
 
 import numpy as np

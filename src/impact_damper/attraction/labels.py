@@ -2,6 +2,8 @@
 
 A motion is run from strobe to strobe (times with the forcing phase W T = pi/2) until it lies in a
 proven neighbourhood of an attracting orbit (`attraction.attractors`).
+
+Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
 """
 
 import math

@@ -3,6 +3,9 @@
 `contact_law` defines both. Random starts lead to motions, and each contact of two of these motions
 is recorded ("logged"): the smallest settled motion with contacts, and the largest motion with
 contacts, settled or not.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, and T the time.
 """
 
 from dataclasses import replace

@@ -5,6 +5,8 @@ the loose mass. An impact changes Z2' to -e Z2', with the restitution e, and con
 Z1' + rm (Z1' - Z2'), with the mass ratio rm. The model is the limit of equations (20) to (25) for
 an infinite contact stiffness r1. In this limit an impact takes no time, so forces other than the
 contact force change no velocity during the impact.
+
+Numbers in brackets are equations of the paper.
 """
 
 import math

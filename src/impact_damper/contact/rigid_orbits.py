@@ -11,6 +11,8 @@ wall takes the time tc. The corrected ("mended") rigid walls imitate it in two w
 
 The error of the orbit is of order 1/sqrt(r1) between plain rigid walls and of order 1/r1 between
 corrected walls.
+
+Symbols are as in `system.parameters`.
 """
 
 from typing import NamedTuple

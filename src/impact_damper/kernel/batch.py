@@ -4,6 +4,8 @@ All trajectories of one step must be in the same phase, in flight or in contact.
 holds more trajectories than there are lanes and has a queue for each kind of step. Each step takes
 its trajectories from the longest queue. The result for a trajectory does not depend on the other
 trajectories.
+
+Z1 is the displacement of the primary mass, and Z2 its displacement relative to the loose mass.
 """
 
 from typing import NamedTuple

@@ -30,6 +30,8 @@ last. The lines use these names:
     P0, P2, ...   pairs of neighbours (s0, s1), (s2, s3), ...; with one lane (a single trajectory)
                   each pair is in one register
     Z0, Z2, ...   3 P0, 3 P2, ...
+
+Symbols are as in `system.parameters`. Numbers in brackets are equations of the paper.
 """
 
 

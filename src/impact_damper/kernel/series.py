@@ -6,6 +6,8 @@ kernels. With one lane the code works on single numbers and pairs of numbers, an
 times as fast as loops over arrays. With several lanes the code consists of vector instructions and
 is three times as fast again. All numbers of a step stand in one flat array. It consists of rows
 with one number for each lane; the function `rows` returns the number of each row.
+
+Z1 is the displacement of the primary mass, and Z2 its displacement relative to the loose mass.
 """
 
 from itertools import chain

@@ -3,6 +3,8 @@
 A state is (Z1, Z1', Z2, Z2') together with `side`: the wall that the loose mass touches, -1 or 1,
 or 0 in flight. Tangents, solutions of the variational equations, can be integrated with the
 trajectory.
+
+Symbols are as in `system.parameters`.
 """
 
 import numpy as np

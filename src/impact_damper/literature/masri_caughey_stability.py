@@ -1,8 +1,9 @@
 """Find the ends of the stability of symmetric motions with two impacts in a forcing cycle.
 
-The motions are those of `masri_caughey`. For each ratio s = w/d0 of the speed w of the loose mass
-to the clearance d0 there is one motion. Ranges of s with stable motions are found on a grid, and
-the ends of these ranges by bisection.
+The motions are those of `masri_caughey`. Z1 is the displacement of the primary mass, and W the
+forcing frequency. For each ratio s = w/d0 of the speed w of the loose mass to the clearance d0
+there is one motion. Ranges of s with stable motions are found on a grid, and the ends of these
+ranges by bisection.
 """
 
 from typing import NamedTuple

@@ -1,4 +1,7 @@
-"""A catalogue of the distinct motions at one value of a swept parameter."""
+"""A catalogue of the distinct motions at one value of a swept parameter.
+
+Z1 is the displacement of the primary mass.
+"""
 
 import numpy as np
 

@@ -2,6 +2,9 @@
 
 Kernels (compiled functions) release Python's global interpreter lock, so threads run in parallel.
 Each motion is computed separately, so results do not depend on the number of threads.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, and T the time.
 """
 
 from concurrent.futures import ThreadPoolExecutor

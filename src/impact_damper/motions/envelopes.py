@@ -3,6 +3,8 @@
 Each window has its own parameters. The kernel of a step requires a fixed forcing frequency. In a
 sweep the frequency is fixed in each forcing cycle and changes at the strobe, the phase W T = pi/2,
 where the force is zero. Therefore neither the phase of the forcing nor the force jumps.
+
+Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
 """
 
 import numpy as np

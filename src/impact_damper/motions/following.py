@@ -4,6 +4,9 @@ The functions step towards a given value of the parameter and stop at folds. By 
 `orbits.continuation` steps along the branch and passes folds. A step predicts the state at the next
 value of the parameter and corrects it by Newton's method, which the caller passes as a function. A
 step that fails is halved.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, and T the time.
 """
 
 import math

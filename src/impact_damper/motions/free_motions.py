@@ -2,6 +2,8 @@
 
 A search for motions with the damper must cover at least the displacements and speeds of the free
 motions.
+
+Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
 """
 
 from functools import lru_cache

@@ -1,6 +1,9 @@
 """The one-third subharmonic of the free oscillator (without damper), which has period 3.
 
 The motion is symmetric: half a period later it is its own mirror image.
+
+Z2 is the displacement of the primary mass relative to the loose mass, W the forcing frequency, and
+T the time.
 """
 
 from typing import NamedTuple

@@ -4,6 +4,8 @@ A motion that is chaotic for some hundred cycles may still be a transient. Runs 
 together on such a motion are independent after a few tens of cycles. They end at random times, and
 their lives are distributed exponentially. The number of runs that end, divided by the sum of the
 lives of all runs, therefore estimates the rate of ending, even if some runs do not end.
+
+Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
 """
 
 from dataclasses import replace

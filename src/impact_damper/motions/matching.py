@@ -5,6 +5,8 @@ Chaotic motions, quasi-periodic motions and motions without contact are matched 
 have the same outcome and period and similar sizes; pairs with the closest sizes are matched first.
 A chaotic motion may be small during its measurement. Therefore its reach, the largest distance from
 the origin in the second half of its run, is compared too.
+
+Z1 is the displacement of the primary mass.
 """
 
 import math

@@ -1,6 +1,9 @@
 """Measurements of motions: largest |Z1|, contacts, harmonics, sampled states, first collisions.
 
 A record is an element of an array of the type MOTION. It holds the results for one motion.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, and T the time.
 """
 
 import math

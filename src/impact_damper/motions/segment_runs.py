@@ -2,6 +2,8 @@
 
 In multiple shooting an orbit is a chain of segments. Each segment begins in a state of its own, and
 Newton's method makes the end of each segment equal to the beginning of the next.
+
+Z1 is the displacement of the primary mass.
 """
 
 import numpy as np

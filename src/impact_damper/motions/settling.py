@@ -1,6 +1,9 @@
 """Run many motions side by side until they settle.
 
 `watch` judges each motion at every strobe, the time of the phase W T = pi/2 in a forcing cycle.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, and T the time.
 """
 
 import math

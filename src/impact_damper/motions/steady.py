@@ -1,4 +1,8 @@
-"""The steady motion that a state leads to, and one period of this motion."""
+"""The steady motion that a state leads to, and one period of this motion.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, and T the time.
+"""
 
 import numpy as np
 

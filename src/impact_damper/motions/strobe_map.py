@@ -2,6 +2,9 @@
 
 The strobe is the time in each forcing cycle at which the forcing has the phase W T = pi/2. It lies
 midway between the contacts of a damper at its design point, which occur near W T = 0 and pi.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, and T the time.
 """
 
 import math

@@ -5,6 +5,8 @@ searches for stable orbits beside these motions. Each settled motion is then fol
 method to the next value, upward and downward, so that motions with small basins of attraction are
 found too. A branch ends where its motion cannot be followed. Motions that have not settled are
 matched between neighbouring values by `motions.matching`.
+
+Z1 is the displacement of the primary mass.
 """
 
 from itertools import count, pairwise

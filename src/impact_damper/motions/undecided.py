@@ -4,6 +4,8 @@ A run that does not settle to an orbit and is not certainly chaotic may be quasi
 periodic with a long period, may approach an orbit slowly, may be weakly chaotic, or may have a
 loose mass that drifts in the gap. This module continues such a run in blocks, each twice as long as
 the block before, until one of these outcomes is certain.
+
+Z1 is the displacement of the primary mass, and Z2 its displacement relative to the loose mass.
 """
 
 import math

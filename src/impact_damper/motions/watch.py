@@ -6,6 +6,9 @@ geometrically. Once the sum of the remaining geometric series is small, Newton's
 over n cycles, with its exact derivative, moves the state onto the orbit. The motion has settled if
 this orbit is close and stable. By this test a slow passage near a fold, during which states hardly
 change, is not mistaken for an orbit. For other motions the largest Lyapunov exponent is computed.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, and T the time.
 """
 
 import math

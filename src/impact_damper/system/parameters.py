@@ -3,8 +3,10 @@
 All quantities are dimensionless, scaled as in section 2.1 of Chatterjee, Mallik and Ghosh (1995).
 Lengths are scaled by x0 = (F/k1)^(1/3) and times by 1/w0 = sqrt(m1/(k1 x0^2)), with the amplitude F
 of the force, the coefficient k1 of the cubic spring and the primary mass m1. Z1 is the displacement
-of the primary mass, Z2 the displacement of the primary mass relative to the loose mass, and W the
-forcing frequency. This module imports no NumPy, because Snakemake reads it at every dry run.
+of the primary mass, Z2 the displacement of the primary mass relative to the loose mass, W the
+forcing frequency and T the time; primes are derivatives by T. zeta_c, also written zc, is the
+damping ratio of the contact. This module imports no NumPy, because Snakemake reads it at every dry
+run.
 """
 
 import math

@@ -28,6 +28,8 @@ becomes infinite (singularity). Let s be the distance of this point from the rea
 harmonics decrease as exp(-s W N) and the error of the last retained harmonics as N^-2 exp(-s W N).
 The error of the multipliers is quadratic in the omitted harmonics and decreases as exp(-2 s W N).
 With a linear spring there is no singularity, and N = 1 is exact.
+
+Symbols are as in `system.parameters`.
 """
 
 import numpy as np

@@ -1,4 +1,8 @@
-"""Solve the equations of harmonic balance of `many_harmonics` by Newton's method."""
+"""Solve the equations of harmonic balance of `many_harmonics` by Newton's method.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, and T the time. Numbers in brackets are equations of the paper.
+"""
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace

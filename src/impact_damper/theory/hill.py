@@ -3,9 +3,10 @@
 For a disturbance exp(lambda T) p(T) with periodic p the linearised equations become the quadratic
 eigenvalue problem (Q0 + lambda Q1 + lambda^2 Q2) p = 0. `many_harmonics.Balance.operator` returns
 the matrices, truncated at the harmonics of the balance. In contact the force on the disturbance is
-r1 M p + c (d/dT + lambda)(M p), with M = 1 in contact and 0 elsewhere. The time derivative of M
-contains Dirac impulses at the beginning and end of each contact. The impulses represent the jumps
-of the dashpot force at the displaced ends of the contact, so that no saltation matrix is needed.
+r1 M p + c (d/dT + lambda)(M p), with the stiffness r1 and the dashpot coefficient c of the contact,
+and M = 1 in contact and 0 elsewhere. The time derivative of M contains Dirac impulses at the
+beginning and end of each contact. The impulses represent the jumps of the dashpot force at the
+displaced ends of the contact, so that no saltation matrix is needed.
 
 In the infinite problem each exponent has copies at distances of i s, with the imaginary unit i. Let
 nu be the base frequency of the motion. For a symmetric motion only odd harmonics of p are used and

@@ -16,6 +16,8 @@ derivative of f with respect to Z2 is M, because f vanishes at both ends of a co
 force is not sampled and has no aliasing error. The force of the spring, a polynomial of Z1, is
 sampled at enough points to be exact. In the alternating frequency-time method (Cameron and Griffin,
 J. Appl. Mech. 56, 149, 1989), by contrast, the contact force is sampled too.
+
+Numbers in brackets are equations of the paper.
 """
 
 from dataclasses import dataclass

@@ -6,6 +6,8 @@ the primary mass relative to the loose mass. The quiet solution is the motion fo
 is designed. The high solution has an amplitude comparable with the free resonance. `balance_cells`
 defines both. Single-term harmonic balance assumes elastic contact, so cells with restitution e < 1
 have the solutions for e = 1.
+
+Numbers in brackets are equations of the paper.
 """
 
 from dataclasses import replace

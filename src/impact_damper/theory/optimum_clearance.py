@@ -4,6 +4,8 @@ Straight flight is a model in which the loose mass moves at constant velocity be
 (`straight_flight`). The clearance d0 is stated as the dimensionless ratio rm W^2 d0/f, with the
 mass ratio rm, the forcing frequency W and the forcing amplitude f = F + U W^2 + V/W^2. The ratio is
 written rm W^2 d0 for short. By rule (18) of the paper it is 1.
+
+Symbols are as in `system.parameters`.
 """
 
 from dataclasses import replace

@@ -8,8 +8,9 @@ changes nothing else.
 
 The equations hold for elastic contact (restitution 1). The parameters h (damping), wl (linear
 frequency), k3, F, U, V, rm, d0 and r1 are as in `system.parameters`, and W is the forcing
-frequency. Let g = (3/4) k3, and let f be the forcing amplitude F + U W^2 + V/W^2, which is 1 in the
-paper. All quantities are dimensionless. Angles are in radian.
+frequency. Numbers in brackets are equations of the paper. Let g = (3/4) k3, and let f be the
+forcing amplitude F + U W^2 + V/W^2, which is 1 in the paper. All quantities are dimensionless.
+Angles are in radian.
 """
 
 from typing import NamedTuple

@@ -6,6 +6,8 @@ balance, and the Jacobian at a fixed point decides whether the solution is stabl
 equations (17a) to (17d) are the real and imaginary parts of A' exp(-i t1) and C' exp(-i t2). The
 polar equations are singular at a = 0, the design point. The equations in A and C are not singular
 there, and their Jacobian has the same eigenvalues at a fixed point.
+
+Symbols are as in `system.parameters`.
 """
 
 import numpy as np

@@ -13,6 +13,8 @@ tangents (solutions of the variational equations). A name in capitals, such as Y
 which a row begins (`series.rows`), and a[Y0 + i] is the number of lane i in this row. No lane reads
 the numbers of another lane, so the result for a trajectory does not depend on the other
 trajectories.
+
+Symbols are as in `system.parameters`.
 """
 
 import math
