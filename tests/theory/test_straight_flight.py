@@ -71,7 +71,7 @@ def test_first_harmonic_vanishes_at_pi_squared_over_eight_for_a_light_mass_alone
 
 @pytest.mark.parametrize("loss", [0.38, 0.6, 1.0, 3.0])
 def test_smooth_minimum_with_restitution(loss):
-    """Above Lambda = 0.369 the minimum is smooth and solves Lambda cos(s + tan s) = sin s."""
+    """Above a loss (1 + 1/rm) (1 - e)/(1 + e) of 0.369 the minimum is smooth."""
     mass_ratio = 0.12
     share = loss / (1 + 1 / mass_ratio)
     lag = brentq(lambda s: loss * np.cos(s + np.tan(s)) - np.sin(s), 0, 1.2)
