@@ -1,4 +1,8 @@
-"""One contact in closed form against its differential equation, energy and impulse."""
+"""One contact in closed form against its differential equation, energy and impulse.
+
+e is the restitution, z the damping ratio and w = sqrt(1 - z^2). The penetration u and the load G
+are dimensionless, as in `contact.contact_law`.
+"""
 
 import math
 

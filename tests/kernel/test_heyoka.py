@@ -26,7 +26,7 @@ DAMPERS = pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic",
 
 
 def compare(heyoka_references, p, state, start, times, atol, side=0):
-    """Compare states and all contacts of the kernel with both references; return its contacts."""
+    """Compare states and contacts of the kernel with two runs of heyoka; return its contacts."""
     states, log = sample(p, state, start, times, 1e-14)
     for reference in heyoka_references:
         expected = reference.run(p, state, start, times, side)
@@ -39,7 +39,7 @@ def compare(heyoka_references, p, state, start, times, atol, side=0):
 
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 def test_error_stays_within_ten_tolerances(known_orbit, heyoka_references, tolerance):
-    """After 20 periods, from a state on the orbit and one beside it, both in mid-flight."""
+    """Compare after 20 periods, from a state on an orbit and from a state beside it."""
     p, end = known_orbit.parameters, known_orbit.strobe + 20 * known_orbit.period
     for nudge in (0.0, 1e-2):
         first = known_orbit.state + nudge

@@ -1,6 +1,7 @@
 """Coefficients of the Taylor series put back into the equations of motion.
 
-Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
+A lane holds one of several trajectories that a kernel integrates side by side. Z1 is the
+displacement of the primary mass, W the forcing frequency, and T the time.
 """
 
 import ast
@@ -45,7 +46,7 @@ def p(request):
 
 
 def drive(p):
-    """Return the Taylor series of A cos(W (t + t0)) from its derivatives."""
+    """Return the Taylor series of the forcing, whose phase at t = 0 is ANGLE."""
     k = np.arange(LENGTH)
     factorials = np.array([math.factorial(i) for i in k], float)
     return Polynomial(
@@ -54,7 +55,7 @@ def drive(p):
 
 
 def filled(lanes, p, state, phase):
-    """Return an instance and its array with the series of a step.
+    """Return the kernel for a number of lanes, and its array filled with the series of a step.
 
     Every lane has a different motion.
     """
@@ -105,7 +106,7 @@ def vanishes(polynomial, order, scale):
 
 
 def size(*polynomials):
-    """Return the size of each coefficient, to which rounding errors are proportional."""
+    """Return the largest modulus of each coefficient, plus 1, as the scale of rounding errors."""
     width = LENGTH
     padded = [np.pad(np.abs(q.coef[:width]), (0, max(0, width - len(q.coef)))) for q in polynomials]
     return 1 + np.maximum.reduce(padded)
@@ -177,7 +178,7 @@ def test_tangents_solve_the_variational_equations(lanes, p, phase):
 
 
 class Pair:
-    """A pair of exact numbers, as `straight` knows pairs: operations act on both numbers."""
+    """A pair of exact numbers. Operations act on both, as in `kernel.straight_lines.straight`."""
 
     def __init__(self, *numbers):
         self.numbers = numbers

@@ -1,4 +1,7 @@
-"""`straight` against Python and the errors that it raises; the forcing against cosine and sine."""
+"""`straight`, which compiles lines of arithmetic, against Python, and the errors that it raises.
+
+The forcing that is compiled in this way is compared with cosine and sine.
+"""
 
 import linecache
 import math

@@ -36,7 +36,7 @@ def absolute(state):
 def test_motion_repeats_mirrored(case):
     """Half a period later the state is mirrored, with one impact in between.
 
-    Solutions with negative room are no motions and are left out.
+    Solutions with negative `room`, whose loose mass would pass a wall, are no motions.
     """
     oscillator, damper, frequency = built(case)
     motions = two_impact_motions(oscillator, damper, frequency)
@@ -45,7 +45,7 @@ def test_motion_repeats_mirrored(case):
         assert_allclose(motion.clearance, damper.clearance, rtol=1e-9)
         if motion.room < 0:
             continue
-        # Shortly before the impact, so that SciPy sees the event.
+        # The run begins shortly before the impact, so that SciPy sees the event.
         begin = motion.phase / frequency - 0.05
         start = _before(oscillator, frequency, motion, 0.05)
         end, impacts = events_of(

@@ -3,7 +3,8 @@
 The theory is of first order in the mass ratio. Its thresholds, optimum and ring-down are compared
 with exact motions with rigid impacts. The error must fall in proportion to the mass ratio.
 
-Symbols are as in `system.parameters`.
+The ratio of a motion is t = pi w/(2 W d0), with the speed w of the loose mass in flight and the
+forcing frequency W. Other symbols are as in `system.parameters`.
 """
 
 import numpy as np

@@ -64,7 +64,7 @@ def extreme(spring, mass_ratio, gap, restitution, stiffness_ratio, damping_ratio
     share = mass_ratio / (1 + mass_ratio)
     static = FORCE / STIFFNESS
     play = 1.001 * 2 * share * static / stiffness_ratio
-    # of an impact at the speed (static deflection) times (natural angular frequency)
+    # Penetration in an impact at the speed (static deflection) times (natural angular frequency).
     penetration = static * math.sqrt(share / stiffness_ratio)
     bounds = machine.scales.range_to_si(CLEARANCE_RANGE, "clearance")
     least = max(play, 2 * penetration, 2.001 * bounds["least"])

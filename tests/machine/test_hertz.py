@@ -37,13 +37,13 @@ def test_an_impact_is_that_of_the_equation_of_motion(radius, speed, mass):
     assert found.compression == pytest.approx(deepest, rel=1e-8)
     assert found.force == pytest.approx(k * deepest**1.5, rel=1e-8)
     assert found.duration == pytest.approx(run.t_events[1][-1], rel=1e-6)
-    # the linear spring comes to rest at the same depth
+    # The equivalent linear spring comes to rest at the same depth.
     assert found.compression == pytest.approx(speed * (mass / found.stiffness) ** 0.5, rel=1e-14)
     assert 0.5 * found.stiffness * deepest**2 == pytest.approx(0.5 * mass * speed**2, rel=1e-8)
 
 
 def test_two_equal_materials_halve_the_modulus():
-    """E* = E/(2 (1 - nu^2)) (Johnson, 1985, equation 4.23)."""
+    """The contact modulus is E* = E/(2 (1 - nu^2)) (Johnson, 1985, equation 4.23)."""
     modulus = 2.1e11 / (2 * (1 - 0.3**2))
     assert HertzContact("1 cm", STEEL).coefficient == pytest.approx(
         4 / 3 * modulus * 0.1, rel=1e-14
@@ -51,7 +51,11 @@ def test_two_equal_materials_halve_the_modulus():
 
 
 def test_pressure_is_that_over_the_circle_of_contact():
-    """p0 = 3 F/(2 pi a^2) with a^3 = 3 F R/(4 E*) (Johnson, 1985, equations 4.22 and 4.24)."""
+    """The largest pressure is 3 F/(2 pi a^2), and a^3 = 3 F R/(4 E*).
+
+    F is the contact force, a the radius of the circle, R the radius of the ball, and E* the contact
+    modulus (Johnson, 1985, equations 4.22 and 4.24).
+    """
     contact, force = HertzContact("1 cm", STEEL), 300.0
     area = math.pi * (3 * force * 0.01 / (4 * contact.modulus)) ** (2 / 3)
     assert contact.pressure(force) == pytest.approx(1.5 * force / area, rel=1e-13)

@@ -115,7 +115,7 @@ def test_the_force_of_a_base_at_one_frequency_is_exact():
 
 
 def test_a_loose_mass_on_a_moving_base_sees_the_motion_in_space():
-    """Two masses on a base that moves, integrated in space, against the scaled equations.
+    """Two masses on a base that moves, in a frame at rest, against the scaled equations.
 
     The loose mass is in flight. Z2 is the distance between machine and loose mass.
     """

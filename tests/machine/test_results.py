@@ -57,7 +57,7 @@ def test_datasets_come_back_from_si():
     "excitation", ["force", "base_displacement", "base_acceleration", "unbalance"]
 )
 def test_a_linear_machine_has_the_amplitude_of_its_closed_form(excitation, hertz):
-    """Resonance F/(2 zeta k), transmissibility in space, and the response to an unbalance."""
+    """Response to a force, to an unbalance, and to a base that moves, in a frame at rest."""
     value = {"force": 40, "base_displacement": 2e-4, "base_acceleration": 3, "unbalance": 0.002}
     machine = Machine(**SPRING | {"damping_ratio": 0.03}, **{excitation: value[excitation]})
     angular, damping = 2 * math.pi * hertz, 0.06 * math.sqrt(2e5 * 12)
@@ -104,9 +104,9 @@ def test_texts_with_units_are_taken_everywhere():
 
 
 def test_a_damper_on_a_moving_base_is_that_of_three_bodies_in_space():
-    """The base, the machine and the loose mass, with elastic walls, integrated by SciPy.
+    """The base, the machine and the loose mass, with elastic walls, by SciPy in a frame at rest.
 
-    In coordinates relative to the base the loose mass would need the base's acceleration too.
+    In a frame that moves with the base an inertia force would act on the loose mass.
     """
     a, hertz, gap, stiffness, mass = 5e-4, 23.0, 2e-3, 2e6, 0.6
     machine = Machine(**SPRING, base_displacement=a)
@@ -136,7 +136,7 @@ def test_a_damper_on_a_moving_base_is_that_of_three_bodies_in_space():
 
 @pytest.fixture
 def other_length(monkeypatch):
-    """Return a function after whose call machines have scales with 1.7 times the length."""
+    """Return a function that makes the scale of length of all machines 1.7 times as large."""
     usual = Machine.scales.func
 
     def scales(machine):
@@ -153,7 +153,7 @@ def other_length(monkeypatch):
 
 
 def quiet_start():
-    """Return a state from which the linear machine with its damper becomes quiet."""
+    """Return a state from which the linear machine with its damper comes to small motions."""
     return (0.0, 0.0, 0.0, 0.3)
 
 
@@ -172,7 +172,7 @@ CALLS = {
 
 @pytest.mark.parametrize("name", CALLS)
 def test_results_do_not_depend_on_the_scales(name, other_length):
-    """A variable that is registered without its quantity, or with a wrong one, would change."""
+    """A variable that is registered with a wrong physical quantity, or with none, would change."""
 
     def called():
         machine = Machine(**SPRING, force=40)
@@ -186,7 +186,7 @@ def test_results_do_not_depend_on_the_scales(name, other_length):
         values = usual[each].values
         if VARIABLES[each].quantity == "mixed" or values.dtype.kind not in "fi":
             continue
-        # these end iterations at tolerances in the scales, so they may differ
+        # These come from iterations with tolerances in the machine's scales, so they may differ.
         numerical = each in ("periods_run", "run_length") or "multiplier" in each
         if not numerical and "phase" not in each:
             np.testing.assert_allclose(other[each], values, rtol=2e-5, atol=2e-7, err_msg=each)

@@ -70,7 +70,7 @@ def test_harmonic_convergence_of_a_machine():
 
 
 def test_subharmonic_suppression_of_a_machine():
-    """Ends of the free subharmonic, and the damped motions."""
+    """Ends of the branch of subharmonic motions without the damper, and the damped motions."""
     frequencies = np.array([1.7, 1.72, 1.75])
     # The search is narrow to be fast, so it warns.
     with pytest.warns(UserWarning, match="radius"):
@@ -173,7 +173,7 @@ def test_the_radius_of_a_search_is_warned_of_in_si_units():
         (
             lambda: idm.optimum_clearance(idm.Machine(**SOFTENING, force="8 N"), 0.1),
             "force = 8 N: the response has no peak, the motion goes over the barrier of the "
-            "softening spring (cubic_stiffness = -7.5e+09 N/m^3) before",
+            "softening spring (cubic_stiffness = -7.5e+09 N/m^3)",
         ),
         (
             lambda: idm.optimum_clearance(idm.Machine(**SOFTENING, force=0), 0.1),

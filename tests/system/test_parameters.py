@@ -70,11 +70,11 @@ def test_reason_is_given():
 @pytest.mark.parametrize("mass_ratio", [0.01, 0.25, 10.0])
 @pytest.mark.parametrize("restitution", [0.05, 0.3, 0.75, 0.9, 1.0])
 def test_damping_of_the_contact_gives_the_restitution(mass_ratio, restitution):
-    """(25) against e = exp(-pi z/sqrt(1 - z^2)), z the damping ratio of the relative motion."""
+    """Equation (25) against e = exp(-pi z/sqrt(1 - z^2)), z being the relative damping ratio."""
     damper = Damper(mass_ratio, 1.0, restitution)
     z = damper.contact_damping * math.sqrt(1 + mass_ratio)
     assert_allclose(math.exp(-math.pi * z / math.sqrt(1 - z**2)), restitution, rtol=1e-14)
-    # the relative motion: q'' + (1 + 1/rm)(dashpot q' + r1 q) = 0
+    # The relative motion with the penetration q solves q'' + (1 + 1/rm)(dashpot q' + r1 q) = 0.
     inverse = 1 + 1 / mass_ratio
     natural = math.sqrt(damper.contact_stiffness * inverse)
     assert_allclose(damper.dashpot * inverse, 2 * z * natural, atol=1e-14)

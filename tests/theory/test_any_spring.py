@@ -230,7 +230,7 @@ DAMPER = Damper(0.12, 1.5, contact_stiffness=400.0)
 
 
 def test_no_solution_with_contacts_is_missed(oscillator):
-    """Against changes of sign on a grid of b, between whose points a close pair may be missed."""
+    """Against changes of sign on a grid of amplitudes b of Z2, which may miss a close pair."""
     b = 1.5 * (1 + np.concatenate([[0], np.geomspace(1e-9, 1e3, 100000)]))
     escaped = 0
     for frequency in np.linspace(0.4, 2.4, 11):

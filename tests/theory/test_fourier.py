@@ -29,7 +29,7 @@ def test_intervals_of_a_cosine():
 
 @pytest.mark.parametrize("excess", [1e-3, 1e-6, 1e-9])
 def test_no_grazing_is_missed(excess):
-    """cos(s - 1) is beyond the wall for 2 sqrt(2 excess), much less than the spacing of samples."""
+    """cos(s - 1) exceeds 1 - excess in a length 2 sqrt(2 excess), shorter than sample intervals."""
     found = fourier.intervals(np.array([0.5 * np.exp(-1j)]), ONE, 1 - excess)
     half = np.arccos(1 - excess)
     expected = [[1, 1 - half, 1 + half], [-1, 1 + np.pi - half, 1 + np.pi + half]]
@@ -58,5 +58,5 @@ def test_indicator_is_the_integral():
 
 
 def test_largest_of_two_harmonics():
-    """cos s + cos 2s/4: 1.25 at s = 0."""
+    """The maximum of cos s + cos(2s)/4 is 1.25, at s = 0."""
     assert fourier.largest(np.array([0.5, 0.125]), np.array([1, 2])) == pytest.approx(1.25, 1e-14)

@@ -53,7 +53,7 @@ def test_liouville(case):
 
 
 def test_eigenvalues_near_zero_are_those_of_the_whole_problem(monkeypatch):
-    """The iteration for a large problem against all eigenvalues."""
+    """The iteration for eigenvalues near zero, used for large problems, against all eigenvalues."""
     solution = solve(Balance(PAPER, INELASTIC, 2.0, 15), single_term(PAPER, INELASTIC, 2.0))
     whole = hill.exponents(solution).values
     monkeypatch.setattr(hill, "DENSE", 0)
@@ -73,7 +73,7 @@ def test_all_harmonics_give_the_same_multipliers():
 
 
 def test_real_multipliers_at_the_edge_of_the_strip():
-    """Two multipliers of the design motion are real, one of them negative over half a period."""
+    """Two multipliers over half a period are real, and one of them is negative."""
     solution = solve(Balance(PAPER, DESIGN, 2.0, 7), single_term(PAPER, DESIGN, 2.0))
     multipliers = hill.exponents(solution).multipliers(np.pi)
     assert np.sum(np.abs(multipliers.imag) < 1e-12) == 2
@@ -81,7 +81,10 @@ def test_real_multipliers_at_the_edge_of_the_strip():
 
 @pytest.mark.thorough
 def test_the_orbit_must_be_of_the_same_truncation():
-    """With the contacts of the exact orbit errors fall as N^-3, with its own as N^-4."""
+    """With N harmonics the errors fall as N^-4 if the contacts are those of the same solution.
+
+    With the contacts of the exact orbit they fall as N^-3 only.
+    """
     damper = Damper(0.12, 2.0, contact_stiffness=200.0)
     highest = [1, 3, 7, 15, 31, 63, 127, 255, 511]
     balances = [Balance(PAPER, damper, 2.0, n) for n in highest]

@@ -33,7 +33,10 @@ def random_scenes(count, seed):
 
 
 def defect(b, oscillator, damper, frequency):
-    """Return cos^2(t1) + sin^2(t1) - 1 by (7a, b), with a by (7c) and B as in (6e); and a."""
+    """Return cos^2(t1) + sin^2(t1) - 1 by (7a, b), with a by (7c) and B as in (6e); and a.
+
+    a and b are the amplitudes of Z1 and Z2, and t1 is their common phase.
+    """
     rho = damper.clearance / b
     force = b * (1 - (2 / np.pi) * (rho * np.sqrt(1 - rho**2) + np.arcsin(rho)))
     a = b - damper.contact_stiffness * force / (damper.mass_ratio * frequency**2)
@@ -111,7 +114,7 @@ def test_solutions_satisfy_7():
 
 
 def test_no_solution_of_7_is_missed():
-    """Against changes of sign on a grid of b, between whose points a close pair may be missed."""
+    """Against changes of sign on a grid of amplitudes b of Z2, which may miss a close pair."""
     excess = np.concatenate([[0], np.geomspace(1e-9, 1e4, 100000)])
     escaped = 0
     for oscillator, damper, frequency in random_scenes(150, seed=4):
@@ -134,7 +137,7 @@ def test_soft_walls_too():
 
 
 def test_near_double_solutions_are_kept_up_to_the_fold():
-    """Just below the fold of the antiphase pair both solutions exist, just above neither does."""
+    """Two solutions exist just below the fold at which they meet, and none just above."""
 
     def count(frequency):
         return len(impacting_solutions(*PAPER, frequency).phase)

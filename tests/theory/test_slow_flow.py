@@ -17,7 +17,10 @@ SCENE = Oscillator(0.215, 0.7), Damper(0.12, 1.5), 1.6
 
 
 def polar_flow(state, oscillator, damper, frequency):
-    """Equations (17a) to (17d) for (a, t1, b, t2)."""
+    """Return the rates of change of the amplitudes and phases by equations (17a) to (17d).
+
+    The amplitude and phase of Z1 are a and t1, those of Z2 are b and t2.
+    """
     a, t1, b, t2 = state
     push = damper.contact_stiffness * contact_amplitude(b, damper.clearance)[0]
     spring = a * oscillator.linear_frequency**2 + 0.75 * a**3
@@ -87,7 +90,7 @@ def test_many_states_at_once():
 
 
 def test_solutions_of_7_are_fixed_points_with_the_eigenvalues_of_the_polar_jacobian():
-    """At the fixed points J33 = 0, as in appendix A."""
+    """At fixed points the element J33 of the Jacobian is 0, as in appendix A of the paper."""
     solutions = impacting_solutions(*SCENE)
     states = fixed_points(solutions)
     assert_allclose(slow_flow(states, *SCENE), 0, atol=1e-11)

@@ -43,7 +43,7 @@ CASES = [(0.05, 1.0), (0.12, 1.0), (0.4, 1.0), (0.12, 0.97), (0.25, 0.9), (0.12,
 
 @pytest.mark.parametrize(("mass_ratio", "restitution"), CASES)
 def test_optima_of_sampled_straight_flights(mass_ratio, restitution):
-    """Both optima against a minimisation over samples of the motion."""
+    """The optima of the displacement and of the first harmonic, against samples of the motion."""
     loss = 2 / np.pi * (1 + 1 / mass_ratio) * (1 - restitution) / (1 + restitution)
     most = min(1.5, 0.999 / loss) if loss else 1.5
 
@@ -113,7 +113,10 @@ def test_flight_of_the_primary_mass_solves_its_equation(damping, stiffness):
 
 
 def optima(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
-    """Return both optima of the exact orbit, both optima by the closed forms, and the `Flight`."""
+    """Return optimum values of rm W^2 d0 by exact orbits and by the closed forms, and the `Flight`.
+
+    The two optima have the smallest displacement and the smallest first harmonic of Z1.
+    """
     damper = Damper(mass_ratio, 1.0, restitution, contact_stiffness)
     flight = flight_of(oscillator, damper, frequency)
     motion = QuietMotion(oscillator, damper, frequency)

@@ -1,4 +1,9 @@
-"""Run starts until they settle to a known or new orbit, escape, or prove to be not periodic."""
+"""Run starts until they settle to a known or new orbit, escape, or prove to be not periodic.
+
+A start is a state from which a motion is computed. A problem is a row of parameters that
+`motions.smooth_runs.run` reads: a machine with an absorber at one forcing frequency and force. x is
+the displacement of the machine.
+"""
 
 from typing import NamedTuple
 

@@ -1,9 +1,9 @@
 """Generate the lines of source code that compute the Taylor series of a step by recurrence.
 
 Between events the motion is analytic, and each coefficient of its Taylor series follows from the
-coefficients before it. Let x be the series of Z1, q the series of the signed penetration Z2 -+ d0
-during contact, e = (F + U W^2 + V/W^2) cos(W T) the series of the forcing, a = Z1'' and b = q''.
-Then by equations (3), (4) and (20) to (24)
+coefficients before it. The coefficient of order k of a series x is x[k]. Let x be the series of Z1,
+q the series of the signed penetration Z2 -+ d0 during contact, e = (F + U W^2 + V/W^2) cos(W T) the
+series of the forcing, a = Z1'' and b = q''. Then by equations (3), (4) and (20) to (24)
 
     g[k] = e[k] - omega_l^2 x[k] - k3 (x^3)[k] - h/k a[k-1]
     f[k] = r1 q[k] + D/k b[k-1]

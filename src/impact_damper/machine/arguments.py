@@ -41,12 +41,12 @@ def takes_machine(function):
 
     An argument is converted by its name, which has the same meaning in all functions: `frequency`
     and `frequencies` (Hz), `state` and `loose` (m, m/s), `displacement` (m), `velocity` (m/s),
-    `clearances` (m, on each side), `radius` (m; the ball of starts also reaches the speed radius *
-    w0, with 1/w0 the scale of time), `start` (s), `damper`, `parameter` with `span`, `motions`.
-    Each number may be text with units or a quantity of pint. `mass_ratio` stays a ratio. A dataset
-    that the function returns is converted by `in_si`. A single number that it returns is a
-    clearance on each side, in m. Numbers in errors and warnings are in SI units. With an
-    `Oscillator` nothing is converted.
+    `clearances` (m, on each side), `radius` (m; the random starts fill a ball, in which the largest
+    speed is radius * w0, with 1/w0 the scale of time), `start` (s), `damper`, `parameter` with
+    `span`, `motions`. Each number may be text with units or a quantity of pint. `mass_ratio` stays
+    a ratio. A dataset that the function returns is converted by `in_si`. A single number that it
+    returns is a clearance on each side, in m. Numbers in errors and warnings are in SI units. With
+    an `Oscillator` nothing is converted.
 
     Parameters
     ----------

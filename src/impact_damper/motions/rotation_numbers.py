@@ -3,7 +3,7 @@
 The states of a quasi-periodic motion at the strobe, the time of the phase W T = pi/2 in each
 forcing cycle, lie on a closed curve. From one strobe to the next the states move along the curve,
 on average by a fraction of a revolution that is called the rotation number. The average of a smooth
-function over N iterates of the map converges as 1/N. With weights that vanish at both ends with all
+function over N successive states converges as 1/N. With weights that vanish at both ends with all
 derivatives it converges faster than any power of 1/N (S. Das, Y. Saiki, E. Sander and J. A. Yorke,
 Nonlinearity 30, 4111-4140, 2017). On a chaotic motion the error falls as N^(-1/2) even with these
 weights. Therefore the averages over parts of an orbit agree only if the motion is quasi-periodic.

@@ -44,7 +44,7 @@ def peak_frequency(oscillator) -> float:
     if hardening < 0 and middle < cubic:
         raise ValueError(
             f"force = {oscillator.force:g}: the response has no peak, the motion goes over the "
-            f"barrier of the softening spring (cubic = {oscillator.cubic:g}) before"
+            f"barrier of the softening spring (cubic = {oscillator.cubic:g})"
         )
     if hardening < 0:
         root = math.sqrt((middle - cubic) * (middle + cubic))
