@@ -1,4 +1,7 @@
-"""Basins: against SciPy's integrator, the symmetry of the oscillator, and stable manifolds."""
+"""Basins: against SciPy's integrator, the symmetry of the oscillator, and stable manifolds.
+
+Symbols are as in `system.parameters`.
+"""
 
 import numpy as np
 import pytest

@@ -1,6 +1,7 @@
 """Events against exact arithmetic, steps against their order, tangents against differences.
 
-Symbols are as in `system.parameters`.
+A lane holds one of several trajectories that are integrated side by side. Symbols are as in
+`system.parameters`.
 """
 
 import math

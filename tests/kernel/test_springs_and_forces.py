@@ -76,7 +76,7 @@ def test_flights_and_contacts_against_dop853(oscillator):
 
 @all_oscillators
 def test_several_trajectories_as_one(oscillator):
-    """Sixteen lanes, with neighbours of other springs and forces, against one lane."""
+    """Sixteen trajectories side by side, of different springs and forces, against single ones."""
     random = np.random.default_rng(1995)
     others = list(OSCILLATORS.values())
     count = 40

@@ -1,6 +1,7 @@
 """`straight`, which compiles lines of arithmetic, against Python, and the errors that it raises.
 
-The forcing that is compiled in this way is compared with cosine and sine.
+The forcing that is compiled in this way is compared with cosine and sine. A lane holds one of
+several trajectories that are integrated side by side.
 """
 
 import linecache

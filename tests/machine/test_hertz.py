@@ -74,7 +74,10 @@ def test_pressure_is_that_over_the_circle_of_contact():
     ],
 )
 def test_a_ball_yields_from_1_6_times_the_yield_strength(loose, wall, share, expected):
-    """Johnson, 1985, section 6.1."""
+    """Yielding begins at a largest pressure of 1.6 times the yield strength.
+
+    See section 6.1 of Johnson, 1985.
+    """
     contact = HertzContact(0.01, Material(2.1e11, 0.3, loose), Material(2.1e11, 0.3, wall))
     assert contact.yields(share * 1.6 * 400e6) == expected
 

@@ -122,7 +122,7 @@ def test_basins_of_a_machine():
 
 
 def test_basins_of_a_machine_with_a_damper():
-    """The loose mass has one state. Near the quiet motion no chaos magnifies rounding errors."""
+    """The loose mass has one state, near a motion in which no chaos magnifies rounding errors."""
     kept = {"restitution": 0.75, "contact_stiffness": 2000 * STIFFNESS}
     damper = HARD.damper(mass=0.25 * MASS, clearance_each_side=LENGTH, **kept)
     window = {"displacement": 0.2 * LENGTH, "velocity": 0.3 * LENGTH / TIME, "cells": 4}

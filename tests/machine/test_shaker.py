@@ -1,4 +1,7 @@
-"""A machine on a shaker, whose base has one amplitude of acceleration at all frequencies."""
+"""A machine on a shaker, whose base has one amplitude of acceleration at all frequencies.
+
+Symbols are as in `system.parameters`.
+"""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,7 @@
-"""Lives of chaotic motions, against closed forms and longer runs."""
+"""Lives of chaotic motions, against closed forms and longer runs.
+
+Symbols are as in `system.parameters`.
+"""
 
 import numpy as np
 import pytest

@@ -1,6 +1,7 @@
 """States of datasets carry their phase, and every function that takes a state begins there.
 
-W is the forcing frequency, and T the time.
+W is the forcing frequency, and T the time. A strobe is the time of the phase W T = pi/2 in a
+forcing cycle.
 """
 
 import numpy as np

@@ -1,4 +1,7 @@
-"""Settled motions, chaos, and measures of a motion, each compared with another computation."""
+"""Settled motions, chaos, and measures of a motion, each compared with another computation.
+
+Symbols are as in `system.parameters`.
+"""
 
 import math
 
@@ -107,7 +110,8 @@ def test_mass_that_drifts_is_not_taken_for_settled():
     assert record["outcome"] == records.NON_COLLIDING
 
 
-# Start of a violent chaotic motion, at a frequency below the suppression band.
+# Start of a chaotic motion of large amplitude, at a frequency below the band in which the damper
+# suppresses large motions.
 VIOLENT = pack(PAPER, DESIGN, 1.1), [1.0, 0.5, 0.3, -1.0]
 
 

@@ -1,4 +1,7 @@
-"""Starts of searches are scaled by the free motions; a narrow ball of starts misses motions."""
+"""Starts of searches are scaled by the free motions; a narrow ball of starts misses motions.
+
+Free motions are motions without the damper.
+"""
 
 import math
 import warnings

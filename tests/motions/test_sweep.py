@@ -1,4 +1,7 @@
-"""Motions along a sweep: periods, branches, and ends of branches."""
+"""Motions along a sweep: periods, branches, and ends of branches.
+
+Symbols are as in `system.parameters`.
+"""
 
 import math
 

@@ -1,6 +1,7 @@
 """Motions that settle on no orbit, against spectra, multipliers and their own neighbours.
 
-Z1 is the displacement of the primary mass.
+Z1 is the displacement of the primary mass. A strobe is the time of the forcing phase pi/2 in each
+cycle.
 """
 
 import math

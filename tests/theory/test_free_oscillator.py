@@ -1,4 +1,7 @@
-"""The oscillator without a damper against the equations, discriminants and searches."""
+"""The oscillator without a damper against the equations, discriminants and searches.
+
+Symbols are as in `system.parameters`.
+"""
 
 import numpy as np
 import pytest

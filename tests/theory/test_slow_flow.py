@@ -1,6 +1,6 @@
 """The slow flow against the polar equations (17), its Jacobian against differences.
 
-Numbers in brackets are equations of the paper.
+Symbols are as in `system.parameters`. Numbers in brackets are equations of the paper.
 """
 
 import numpy as np
@@ -117,7 +117,7 @@ def test_unforced_part_is_odd():
 
 
 def test_slope_criterion_of_the_free_response():
-    """Of three free motions the middle one is unstable; a single one is stable."""
+    """Of three motions without the damper the middle one is unstable; a single one is stable."""
     oscillator = Oscillator(0.215)
     for frequency, expected in [(1.0, [1]), (1.7, [1, -1, 1]), (2.3, [1])]:
         states = fixed_points(free_solutions(oscillator, frequency))

@@ -6,7 +6,7 @@ Z1' + rm (Z1' - Z2'), with the mass ratio rm. The model is the limit of equation
 an infinite contact stiffness r1. In this limit an impact takes no time, so forces other than the
 contact force change no velocity during the impact.
 
-Numbers in brackets are equations of the paper.
+W is the forcing frequency, and T the time. Numbers in brackets are equations of the paper.
 """
 
 import math

@@ -6,6 +6,8 @@ This is equation (3) of the paper with four more parameters k3, F, U and V, whic
 `parameters.Oscillator`. Kernels that evaluate the equation call the functions of this module, and
 the variations of a motion call its derivatives. The module `recurrence` has the Taylor series of
 the equation.
+
+Symbols are as in `system.parameters`.
 """
 
 import math

@@ -1,4 +1,8 @@
-"""Generate the source of kernels that evaluate the Taylor series of a step, and bounds on them."""
+"""Generate the source of kernels that evaluate the Taylor series of a step, and bounds on them.
+
+A lane holds one of several trajectories that are integrated side by side. Symbols are as in
+`system.parameters`.
+"""
 
 import math
 

@@ -71,7 +71,7 @@ class AbsorberOnDuffing:
         _, tuned, damping = exact_optimum(mass_ratio)
         self._stiffness, self._dashpot = mass_ratio * tuned**2, 2 * mass_ratio * damping * tuned
         # Matrices that map coefficients (of all cosines, then of all sines) to samples of a period,
-        # and the inverse of the first one.
+        # and the matrix that maps SAMPLES samples back to coefficients.
         self._sample, self._fine = _samples(SAMPLES), _samples(FINE)
         self._project = self._sample.T * 2 / SAMPLES
         turn = np.diag(HARMONICS.astype(float))

@@ -4,6 +4,8 @@ Some stable orbits attract so few states that hardly any random start leads to t
 these orbits the primary mass moves nearly as in another motion of the same system, while the loose
 mass moves differently. Therefore the first guesses of Newton's method have the primary mass on a
 known motion and the loose mass anywhere in the gap.
+
+Symbols are as in `system.parameters`.
 """
 
 import numpy as np

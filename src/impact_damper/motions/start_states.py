@@ -18,6 +18,8 @@ In a search without a given radius, Newton's method then finds stable orbits bes
 (`orbit_search`), from random states of the loose mass.
 
 With a given radius all starts are random and uniform in a ball, as in the paper (section 3, iii).
+
+Symbols are as in `system.parameters`.
 """
 
 import math

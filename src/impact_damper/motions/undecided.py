@@ -5,7 +5,8 @@ periodic with a long period, may approach an orbit slowly, may be weakly chaotic
 loose mass that drifts in the gap. This module continues such a run in blocks, each twice as long as
 the block before, until one of these outcomes is certain.
 
-Z1 is the displacement of the primary mass, and Z2 its displacement relative to the loose mass.
+Z1 is the displacement of the primary mass, and Z2 its displacement relative to the loose mass. A
+strobe is the time of the forcing phase pi/2 in each cycle.
 """
 
 import math

@@ -37,7 +37,7 @@ def family_of(oscillator, damper, frequency, parameter, span):
     oscillator : Oscillator
     damper : Damper or None
     frequency : float
-        W.
+        Forcing frequency W.
     parameter : str
         A key of PARAMETERS.
     span : sequence of float

@@ -7,7 +7,7 @@ is designed. The high solution has an amplitude comparable with the free resonan
 defines both. Single-term harmonic balance assumes elastic contact, so cells with restitution e < 1
 have the solutions for e = 1.
 
-Numbers in brackets are equations of the paper.
+W is the forcing frequency, and T the time. Numbers in brackets are equations of the paper.
 """
 
 from dataclasses import replace

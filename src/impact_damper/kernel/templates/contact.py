@@ -2,6 +2,8 @@
 
 This file is a template: `instances.instance` joins it with the other templates into one module. The
 template `step` explains the names in capitals and the word lane.
+
+Symbols are as in `system.parameters`.
 """
 
 import math
