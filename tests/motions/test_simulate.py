@@ -149,7 +149,7 @@ def test_random_states_depend_on_the_seed_only():
 
 
 def test_steady_motion_of_the_design():
-    """The quiet motion has two symmetric contacts; a simulation returns to its state."""
+    """The small motion has two symmetric contacts; a simulation returns to its state."""
     # from W T = pi/2 to T = pi, one forcing cycle after T = 0
     before = simulate(PAPER, DESIGN, 2.0, ON_ORBIT, start=math.pi / 4, periods=0.75, samples=4)
     start = [float(before[name][-1]) for name in list(before)[:4]]

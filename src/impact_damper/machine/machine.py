@@ -47,10 +47,10 @@ class Machine:
         Amplitude of a harmonic force, N; 0 for an unforced decay.
     base_displacement, base_acceleration : float
         Amplitude of a harmonic motion of the base, m or m/s^2; the spring must be linear. All
-        displacements are then measured in space and not relative to the base, because the loose
-        mass of a damper feels no force from the base. Spring and dashpot exert a force of amplitude
-        A sqrt(k^2 + c^2 w^2) on the machine, with the displacement A of the base; A = a/w^2 if the
-        acceleration a is given.
+        displacements are then measured in a frame at rest and not relative to the base, because the
+        loose mass of a damper feels no force from the base. Spring and dashpot exert a force of
+        amplitude A sqrt(k^2 + c^2 w^2) on the machine, with the displacement A of the base; A =
+        a/w^2 if the acceleration a is given.
     unbalance : float
         Mass times eccentricity of a rotating unbalance, kg m; its force is unbalance w^2.
 
@@ -99,8 +99,8 @@ class Machine:
             raise ValueError(
                 f"cubic_stiffness = {with_unit(self.cubic_stiffness, 'N/m^3')}: must be 0 with "
                 f"{given[0]} (relative to the base, the loose mass would feel the base's "
-                "acceleration too; in space, the spring's force would not be harmonic). Without a "
-                f"damper, mass times {given[0]} as {instead} gives the motion relative to the base"
+                "acceleration too; in a frame at rest the spring's force would not be harmonic). "
+                f"Without a damper, mass times {given[0]} as {instead} gives the motion relative to the base"
             )
 
     def _check_spring(self):

@@ -69,8 +69,8 @@ class Oscillator:
         base, because the loose mass is then forced too.
     shaker : float
         V, dimensionless. The term V/W^2 of the forcing amplitude represents a base whose
-        acceleration has the same amplitude a at each frequency, as on a shaker. Then
-        V = omega_l^2 a, and Z1 is the displacement in space. Allowed only with a linear spring.
+        acceleration has the same amplitude a at each frequency, as on a shaker. Then V = omega_l^2
+        a, and Z1 is the displacement in a frame at rest. Allowed only with a linear spring.
 
     Raises
     ------
