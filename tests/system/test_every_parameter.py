@@ -163,7 +163,7 @@ OTHERS = {
 }
 
 
-# Files that know the damping h Z1', and files that rely on a spring that is odd in Z1.
+# Files that contain the damping term h Z1', and files that need a spring force that is odd in Z1.
 DAMPED = """rivals/equations.py, kernel/templates/separation.py, orbits/orbit.py,
 contact/rigid_impacts.py, contact/rigid_orbits.py, attraction/boundary.py,
 stages/harmonic_convergence.py, stages/suppression_band.py, benchmarks/heyoka_runs.py, and the
@@ -252,7 +252,7 @@ def test_parameters_are_named_by_their_kind(name):
 
 @every_parameter
 def test_damping_is_the_only_term_in_the_velocity(name):
-    """A second term in Z1' must also stand in the files that know the damping."""
+    """A second term in Z1' must also be added to the files that contain the damping term."""
     for _, other in pairs(name):
         p, still, fast = packed(other), STATE * (1, 0, 1, 1), STATE
         drag = kernel.acceleration(p, still, 0.4) - kernel.acceleration(p, fast, 0.4)
@@ -266,7 +266,7 @@ def test_damping_is_the_only_term_in_the_velocity(name):
 
 @every_parameter
 def test_the_spring_is_odd(name):
-    """An even term excludes symmetric motions; modules that seek these must refuse the term."""
+    """With an even term no motion is symmetric; modules that seek such motions must refuse it."""
     for _, other in pairs(name):
         force = kernel.spring.py_func(packed(other), Z1)
         assert np.array_equal(force, -force[::-1]), (

@@ -100,8 +100,8 @@ class Machine:
                 f"cubic_stiffness = {with_unit(self.cubic_stiffness, 'N/m^3')}: must be 0 with "
                 f"{given[0]} (relative to the base, the loose mass would feel the base's "
                 "acceleration too; in a frame at rest the spring's force would not be harmonic). "
-                f"Without a damper, mass times {given[0]} as {instead} gives the motion relative to "
-                "the base"
+                f"Without a damper, mass times {given[0]} as {instead} gives the motion relative "
+                "to the base"
             )
 
     def _check_spring(self):
