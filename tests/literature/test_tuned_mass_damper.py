@@ -64,7 +64,7 @@ def test_fixed_points_do_not_depend_on_damping(mass):
 
 @pytest.mark.parametrize("mass", MASSES)
 def test_brock_damping_leaves_peaks_near_the_fixed_points(mass):
-    """Brock's squared damping is the mean of the two that make one fixed point a peak."""
+    """Each fixed point is a peak for one damping; Brock's square is the mean of both squares."""
     tuned = den_hartog(mass)
     root = np.sqrt(mass / (2 + mass))
     dampings = []
