@@ -14,7 +14,7 @@ from impact_damper.system.parameters import Damper, Oscillator, pick
 
 SOURCE = "impact-damper"
 
-# Coordinates with the phase W T of states; a state taken from a dataset keeps them.
+# Coordinates with the forcing phases of states; a state taken from a dataset keeps them.
 PHASES = ("state_phase", "orbit_phase")
 # Largest number of values read at once from an open file.
 PIECE = 2**14
@@ -137,12 +137,12 @@ def decode(values) -> xr.DataArray:
 
 
 def is_settled(motions):
-    """Return the mask of the motions of a record or dataset that have the outcome "settled"."""
+    """Return the mask of the motions, in a dataset or in records, with the outcome "settled"."""
     return np.asarray(motions["outcome"]) == flag("outcome", "settled")
 
 
 def touches_no_wall(motions):
-    """Return the mask of the motions of a record or dataset whose loose mass touches no wall."""
+    """Return the mask of the motions, in a dataset or in records, whose loose mass hits no wall."""
     names = ("non_colliding", "drifting")
     return np.isin(motions["outcome"], [flag("outcome", name) for name in names])
 
@@ -219,7 +219,7 @@ def load(path) -> xr.Dataset:
 
 
 def seal(variables, path) -> dict:
-    """Return the attributes that identify a file: `id` (stage and name) and `sha256` (of arrays).
+    """Return the attributes that identify a file: `id` (folder and name) and `sha256` (of arrays).
 
     Parameters
     ----------
@@ -232,7 +232,7 @@ def seal(variables, path) -> dict:
 
 
 def _identity(path):
-    """Return stage and name of a results file, the same for any location of the results folder."""
+    """Return folder and name of a results file, the same for any location of the results folder."""
     path = Path(path).absolute()
     return f"{path.parent.name}/{path.stem}"
 

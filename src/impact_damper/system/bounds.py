@@ -56,7 +56,7 @@ FARTHEST, FASTEST = 1e3, 1e6
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
 # Number of points of a grid.
 POINTS_RANGE = {"least": 2, "most": 10**5}
-# Largest load (constant acceleration during a contact, see `contact.contact_law`) of the load map.
+# Loads (constant accelerations during a contact) for which `contact.contact_law` is evaluated.
 LOAD_RANGE = {"above": 0.0, "most": 1e3}
 # Settings of the comparison of integrators:
 # METHOD_TOLERANCE_RANGE  tolerance
