@@ -4,18 +4,19 @@ import subprocess
 import sys
 
 import pytest
+from helpers import configurations
 
 from impact_damper.rivals.methods import (
     COMPARED,
-    LIMITED,
     METHODS,
-    TOLERANCE_KEYS,
     integrators,
     name_and_mode,
     title_with_mode,
 )
 from impact_damper.rivals.runs import Integrator
 
+FILE = "rivals/methods.py"
+CONFIG = configurations.read()["comparison"]
 ASKED = {
     "accuracy": "run",
     "missed_contacts": "flight",
@@ -25,9 +26,12 @@ ASKED = {
 
 
 def test_each_method_has_an_integrator_and_is_compared():
-    assert list(integrators()) == list(METHODS)
-    labels = {name_and_mode(label)[0] for each in COMPARED.values() for label in each}
-    assert labels == set(METHODS)
+    made = list(integrators())
+    assert made == list(METHODS), f"{FILE}: integrators() makes {made}, not {list(METHODS)}"
+    compared = {name_and_mode(label)[0] for each in COMPARED.values() for label in each}
+    unknown, idle = compared - set(METHODS), set(METHODS) - compared
+    assert not unknown, f"{FILE}: COMPARED has {unknown}, which METHODS lacks"
+    assert not idle, f"{FILE}: no stage in COMPARED has {idle}"
 
 
 @pytest.mark.parametrize("stage", ASKED)
@@ -38,15 +42,21 @@ def test_compared_integrators_implement_what_the_stage_calls(stage):
         # The stage `missed_contacts` does not call `flight` of the Taylor series: it runs this
         # integrator with walls and checks whether a contact begins.
         if (stage, name) != ("missed_contacts", "taylor"):
-            function = ASKED[stage]
-            assert getattr(type(integrators()[name]), function) is not getattr(Integrator, function)
+            function, kind = ASKED[stage], type(integrators()[name])
+            own = getattr(kind, function) is not getattr(Integrator, function)
+            assert own, f"{kind.__module__}: {stage} calls {function}, which {name} lacks"
 
 
 def test_methods_of_accuracy_have_tolerances():
     names = {name_and_mode(label)[0] for label in COMPARED["accuracy"]}
     for name in names:
-        assert METHODS[name].tolerances in TOLERANCE_KEYS
-        assert METHODS[name].slow == (name in LIMITED)
+        method = METHODS[name]
+        assert method.tolerances, f"{FILE}: accuracy compares {name}, which has no tolerances"
+        known = method.tolerances in CONFIG
+        assert known, f"config/config.yaml: comparison has no tolerances {method.tolerances}"
+        if method.slow:
+            limited = name in CONFIG["evaluations"]
+            assert limited, f"config/config.yaml: comparison.evaluations lacks {name}"
 
 
 def test_labels_say_what_is_done_at_contacts():
