@@ -9,7 +9,8 @@ from impact_damper.workflow.registry import STAGES
 
 def test_the_table_of_stages_has_every_stage():
     table = "".join(re.findall(r"^\| (.*?) \|", (ROOT / "config/README.md").read_text(), re.M))
-    assert STAGES.keys() <= set(re.findall("`(.*?)`", table))
+    lacking = STAGES.keys() - set(re.findall("`(.*?)`", table))
+    assert not lacking, f"config/README.md: the table of stages lacks {lacking}"
 
 
 def test_the_walk_throughs_name_files_that_exist():

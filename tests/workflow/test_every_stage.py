@@ -35,7 +35,8 @@ def test_a_stage_has_a_rule_a_script_and_a_section(name):
     assert script.exists(), f"workflow/scripts/{name}.py: {name} needs this script"
     section = STAGES[name].section
     assert section in ENTRIES, f"{PACKAGE}/workflow/models/: no SECTIONS has {section}"
-    assert list(selection.entries(CONFIG, name)), f"config/config.yaml: no entry of {section}"
+    entries = section in CONFIG and list(selection.entries(CONFIG, name))
+    assert entries, f"config/config.yaml: no entry of {section}"
 
 
 @pytest.mark.parametrize("name", STAGES)
