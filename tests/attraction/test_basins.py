@@ -14,7 +14,7 @@ from impact_damper.attraction.attractors import find_attractors
 from impact_damper.attraction.labels import label_states
 from impact_damper.data.variables.basins import BASIN_LABEL
 from impact_damper.stages.basins import basins, free_attractors
-from impact_damper.stages.branches import periodic_orbit
+from impact_damper.stages.orbit_branch import periodic_orbit
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
 from impact_damper.system.settling import Settling

@@ -39,7 +39,7 @@ from impact_damper.claims.suppression import suppression_band
 from impact_damper.claims.verdicts import CLAIMS, claims, document, title, typeset
 from impact_damper.data.datasets import flag
 from impact_damper.motions.steady import steady_motion
-from impact_damper.stages.branches import orbit_branch
+from impact_damper.stages.orbit_branch import orbit_branch
 from impact_damper.system.parameters import Oscillator
 
 BY_NUMBER = {claim.number: claim for claim in CLAIMS}

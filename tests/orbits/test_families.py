@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from impact_damper.stages.branches import orbit_branch
+from impact_damper.stages.orbit_branch import orbit_branch
 from impact_damper.system.families import PARAMETERS, family_of
 from impact_damper.system.parameters import Damper, Oscillator
 

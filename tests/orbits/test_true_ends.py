@@ -80,11 +80,16 @@ def test_fold_and_loss_of_symmetry_beside_a_grazing(quiet):
 
 @pytest.mark.thorough
 def test_ends_of_all_branches_of_a_damper():
-    """Each branch ends at the range or at another branch, or it is closed."""
+    """Each branch ends at the range or at another branch, or it is closed.
+
+    Longer ones that leave at a bifurcation are followed only as far as they are stable.
+    """
     response = frequency_response(PAPER, INELASTIC, [1.15, 1.2], starts=12)
     branches = complete_branches(PAPER, INELASTIC, (1.1, 1.4), [response])
     ends = branches["branch_end"].values
-    assert branches.sizes["branch"] >= 2 and np.isin(ends, [0, 1, 2, 3]).all()
+    short = branches["branch_period"].values <= 4
+    assert short.sum() >= 2 and np.isin(ends[short], [0, 1, 2, 3]).all()
+    assert np.isin(ends, [0, 1, 2, 3, 7]).all()
     for branch, edge in np.argwhere(branches["branch_met"].values >= 0):
         other = int(branches["branch_met"][branch, edge])
         periods = branches["branch_period"].values[[branch, other]]

@@ -9,7 +9,7 @@ from impact_damper.motions.steady import steady_motion
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.stages.branch_datasets import branches_dataset, torus_variables
-from impact_damper.stages.branches import orbit_branch, periodic_orbit
+from impact_damper.stages.orbit_branch import orbit_branch, periodic_orbit
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator, describe
 from impact_damper.tables import motions

@@ -9,6 +9,7 @@ from helpers.made_up_orbits import branch, branches
 from impact_damper.claims import extract
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.table_files import save_table
+from impact_damper.tables import branches as table_branches
 from impact_damper.tables import clearance, design, migration, motions, responses
 
 
@@ -73,12 +74,12 @@ def test_stable_parts_of_a_closed_branch_do_not_depend_on_its_first_orbit(start)
     frequency = np.roll([1.0, 1.1, 1.2, 1.3, 1.25, 1.2, 1.1, 1.05], start)
     stable = np.roll([True, True, False, False, False, True, False, True], start)
     made = orbit_columns(frequency, stable)
-    table = responses.orbits({"branches": {"closed": made}})
+    table = table_branches.orbits({"branches": {"closed": made}})
     assert table.loc[0, "stable W"] == "1 to 1.1, 1.2 to 1.2"
 
 
 def orbit_columns(frequency, stable):
-    """Return the dataset of one closed branch, as `tables.responses.orbits` reads it."""
+    """Return the dataset of one closed branch, as `tables.branches.orbits` reads it."""
     frequency, stable = np.append(frequency, frequency[0]), np.append(stable, stable[0])
     made = branches(branch(frequency, 1.0), parameters={"damping": 0.1})
     stability = [flag("orbit_stability", "stable" if each else "unstable") for each in stable]

@@ -11,14 +11,13 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.records import phase_of
 from impact_damper.motions.simulate import COMPONENTS
+from impact_damper.orbits.other_branches import SAME_SIZE, SAME_VALUE, met_by
 from impact_damper.orbits.tori import torus_behind
 
 # A contact counts as near grazing if the relative speed at its beginning is below SLOW. Floquet
 # multipliers then describe very small disturbances only: the effect of a disturbance d also has a
 # term with the power 3/2 of d, whose coefficient grows near grazing.
 SLOW = 0.01
-# Two branches meet at an event if its parameter and max |Z1| on both agree within this tolerance.
-SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
 # Numbers of `tori.Torus` that are stored.
 TORUS_NUMBERS = ("angle", "growth", "value", "number", "error", "limit")
 
@@ -65,31 +64,6 @@ def orbit_variables(pairs):
     }
 
 
-def _met(branches, number, edge):
-    """Return the index of the branch that a branch meets at its end, or -1 if there is none.
-
-    `number` is the index of the branch, and `edge` is 0 for its first and 1 for its last point. Two
-    branches meet if the other branch has an event of the same kind with the same orbit.
-    """
-    branch = branches[number]
-    kind = branch.ends[edge]
-    if kind not in ("symmetry_breaking", "period_doubling"):
-        return -1
-    end = branch.points[-1 if edge else 0]
-    periods = end.orbit.periods // (1 if kind == "symmetry_breaking" else 2)
-    size = end.orbit.record["maximum_displacement"]
-    for other, candidate in enumerate(branches):
-        if other == number or candidate.points[0].orbit.periods != periods:
-            continue
-        for _, event in candidate.events:
-            away = event.point.value - end.value
-            if event.kind == kind and abs(away) < SAME_VALUE:
-                found = event.point.orbit.record["maximum_displacement"]
-                if abs(found - size) < SAME_SIZE:
-                    return other
-    return -1
-
-
 def torus_variables(branches):
     """Return the variables of the tori that begin at Neimark-Sacker points.
 
@@ -133,6 +107,36 @@ def _is_same(first, second):
     )
 
 
+def leaving_variables(found):
+    """Return the variables of dimension `event` on the branches that leave at bifurcations.
+
+    Parameters
+    ----------
+    found : list of list of (Other or None)
+        Result of `follow_others`.
+
+    Returns
+    -------
+    dict of numpy.ndarray
+    """
+    others = [other for each in found for other in each]
+    begun = [other.departure if other else None for other in others]
+    points = [each.point if each else None for each in begun]
+    outcomes = [other.outcome if other else "absent" for other in others]
+    stable = [("stable" if p.orbit.stable else "unstable") if p else "absent" for p in points]
+    sides = [each.side if each else "absent" for each in begun]
+    return {
+        "leaving_outcome": np.array([flag("leaving_outcome", name) for name in outcomes], int),
+        "leaving_branch": np.array([other.number if other else -1 for other in others], int),
+        "leaving_value": np.array([point.value if point else np.nan for point in points]),
+        "leaving_displacement": np.array(
+            [p.orbit.record["maximum_displacement"] if p else np.nan for p in points]
+        ),
+        "leaving_stability": np.array([flag("stability", name) for name in stable], int),
+        "leaving_side": np.array([flag("leaving_side", name) for name in sides], int),
+    }
+
+
 def branches_dataset(branches, back, parameters, title):
     """Return a dataset of branches.
 
@@ -158,6 +162,7 @@ def branches_dataset(branches, back, parameters, title):
         for place, event in branch.events
     ]
     orbits = [event.point.orbit for _, _, event in events]
+    met = [[met_by(branches, number, edge) for edge in (0, 1)] for number in range(len(branches))]
     data = orbit_variables(points) | {
         "orbit_branch": np.repeat(np.arange(len(branches)), sizes),
         "branch_period": np.array([branch.points[0].orbit.periods for branch in branches], int),
@@ -165,10 +170,7 @@ def branches_dataset(branches, back, parameters, title):
         "branch_end": np.array(
             [[flag("branch_end", end) for end in branch.ends] for branch in branches]
         ).reshape(-1, 2),
-        "branch_met": np.array(
-            [[_met(branches, number, edge) for edge in (0, 1)] for number in range(len(branches))],
-            int,
-        ).reshape(-1, 2),
+        "branch_met": np.array(met, int).reshape(-1, 2),
         "event_branch": np.array([number for number, _, _ in events], int),
         "event_place": np.array([place for _, place, _ in events], int),
         "event_kind": np.array([flag("event_kind", event.kind) for _, _, event in events], int),

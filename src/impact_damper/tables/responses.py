@@ -1,4 +1,4 @@
-"""Tables of frequency responses: suppression bands, subharmonics, branches and bifurcations.
+"""Tables of frequency responses: suppression bands and subharmonics.
 
 A curve is a frequency response of the configuration; a branch is a sequence of periodic orbits
 along the forcing frequency W. Free means without the damper. The suppression band is the range of
@@ -12,8 +12,7 @@ import pandas as pd
 from impact_damper.claims import exact_orbits, extract
 from impact_damper.claims.claim import Missing
 from impact_damper.claims.suppression import chaotic_high, high_motions, suppression_band
-from impact_damper.data.datasets import flag
-from impact_damper.tables.columns import parameter_columns, runs_of_true
+from impact_damper.tables.columns import parameter_columns
 
 DAMPER = ("mass_ratio", "clearance", "restitution")
 
@@ -42,32 +41,7 @@ SHOWN = {
         "to W": "stable to Ω",
         "largest max |Z1|": "largest displacement max |Z1|",
     },
-    "orbits": {
-        "data": "curve",
-        "branch": "branch",
-        "period": "period [cycles]",
-        "from W": "from Ω",
-        "to W": "to Ω",
-        "stable W": "stable Ω",
-        "largest max |Z1|": "largest displacement max |Z1|",
-        "one end": "one end",
-        "other end": "other end",
-    },
-    "bifurcations": {
-        "data": "curve",
-        "branch": "branch",
-        "period": "period [cycles]",
-        "W": "forcing frequency Ω",
-        "event": "event",
-        "max |Z1|": "displacement max |Z1|",
-        "walls before": "order of the walls touched, before it",
-        "walls after": "order of the walls touched, after it",
-        "least speed of contact": "least speed at which a contact begins",
-    },
 }
-# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
-# In columns without a function, underscores become spaces.
-CELLS = {"event": lambda cell: cell.replace("neimark sacker", "Neimark-Sacker")}
 
 
 def bands(datasets) -> pd.DataFrame:
@@ -184,92 +158,3 @@ def _free_subharmonic(free):
     except Missing:
         return {"branch": "none"}
     return _stable_part(part[part.stable])
-
-
-def orbits(datasets) -> pd.DataFrame:
-    """Return branches of periodic orbits: period, range of W, stable parts, ends and errors."""
-    rows = []
-    for name, parameters, data in _branches(datasets):
-        for branch in range(data.sizes["branch"]):
-            part = data.isel(point=np.flatnonzero(data["orbit_branch"].values == branch))
-            value = part["followed_value"].values
-            stable = part["orbit_stability"].values == flag("orbit_stability", "stable")
-            grazing = part["orbit_status"].values == flag("orbit_status", "near_grazing")
-            ends = _ends_of(data, branch)
-            rows.append(
-                {"data": name}
-                | parameters
-                | {
-                    "branch": branch + 1,
-                    "period": int(data["branch_period"][branch]),
-                    "orbits": len(value),
-                    "near grazing": int(grazing.sum()),
-                    "from W": value.min(),
-                    "to W": value.max(),
-                    "stable W": _stable_ranges(value, stable, closed="closed" in ends),
-                    "largest max |Z1|": float(part["orbit_displacement"].max()),
-                    "one end": ends[0],
-                    "other end": ends[1],
-                    "events": int((data["event_branch"].values == branch).sum()),
-                    "not located": int(data["branch_events_lost"][branch]),
-                    "largest residual, absolute": float(part["orbit_residual"].max()),
-                    "largest error of Liouville's determinant": float(
-                        part["liouville_error"].max()
-                    ),
-                }
-            )
-    return pd.DataFrame(rows)
-
-
-def _ends_of(data, branch):
-    """Return why a branch ends, at both ends, with the number of the branch that it meets there."""
-    ends, met = (data[name].values[branch] for name in ("branch_end", "branch_met"))
-    names = [extract.meaning("branch_end", end) for end in ends]
-    return [
-        name if other < 0 else f"{name} of branch {other + 1}"
-        for name, other in zip(names, met, strict=True)
-    ]
-
-
-def _branches(datasets):
-    """Yield name, parameter columns and dataset of branches, those without a damper first."""
-    free, damped = (choose(datasets, "branches") for choose in (extract.free, extract.damped))
-    for name, data in (free | damped).items():
-        yield name, parameter_columns(data, "damping", *DAMPER), data
-
-
-def _stable_ranges(value, stable, *, closed):
-    """Return the ranges of W of the stable parts of a branch, as text, in order of W.
-
-    A closed branch is cut open at an unstable orbit, so that the cut divides no stable part.
-    """
-    if closed:
-        cut = np.argmin(stable)
-        value, stable = np.roll(value, -cut), np.roll(stable, -cut)
-    parts = [value[first:last] for first, last in runs_of_true(stable)]
-    parts = sorted((part.min(), part.max()) for part in parts)
-    return ", ".join(f"{lower:.5g} to {upper:.5g}" for lower, upper in parts)
-
-
-def bifurcations(datasets) -> pd.DataFrame:
-    """Return located bifurcations and changes of the contacts, sorted by branch and frequency."""
-    rows = []
-    for name, parameters, data in _branches(datasets):
-        for k in range(data.sizes["event"]):
-            branch = int(data["event_branch"][k])
-            rows.append(
-                {"data": name}
-                | parameters
-                | {
-                    "branch": branch + 1,
-                    "period": int(data["branch_period"][branch]),
-                    "W": f"{float(data['event_value'][k]):.10f}",
-                    "event": extract.meaning("event_kind", data["event_kind"].values[k]),
-                    "max |Z1|": float(data["event_displacement"][k]),
-                    "walls before": str(data["walls_before"].values[k]),
-                    "walls after": str(data["walls_after"].values[k]),
-                    "least speed of contact": float(data["event_speed"][k]),
-                }
-            )
-    frame = pd.DataFrame(rows)
-    return frame.sort_values(["data", "branch", "W"], kind="stable") if rows else frame

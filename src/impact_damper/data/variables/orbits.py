@@ -20,6 +20,15 @@ BRANCH_END = {
     "point_limit": 6,
     "unstable": 7,
 }
+OTHER = {
+    "absent": 0,
+    "followed": 1,
+    "ended": 2,
+    "not_followed": 3,
+    "not_passed": 4,
+    "not_found": 5,
+}
+SIDE = {"absent": 0, "supercritical": 1, "subcritical": 2, "beside_grazing": 3, "undecided": 4}
 TORUS = {"absent": 0, "stable": 1, "unstable": 2, "of_unstable_orbit": 3, "unknown": 4}
 
 VARIABLES = {
@@ -126,14 +135,6 @@ VARIABLES = {
     "searches_new": Variable(
         (), "number of branches followed from orbits of searches, as no other branch held them"
     ),
-    "switches": Variable(
-        (),
-        "number of losses of symmetry and period doublings, beside stable orbits up to period 4, "
-        "at which the other branch was searched for",
-    ),
-    "switches_lost": Variable(
-        (), "number of these bifurcations at which no orbit of the other branch was found"
-    ),
     # events
     "event_branch": Variable(("event",), "branch on which an event lies"),
     "event_place": Variable(("event",), "index along the branch of the orbit at an event"),
@@ -157,6 +158,40 @@ VARIABLES = {
     ),
     "walls_after": Variable(
         ("event",), "walls in the order in which orbits after an event touch them"
+    ),
+    # branches that leave at losses of symmetry and period doublings
+    "leaving_outcome": Variable(
+        ("event",),
+        "branch that leaves at a loss of symmetry or period doubling: it is followed; the branch "
+        "of the event ends here, at the other one; an orbit of it was found, but it was not "
+        "followed because of its period, or not past a grazing; or no orbit was found",
+        flags=OTHER,
+    ),
+    "leaving_branch": Variable(
+        ("event",), "number of the other branch at an event, -1 if it is not in the dataset"
+    ),
+    "leaving_value": Variable(
+        ("event",),
+        "varied parameter of the orbit of the other branch that was found close to an event",
+        quantity="followed",
+    ),
+    "leaving_displacement": Variable(
+        ("event",),
+        "largest displacement of the orbit of the other branch found close to an event",
+        "max |Z1|",
+        quantity="displacement",
+    ),
+    "leaving_stability": Variable(
+        ("event",),
+        "stability of the orbit of the other branch found close to an event",
+        flags=STABILITY,
+    ),
+    "leaving_side": Variable(
+        ("event",),
+        "whether the other branch begins supercritical, with as many unstable multipliers as the "
+        "first branch on its more stable side, or subcritical, with one more; not told beside a "
+        "grazing, where multipliers change too fast",
+        flags=SIDE,
     ),
     # tori behind Neimark-Sacker points
     "torus_kind": Variable(

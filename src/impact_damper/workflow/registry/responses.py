@@ -117,22 +117,36 @@ TABLES = (
     ),
     Table(
         "orbits",
-        "tables.responses",
+        "tables.branches",
         ("branches",),
         "Branches of periodic orbits: range, stable parts, and events at both ends. A branch "
         "begins at a settled motion, at a stable orbit that Newton's method found in one of 360 "
-        "searches from random states, or at a point of another branch, up to period 4: where a "
-        "stable orbit loses its symmetry or doubles its period, or where the other branch ends. "
+        "searches from random states, or at a point of another branch: where an orbit loses its "
+        "symmetry or doubles its period (table `other_branches`), or where the other branch ends. "
         "Point limit: the branch was followed no further after 4000 orbits in one direction (2000 "
-        "for periods 8 and 9), among chaotic motions. Unstable: a branch of a period above 9 is "
-        "followed only as far as its orbits are stable. Lost: Newton's method found no next orbit, "
-        "since several contacts appear at almost the same frequency. The column `not located` of "
-        "the CSV counts events that lie between two orbits but were not located.",
+        "for periods 8 and 9), among chaotic motions. Unstable: a branch of a period above 9, or "
+        "one above 3 that begins at such a point, is followed only as far as it is stable. Lost: "
+        "Newton's method found no next orbit, since several contacts appear at almost the same "
+        "frequency. The column `not located` of the CSV counts events that lie between two orbits "
+        "but were not located.",
     ),
     Table(
         "bifurcations",
-        "tables.responses",
+        "tables.branches",
         ("branches",),
         "All located bifurcations and changes of contact of the periodic orbits.",
+    ),
+    Table(
+        "other_branches",
+        "tables.branches",
+        ("branches",),
+        "What became of the branches that leave where an orbit loses its symmetry or doubles its "
+        "period. An orbit of every such branch is searched for close to the event. A branch is "
+        "followed up to period 3, beside stable orbits up to period 4, and, as far as it is "
+        "stable, up to period 9 if its orbits are stable where it begins; others are left, since "
+        "doublings form infinite cascades and unstable orbits of long periods wind through chaos. "
+        "Supercritical: it exists where the first orbit is the more unstable one; subcritical: "
+        "where this is the more stable one. Beside a grazing the side is not told, since the "
+        "multipliers change too fast there.",
     ),
 )
