@@ -21,7 +21,10 @@ SHARES = ("state", "hold", "phase", "settled", "clairvoyant")
 
 
 def release_shares(case, kind, free_motion):
-    """Return the share of releases that lead to a free motion, for each damped motion of a kind."""
+    """Return the share of releases that lead to a free motion, for each damped motion of a kind.
+
+    `kind` is a value of the flag `damped_kind`, and `free_motion` a coordinate of the dataset.
+    """
     rows = case.damped_kind.values == flag("damped_kind", kind)
     return case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
 

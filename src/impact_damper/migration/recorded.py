@@ -52,15 +52,18 @@ class Recording(NamedTuple):
     phases: int
 
     def phase(self, rows, moments):
-        """Return the index of the phase at moments given by index arrays, rows being holds."""
+        """Return the indices of the phases at moments of holds.
+
+        `rows` are the indices of the holds, and `moments` the indices of the moments in them.
+        """
         return (np.floor(self.begin[rows]).astype(int) + 1 + moments) % self.phases
 
     def cycles(self, rows, moments):
-        """Return the forcing cycles between switching the damper on and the moments."""
+        """Return the forcing cycles between switching the damper on and moments of holds."""
         return (1 + moments - self.begin[rows] % 1) / self.phases
 
     def ahead(self, rows, moments):
-        """Return the forcing cycles from the moments to the strobe after each."""
+        """Return the forcing cycles from moments of holds to the next strobes."""
         return (self.phases // 4 - self.phase(rows, moments)) % self.phases / self.phases
 
 

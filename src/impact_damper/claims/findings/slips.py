@@ -1,7 +1,7 @@
 """Findings on S1 to S6, misprints and omissions of the paper.
 
 Each function takes the measures of one of them as keyword arguments. The module `claims.slips` says
-what each measure means.
+what each measure means. The sentences use the symbols and numbers of equations of the paper.
 """
 
 from impact_damper.claims.findings.words import number, part_of, percent
