@@ -1,4 +1,10 @@
-"""Branches of orbits: closed forms, simulation on both sides of events, ends, and symmetry."""
+"""Branches of orbits: closed forms, simulation on both sides of events, ends, and symmetry.
+
+A branch is the curve of the periodic orbits over a parameter. An event is a point of a branch at
+which an orbit changes, such as a fold, at which the branch turns back, or a grazing, at which a
+contact appears with zero speed. Without the damper the resonance motion is the large motion of
+period 1. The quiet motion is the small symmetric motion for which a damper is designed.
+"""
 
 import math
 from dataclasses import replace
@@ -44,7 +50,7 @@ def quiet():
 
 
 def event(branch, kind, number=0):
-    """Return an event of a branch by its kind and number."""
+    """Return the point of a branch at an event, given by its kind and its number in this kind."""
     return [event for _, event in branch.events if event.kind == kind][number].point
 
 
@@ -56,7 +62,11 @@ def test_every_orbit_is_exact(quiet, resonance):
 
 
 def test_folds_are_where_one_multiplier_is_one(resonance):
-    """The other multiplier is that of Liouville's theorem: the place is right to eight digits."""
+    """At a fold one Floquet multiplier is 1.
+
+    The product of both multipliers is known from Liouville's theorem. The points of the branch
+    before and after a fold lie on the same side of it in frequency.
+    """
     for number in (0, 1):
         fold = event(resonance, "fold", number)
         values = np.sort(fold.orbit.multipliers[:2].real)[::-1]
@@ -72,7 +82,7 @@ def test_folds_are_where_one_multiplier_is_one(resonance):
 
 
 def test_fold_by_simulation_on_both_sides(resonance):
-    """The resonance motion persists just below the upper fold and is lost just above."""
+    """The resonance motion exists just below the frequency of the upper fold, but not above it."""
     fold = event(resonance, "fold")
     p = free(fold.value - 1e-4)
     below = [point for point in resonance.points if point.orbit.stable and point.value < fold.value]
@@ -108,7 +118,10 @@ def test_period_doubles_where_simulation_doubles_it():
 
 
 def test_quiet_motion_folds_into_the_unstable_large_one(quiet):
-    """Both lie on one branch; from the fold on the quiet motion is stable."""
+    """The quiet motion and the unstable large motion lie on one branch.
+
+    The quiet motion is stable at frequencies above the fold.
+    """
     assert quiet.ends == ("range_ends", "range_ends") and quiet.lost == 0
     assert all(point.orbit.sequence == "+-" for point in quiet.points)
     assert_allclose(
@@ -129,7 +142,11 @@ def test_stability_changes_only_at_events(quiet, resonance):
 
 
 def test_isola_is_closed():
-    """The one-third subharmonic: one closed curve between two folds, half of it stable."""
+    """The branch of the one-third subharmonic, a motion of period 3, is a closed curve.
+
+    It turns back at two folds. One of the two parts between the folds is stable up to the fold at
+    the largest frequency.
+    """
     response = frequency_response(PAPER, None, [1.8], starts=96)
     branches = complete_branches(PAPER, None, (0.6, 2.6), [response])
     third = int(np.flatnonzero(branches["branch_period"].values == 3)[0])
@@ -145,11 +162,11 @@ def test_isola_is_closed():
     assert not stable.all() and points["orbit_residual"].max() < 2e-12
 
 
-def test_branch_of_two_turns_is_recognised_from_every_motion_on_it():
-    """Motions of one branch at several frequencies make one branch, not several."""
+def test_motions_on_one_branch_with_two_folds_give_one_branch():
+    """The branch is followed once, although motions at several frequencies lie on it."""
     response = frequency_response(PAPER, None, [1.0, 1.9, 2.2], starts=24)
     branches = complete_branches(PAPER, None, (0.6, 2.6), [response])
-    # beside it there is the branch that leaves where the motion loses its symmetry
+    # The other branch of period 1 begins where the motion loses its symmetry.
     ones = branches["branch_period"].values == 1
     leaving = (branches["branch_met"].values >= 0).any(axis=1)
     assert (ones & ~leaving).sum() == 1 and (ones & leaving).sum() == 1
@@ -158,7 +175,7 @@ def test_branch_of_two_turns_is_recognised_from_every_motion_on_it():
 
 @pytest.mark.thorough
 def test_a_closed_branch_is_the_same_in_both_directions():
-    """Through orbits of period 12 with multipliers of 1e11, between other branches close by."""
+    """The orbits have period 12 and multipliers up to 1e11, and other branches are close."""
     oscillator, damper = Oscillator(0.107), Damper(0.12, 1.063)
 
     def family(value):
@@ -183,14 +200,18 @@ def test_a_branch_holds_its_orbits_and_no_others(quiet, resonance):
         orbit = find_orbit(middle.orbit.p, middle.orbit.strobe_states[0])
         assert branch.holds(orbit, middle.value)
         assert not branch.holds(orbit, middle.value + 0.01)
-    alien = find_orbit(free(1.9), polished_orbit("non-resonance").state)
-    assert not quiet.holds(alien, 1.9)
-    with_half = replace(quiet.points[5].orbit, periods=2)
-    assert not quiet.holds(with_half, quiet.points[5].value)
+    other = find_orbit(free(1.9), polished_orbit("non-resonance").state)
+    assert not quiet.holds(other, 1.9)
+    of_period_2 = replace(quiet.points[5].orbit, periods=2)
+    assert not quiet.holds(of_period_2, quiet.points[5].value)
 
 
-def test_no_guess_far_away_near_a_fold(resonance, monkeypatch):
-    """Near a fold, along the tangent, the guess at a given parameter would be 1e5 away."""
+def test_first_guesses_stay_close_to_a_fold(resonance, monkeypatch):
+    """A first guess at a given parameter lies near the fold.
+
+    At a fold the tangent of a branch is nearly perpendicular to the axis of the parameter. On the
+    tangent a given change of the parameter is reached only at a distance of about 1e5.
+    """
     fold = event(resonance, "fold")
     guesses = []
     monkeypatch.setattr(Problem, "correct", lambda self, x, border: guesses.append(x))
@@ -198,7 +219,7 @@ def test_no_guess_far_away_near_a_fold(resonance, monkeypatch):
     assert np.linalg.norm(guesses[0] - fold.x) < 0.1
 
 
-def test_what_was_found_is_told(capsys):
+def test_progress_shows_the_branches_found_and_their_ends(capsys):
     response = frequency_response(PAPER, None, [2.0], starts=8)
     complete_branches(PAPER, None, (1.9, 2.1), [response], progress="free")
     told = capsys.readouterr().err
@@ -215,8 +236,8 @@ def test_what_was_found_is_told(capsys):
         ("contact_stiffness", (1e3, 1e5)),
     ],
 )
-def test_any_parameter_ends_on_the_orbit_there(parameter, span):
-    """The last orbit of a branch is the one that Newton's method finds at this parameter."""
+def test_branches_over_each_parameter_end_on_an_orbit(parameter, span):
+    """The first and the last orbit are those that Newton's method finds at the ends of the span."""
     state = polished_orbit("design").state
     branch = orbit_branch(PAPER, DESIGN, 2.0, state, parameter=parameter, span=span)
     values = branch["followed_value"].values

@@ -1,4 +1,8 @@
-"""The other branch at a bifurcation: against laws of bifurcations and against simulation."""
+"""The other branch at a bifurcation, compared with laws of bifurcations and with simulations.
+
+A branch is the curve of the periodic orbits over a parameter. At a loss of symmetry or a period
+doubling another branch leaves the first one.
+"""
 
 import numpy as np
 import pytest
@@ -15,7 +19,10 @@ from impact_damper.system.settling import Settling
 
 
 def event_of(damper, name, frequency, span, kind):
-    """Return the first event of a kind on a branch of a known orbit, and the family."""
+    """Return the first event of a kind on the branch of a known orbit, and the function `family`.
+
+    `family` maps the frequency to packed parameters.
+    """
 
     def family(value):
         return pack(PAPER, damper, value)
