@@ -31,6 +31,9 @@ kernels: $(READY)
 # PYTEST= adds arguments, for example PYTEST="-k recurrence --durations=20".
 PYTEST ?=
 TESTS := $(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder
+# Bytecode is kept even where the environment forbids it: each process imports 400 modules of the
+# package and the tests.
+test quick: export PYTHONDONTWRITEBYTECODE =
 test: kernels
 	$(TESTS) $(PYTEST)
 

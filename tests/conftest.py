@@ -1,7 +1,22 @@
-"""Fixtures for tests in several rooms: known periodic orbits, and integrators by heyoka.py."""
+"""Fixtures for tests in several rooms: known periodic orbits, and integrators by heyoka.py.
+
+Random examples of hypothesis are the same in every run, and no clock decides whether they pass.
+"""
+
+import gc
 
 import pytest
 from helpers.known_orbits import IMPACTING, STARTS, polished_orbit
+from hypothesis import HealthCheck, settings
+
+settings.register_profile(
+    "same", derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck)
+)
+settings.load_profile("same")
+
+# Collecting the tests makes many objects and keeps them all. Searching for garbage less often saves
+# a tenth of the time.
+gc.set_threshold(100_000)
 
 
 def pytest_collection_modifyitems(items):

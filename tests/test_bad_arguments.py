@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import impact_damper as idm
@@ -237,13 +237,7 @@ def test_every_public_name_is_tried():
 def test_a_bad_argument_names_itself(name):
     good, bad = FUNCTIONS[name]
 
-    @settings(
-        derandomize=True,
-        deadline=None,
-        database=None,
-        max_examples=12 * len(bad),
-        suppress_health_check=list(HealthCheck),
-    )
+    @settings(max_examples=12 * len(bad))
     @given(st.sampled_from(sorted(bad)).flatmap(lambda k: st.tuples(st.just(k), bad[k])))
     def tried(case):
         key, value = case

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import impact_damper as idm
@@ -103,13 +103,7 @@ def scale(least, most):
 
 
 @pytest.mark.thorough
-@settings(
-    derandomize=True,
-    deadline=None,
-    database=None,
-    max_examples=40,
-    suppress_health_check=list(HealthCheck),
-)
+@settings(max_examples=20)
 @given(
     scale(1e-4, 9.9),
     scale(1e-6, 9.9),

@@ -11,7 +11,7 @@ import tracemalloc
 import numpy as np
 import pytest
 from helpers.known_orbits import PAPER
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
@@ -75,7 +75,6 @@ def saved(folder, shape, bounds, seed=7):
         )
     )
 )
-@settings(deadline=None)
 def test_blocks_hold_a_range_of_cells_once_and_are_few(drawn):
     shape, (first, last) = drawn
     grid = np.zeros(shape, int)

@@ -10,7 +10,7 @@ import reprlib
 import pytest
 import yaml
 from helpers.broken import GONE, MAPPINGS, SMALL, at, broken, changed, junk, places
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from impact_damper.workflow.configuration import (
@@ -23,12 +23,6 @@ from impact_damper.workflow.models.messages import dotted
 
 ALLOWED = re.compile(r"(: must |: name must be |: unknown key; known: \w|: missing; needed )")
 TEXT = yaml.safe_dump(SMALL)
-fuzz = settings(
-    derandomize=True,
-    deadline=None,
-    database=None,
-    suppress_health_check=list(HealthCheck),
-)
 
 
 def problems(config):
@@ -42,7 +36,7 @@ def test_the_small_configuration_is_accepted():
     check_configuration(SMALL)
 
 
-@settings(fuzz, max_examples=100)
+@settings(max_examples=100)
 @given(broken)
 def test_what_is_broken_is_told(made):
     lines = problems(made.config())
@@ -55,7 +49,7 @@ def test_what_is_broken_is_told(made):
         assert any(line.startswith(told) for line in lines), (told, lines)
 
 
-@settings(fuzz, max_examples=100)
+@settings(max_examples=100)
 @given(st.sampled_from([path for path, _ in places(SMALL) if path]), junk)
 def test_nothing_at_any_place_is_worse_than_rejected(path, value):
     """A random value is refused, or it is accepted and has the type of the valid value."""
@@ -67,13 +61,13 @@ def test_nothing_at_any_place_is_worse_than_rejected(path, value):
         assert type(value) is type(at(path)) or {type(value), type(at(path))} == {int, float}
 
 
-@settings(fuzz, max_examples=50)
+@settings(max_examples=50)
 @given(junk)
 def test_no_junk_is_a_configuration(value):
     assert all(ALLOWED.search(line) for line in problems(value))
 
 
-@settings(fuzz, max_examples=15)
+@settings(max_examples=15)
 @given(data=st.data())
 def test_a_key_that_stands_twice_is_told(data, tmp_path_factory):
     """In any mapping of the file, with the same value or another."""
@@ -91,7 +85,7 @@ def test_a_key_that_stands_twice_is_told(data, tmp_path_factory):
         check_file(file)
 
 
-@settings(fuzz, max_examples=200)
+@settings(max_examples=200)
 @given(st.binary(max_size=200) | st.text(max_size=200).map(str.encode))
 def test_no_file_is_worse_than_rejected(tmp_path_factory, content):
     file = tmp_path_factory.mktemp("file") / "mine.yaml"
