@@ -59,6 +59,11 @@ def system(extreme):
     return oscillator, damper, extreme.get("frequency", 2.0)
 
 
+def test_every_parameter_of_the_oscillator_has_an_extreme():
+    missing = OF_OSCILLATOR.keys() - set().union(*EXTREMES)
+    assert not missing, f"tests/kernel/test_extremes.py: EXTREMES lack {missing}"
+
+
 def named(extreme):
     return "-".join(f"{key}={value:g}" for key, value in extreme.items())
 

@@ -142,13 +142,16 @@ SPRING_PLACES = {
         lambda oscillator: flow_map(packed(oscillator), np.tile(STATE[:2], 2), 0.0, 1, False, 1e-13)
     ],
     "theory/slow_flow.py": [lambda oscillator: jacobian(STATE, oscillator, DAMPER, W)],
-    "theory/design_rule.py": [peak_frequency, partial(rule_clearance, mass_ratio=0.1)],
     "tests/references/extended/motion.c": [tangents_80_bit],
 }
 NONLINEAR_PLACES = {
     "system/packed.py": [lambda oscillator: cubic_spring(packed(oscillator))],
     "system/parameters.py": [lambda oscillator: oscillator.hardening],
+}
+# The same for all fields that are allowed with a nonlinear spring.
+BENT_PLACES = {
     "theory/free_oscillator.py": [lambda oscillator: np.array(free_folds(oscillator))],
+    "theory/design_rule.py": [peak_frequency, partial(rule_clearance, mass_ratio=0.1)],
 }
 # Files of the package that name the cubic spring and are not tested here, each with the reason.
 OTHERS = {
@@ -163,11 +166,43 @@ OTHERS = {
 }
 
 
-# Files that contain the damping term h Z1', and files that need a spring force that is odd in Z1.
-DAMPED = """rivals/equations.py, kernel/templates/separation.py, orbits/orbit.py,
-contact/rigid_impacts.py, contact/rigid_orbits.py, attraction/boundary.py,
-stages/harmonic_convergence.py, stages/suppression_band.py, benchmarks/heyoka_runs.py, and the
-closed forms of theory/"""
+# Files that contain the damping term h Z1', apart from those in the table of the walk-through in
+# CONTRIBUTING.md. A second term in the velocity is added there too, or refused.
+DAMPED = {
+    "attraction/boundary.py",
+    "contact/rigid_impacts.py",
+    "contact/rigid_orbits.py",
+    "kernel/series.py",
+    "kernel/templates/separation.py",
+    "literature/masri_caughey.py",
+    "orbits/orbit.py",
+    "orbits/variations.py",
+    "performance/costs.py",
+    "rivals/equations.py",
+    "stages/harmonic_convergence.py",
+    "stages/suppression_band.py",
+    "theory/convergence.py",
+    "theory/design_rule.py",
+    "theory/free_oscillator.py",
+    "theory/many_harmonics.py",
+    "theory/single_harmonic.py",
+    "theory/slow_flow.py",
+    "theory/straight_flight.py",
+}
+# Files with the damping of another system, or with a value of h.
+OTHER_DAMPING = {
+    "absorbers/problems.py",
+    "absorbers/seeds.py",
+    "absorbers/settling.py",
+    "comparisons/duffing.py",
+    "design/screen.py",
+    "design/task.py",
+    "literature/basin_shares.py",
+    "motions/smooth_runs.py",
+    "stages/design_orbit.py",
+    "stages/release_policies.py",
+}
+# Files that need a spring force that is odd in Z1.
 SYMMETRIC = """theory/ (hardening in system/parameters.py), theory/many_harmonics.py,
 orbits/quiet_orbits.py, orbits/shooting.py"""
 
@@ -188,9 +223,10 @@ def check(file, function, name, bases=(BENT, LINEAR)):
         except ValueError as refusal:
             assert re.match(rf"{name} = ", str(refusal)), f"{file}: {refusal}"
             continue
+        closed = ", in `hardening` of system/parameters.py" if file.startswith("theory/") else ""
         assert not np.array_equal(before, after), (
             f"{file}: nothing changes with {name} = {getattr(other, name):g}. Add its term, or "
-            f'raise ValueError("{name} = ...: must be 0 ...")'
+            f'raise ValueError("{name} = ...: must be 0 ..."){closed}'
         )
 
 
@@ -216,6 +252,12 @@ def test_every_parameter_has_an_effect(file, function, name):
 @cases(SPRING_PLACES)
 def test_every_parameter_of_the_spring_has_an_effect(file, function, name):
     check(file, function, name)
+
+
+@every_parameter
+@cases(BENT_PLACES)
+def test_every_parameter_changes_the_response_of_a_nonlinear_spring(file, function, name):
+    check(file, function, name, (BENT,))
 
 
 @pytest.mark.parametrize("name", NONLINEAR)
@@ -260,7 +302,7 @@ def test_damping_is_the_only_term_in_the_velocity(name):
             drag,
             other.damping * fast[1],
             rtol=1e-12,
-            err_msg=f"{name} acts on the velocity: change also, or refuse it in, {DAMPED}",
+            err_msg=f"{name} acts on the velocity: add its term, or refuse it, in {sorted(DAMPED)}",
         )
 
 
@@ -365,8 +407,16 @@ def test_closed_form_of_a_linear_spring_refuses_others():
 
 
 def test_all_files_that_name_the_cubic_spring_are_tested_here():
-    tested = {*PLACES, *SPRING_PLACES, *NONLINEAR_PLACES, *OTHERS}
+    tested = {*PLACES, *SPRING_PLACES, *BENT_PLACES, *NONLINEAR_PLACES, *OTHERS}
     for path in SOURCES.rglob("*.py"):
         file = path.relative_to(SOURCES).as_posix()
         if re.search(r"\bCUBIC\b|\.(cubic|hardening)\b", path.read_text()):
             assert file in tested, f"{file}: test it here, or give the reason in OTHERS"
+
+
+def test_all_files_that_name_the_damping_are_listed():
+    listed = {"kernel/equation.py", "system/packed.py", *DAMPED, *OTHER_DAMPING}
+    for path in SOURCES.rglob("*.py"):
+        file = path.relative_to(SOURCES).as_posix()
+        if re.search(r"\bDAMPING\b|\b(oscillator|own)\.damping\b", path.read_text()):
+            assert file in listed, f"{file}: list it in DAMPED or OTHER_DAMPING"
