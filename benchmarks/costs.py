@@ -13,7 +13,8 @@ from benchmarks.methods import TIMED
 from benchmarks.scenes import BenchmarkScene
 from benchmarks.timing import interleaved
 from impact_damper.figures.style import curve, figure, legend, letter_panels, points, style
-from impact_damper.kernel.single import advance, side_of, workspace
+from impact_damper.kernel.single import side_of, workspace
+from impact_damper.kernel.tangents import advance
 from impact_damper.motions.records import measured
 from impact_damper.motions.simulate import random_states
 from impact_damper.system.packed import FREQUENCY, pack

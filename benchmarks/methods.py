@@ -12,7 +12,8 @@ import numpy as np
 
 from benchmarks.heyoka_runs import BATCH, Motions
 from impact_damper.kernel import batch
-from impact_damper.kernel.single import advance, workspace
+from impact_damper.kernel.single import workspace
+from impact_damper.kernel.tangents import advance
 from impact_damper.rivals.methods import (
     COMPARED,
     METHODS,

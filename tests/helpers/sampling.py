@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper.motions import records
+from impact_damper.motions import traces
 
 
 def sample(p, state, start, times, tolerance=1e-14):
@@ -12,7 +12,7 @@ def sample(p, state, start, times, tolerance=1e-14):
     at both.
     """
     states, log = np.empty((len(times), 4)), np.empty((4096, 5))
-    count = records.trace(
+    count = traces.trace(
         p, np.array(state, float), float(start), np.array(times, float), tolerance, states, log
     )
     return states, log[:count]

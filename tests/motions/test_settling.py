@@ -12,7 +12,8 @@ from helpers.sampling import sample
 from numpy.testing import assert_allclose
 
 from impact_damper.kernel import single
-from impact_damper.motions import ensemble, records, strobe_map
+from impact_damper.kernel.tangents import advance
+from impact_damper.motions import ensemble, records, strobe_map, traces
 from impact_damper.motions.following import follow_stable
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import Damper
@@ -33,7 +34,7 @@ def growth_of_tangent(p, state, periods, skipped):
     y, tangents, total = np.array(state), np.full((1, 4), 0.5), 0.0
     side, work = single.side_of(p, y), single.workspace()
     for k in range(periods):
-        side, _, _ = single.advance(p, y, tangents, side, strobe, strobe + period, 1e-12, work)
+        side, _, _ = advance(p, y, tangents, side, strobe, strobe + period, 1e-12, work)
         size = np.linalg.norm(tangents)
         tangents /= size
         total += math.log(size) * (k >= skipped)
@@ -47,7 +48,7 @@ def divergence_of_neighbours(p, state, periods, skipped=100, apart=1e-7, batches
 
     def after_period(y):
         y = y.copy()
-        single.advance(p, y, NONE, single.side_of(p, y), strobe, strobe + period, 1e-12, work)
+        advance(p, y, NONE, single.side_of(p, y), strobe, strobe + period, 1e-12, work)
         return y
 
     y = np.array(state, float)
@@ -245,7 +246,7 @@ def test_log_of_contacts_may_be_short(design_orbit):
     """Contacts beyond the end of the log are counted but not logged."""
     log, states = np.full((3, 5), np.nan), np.empty((1, 4))
     end = np.array([design_orbit.strobe + 10 * design_orbit.period])
-    count = records.trace(
+    count = traces.trace(
         design_orbit.parameters,
         design_orbit.state.copy(),
         design_orbit.strobe,

@@ -15,10 +15,11 @@ from impact_damper.data.datasets import flag
 from impact_damper.motions import ensemble, strobe_map
 from impact_damper.motions.catalogue import Catalogue
 from impact_damper.motions.following import follow_stable
-from impact_damper.motions.records import MOTION, trace
+from impact_damper.motions.records import MOTION
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.start_states import NO_LOOSE, NO_STARTS, Search
 from impact_damper.motions.sweep import _end_event, sweep
+from impact_damper.motions.traces import trace
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.system.parameters import Damper
 from impact_damper.system.settling import Settling

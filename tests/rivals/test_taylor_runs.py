@@ -7,7 +7,7 @@ import pytest
 from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 
-from impact_damper.motions import records
+from impact_damper.motions import records, traces
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals import taylor_runs
 from impact_damper.system.packed import pack
@@ -28,7 +28,7 @@ def test_a_run_agrees_with_the_records_of_the_motion(damper):
     begin = strobe_time(p)
     times, log = np.array([begin, begin + PERIODS * math.pi]), np.empty((400, 5))
     state, states = START.copy(), np.empty((2, 4))
-    count = records.trace(p, state, begin, times, 1e-11, states, log)
+    count = traces.trace(p, state, begin, times, 1e-11, states, log)
     assert_allclose(found.state, states[-1], atol=1e-13)
     assert_allclose(found.contact_times, log[:count, 1], atol=1e-13)
     largest = records.measured(p, START, PERIODS, 1e-11)["maximum_displacement"]
@@ -45,7 +45,7 @@ def test_peaks_are_turning_points(damper):
     for k in (1, len(found.peaks) // 2, -2):
         at, states = found.peak_times[k], np.empty((2, 4))
         none = np.empty((0, 5))
-        records.trace(p, START.copy(), begin, np.array([begin, at]), 1e-11, states, none)
+        traces.trace(p, START.copy(), begin, np.array([begin, at]), 1e-11, states, none)
         assert abs(states[-1, 0]) == pytest.approx(found.peaks[k], abs=1e-7)
         assert abs(states[-1, 1]) < 1e-6
 

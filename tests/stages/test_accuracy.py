@@ -16,7 +16,7 @@ from helpers import configurations
 from impact_damper.data.datasets import flag
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
-from impact_damper.motions import records
+from impact_damper.motions import traces
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals import averages, orbit_models, runs, taylor_runs
 from impact_damper.rivals.comparison_scenes import ComparisonScene
@@ -138,7 +138,7 @@ def test_contacts_and_peaks_from_samples_agree_with_those_of_the_series():
         times = begin + period * np.arange(801) / 400
         states = np.empty((801, 4))
         start = np.array(given.state)
-        records.trace(given.p, start, begin, times, 1e-13, states, np.empty((0, 5)))
+        traces.trace(given.p, start, begin, times, 1e-13, states, np.empty((0, 5)))
         read = runs.read_off(given.p, 0.0, times, states)
         assert len(read.contact_times) == len(run.contact_times)
         assert np.allclose(read.contact_times, run.contact_times, atol=1e-4)

@@ -29,7 +29,8 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import is_settled
-from impact_damper.kernel.single import advance, workspace
+from impact_damper.kernel.single import workspace
+from impact_damper.kernel.tangents import advance
 from impact_damper.motions import ensemble
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.system.packed import FREQUENCY, cubic_spring

@@ -11,7 +11,7 @@ import numpy as np
 
 from impact_damper.data.variables.basins import BASIN_LABEL
 from impact_damper.kernel.batch import advance
-from impact_damper.motions import ensemble, records
+from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
@@ -107,7 +107,7 @@ def orbit_passages(p, record, phase):
     first = begin + (phase / p[FREQUENCY] - begin) % period
     times = first + period * np.arange(record["period"])
     states = np.empty((len(times), 4))
-    records.trace(
+    traces.trace(
         p, record["state"].copy(), begin, times, POLISH_TOLERANCE, states, np.empty((0, 5))
     )
     return states[:, :2]

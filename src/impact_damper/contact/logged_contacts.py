@@ -15,7 +15,7 @@ import numpy as np
 from impact_damper.contact.contact_law import contact, natural_frequency
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.kernel.equation import acceleration
-from impact_damper.motions import ensemble, records, strobe_map
+from impact_damper.motions import ensemble, records, strobe_map, traces
 from impact_damper.motions.following import follow_stable
 from impact_damper.motions.simulate import random_states
 from impact_damper.system.packed import DASHPOT, FREQUENCY, pack
@@ -66,13 +66,13 @@ def logged_contacts(oscillator, damper, frequency, state, periods):
     times = np.array([begin + periods * 2 * np.pi / p[FREQUENCY]])
     log, states = np.empty((LARGEST_LOG, 5)), np.empty((1, 4))
     tolerance = strobe_map.POLISH_TOLERANCE
-    count = records.trace(p, np.array(state), begin, times, tolerance, states, log)
+    count = traces.trace(p, np.array(state), begin, times, tolerance, states, log)
     if count > LARGEST_LOG:
         raise ValueError(f"periods = {periods}: more than {LARGEST_LOG} contacts in this time")
     # The same integration is repeated to store the states at which contacts begin.
     times = np.append(log[:count, 1], times)
     states = np.empty((len(times), 4))
-    records.trace(p, np.array(state), begin, times, tolerance, states, log)
+    traces.trace(p, np.array(state), begin, times, tolerance, states, log)
     side, start, end, approach, departure = log[:count].T
     load = side * [acceleration(p, y, t) for y, t in zip(states[:-1], start, strict=True)]
     natural = natural_frequency(damper)

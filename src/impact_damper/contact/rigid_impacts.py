@@ -16,7 +16,8 @@ import numpy as np
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.equation import acceleration
 from impact_damper.kernel.instances import FLIGHT_ORDER
-from impact_damper.kernel.single import X, step, workspace
+from impact_damper.kernel.single import X, workspace
+from impact_damper.kernel.tangents import step_with_tangents
 from impact_damper.motions.extrema import extremum
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.system.packed import DAMPING, FREQUENCY, INVERSE_MASS_RATIO
@@ -89,12 +90,12 @@ def rigid_map(p, restitution, y, tolerance):
     state = y.copy()
     tangents = np.eye(4)
     work = workspace()
-    flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
+    flight = np.int64(0)  # not the literal 0, for which numba would compile the step again
     t = strobe_time(p)
     end = t + 2.0 * math.pi / p[FREQUENCY]
     impacts, speed, first, largest = 0, math.inf, (math.nan, math.nan), abs(y[0])
     while t < end and impacts < MOST_IMPACTS:
-        length, side = step(p, state, tangents, flight, t, end - t, tolerance, work)
+        length, side = step_with_tangents(p, state, tangents, flight, t, end - t, tolerance, work)
         # |Z1| can also be largest at an impact, where Z1' jumps.
         largest = max(extremum(work[X:], FLIGHT_ORDER, length, largest), abs(state[0]))
         t = end if length >= end - t else t + length

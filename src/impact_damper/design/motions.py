@@ -16,7 +16,7 @@ from impact_damper.design.labelled import SIDES, labelled
 from impact_damper.design.outcomes import Case, are_quiet
 from impact_damper.machine.results import from_si
 from impact_damper.machine.units import QUANTITIES
-from impact_damper.motions import records
+from impact_damper.motions import traces
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.performance.costs import measured_costs, pressure_costs
 from impact_damper.system.packed import FREQUENCY
@@ -100,7 +100,7 @@ def _measured(task, case, size, state, periods, contact):
     states = np.empty((count + 1, 4))
     tolerance = task.settling.tolerance
     y = state.copy()
-    records.trace(p, y, begin, times, tolerance, states, np.empty((0, 5)))
+    traces.trace(p, y, begin, times, tolerance, states, np.empty((0, 5)))
     course = task.millimetres(states[:-1, 0])
     peaks = np.abs(course).reshape(periods, SAMPLES).max(axis=1)
     costs = measured_costs(p, state.copy(), begin, periods)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.kernel import instances
+from impact_damper.kernel.by_address import by_address
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import no_return
 from impact_damper.kernel.memory import aligned, pointer
@@ -25,7 +26,9 @@ RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
 _MANY = instances.instance(LANES)
-flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_steps(_MANY)
+flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.contact_step)
+flight_tangents = by_address(_MANY.flight_tangents)
+contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
 # Indices of the numbers of a trajectory in `Pool.numbers`. The numbers have the same order as the
 # rows of a step (`series.rows`).

@@ -8,7 +8,6 @@ import inspect
 import os
 import sys
 
-from impact_damper.kernel.by_address import by_address
 from impact_damper.kernel.compiling import CACHE_DIRECTORY
 from impact_damper.kernel.evaluation import Source
 from impact_damper.kernel.series import SERIES, SINGLE
@@ -38,24 +37,6 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
     specification.loader.exec_module(module)
     sys.modules[name] = module
     return module
-
-
-def bound_steps(module):
-    """Compile the steps of a module made by `instance`, for calls by address (see `by_address`).
-
-    Returns
-    -------
-    list of numba.types.ExternalFunction
-        The step in flight, the step in contact, and for each of them the kernel that integrates
-        tangents (solutions of the variational equations) over the step.
-    """
-    steps = (
-        module.flight_step,
-        module.contact_step,
-        module.flight_tangents,
-        module.contact_tangents,
-    )
-    return list(map(by_address, steps))
 
 
 def _source(writer):

@@ -1,8 +1,8 @@
 """Integration of one trajectory in steps that end at events, the begins and ends of contacts.
 
 A state is (Z1, Z1', Z2, Z2') together with `side`: the wall that the loose mass touches, -1 or 1,
-or 0 in flight. Tangents, solutions of the variational equations, can be integrated with the
-trajectory.
+or 0 in flight. The module `tangents` also integrates tangents, solutions of the variational
+equations.
 
 Symbols are as in `system.parameters`.
 """
@@ -10,8 +10,9 @@ Symbols are as in `system.parameters`.
 import numpy as np
 
 from impact_damper.kernel import instances
+from impact_damper.kernel.by_address import by_address
 from impact_damper.kernel.compiling import kernel, kernel_only
-from impact_damper.kernel.equation import has_escaped, no_return
+from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.memory import CACHE_LINE, aligned, pointer
 from impact_damper.kernel.series import rows
 from impact_damper.system import packed
@@ -19,7 +20,7 @@ from impact_damper.system.packed import CLEARANCE
 
 _ONE = instances.instance(1)
 constant_series = _ONE.constant_series
-flight_step, contact_step, flight_tangents, contact_tangents = instances.bound_steps(_ONE)
+flight_step, contact_step = by_address(_ONE.flight_step), by_address(_ONE.contact_step)
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
 # Index in a workspace at which the numbers of the tangents begin; a multiple of CACHE_LINE.
 BEHIND = -(-SIZE // CACHE_LINE) * CACHE_LINE
@@ -78,45 +79,34 @@ def write_trajectory(p, y, side, tolerance, a):
     a[KNOWN] = np.inf
 
 
-@kernel
-def load(p, y, tangents, side, tolerance, a, d):
-    """Write a trajectory and its tangents into a workspace, and fill its constant series."""
+@kernel_only
+def load(p, y, side, tolerance, a):
+    """Write a trajectory into a workspace, and fill its constant series."""
     write_trajectory(p, y, side, tolerance, a)
     constant_series(a)
-    if len(tangents) > 0:
-        for i in range(COLUMNS):
-            for j in range(4):
-                d[COLUMNS * j + i] = tangents[i, j] if i < len(tangents) else 0.0
 
 
 @kernel_only
-def unload(y, tangents, a, d):
-    """Read the state and the tangents from a workspace."""
-    for i in range(4):
-        y[i] = a[STATE + i]
-    for i in range(len(tangents)):
-        for j in range(4):
-            tangents[i, j] = d[COLUMNS * j + i]
-
-
-@kernel_only
-def step_loaded(count, t, longest, a, d):
-    """Integrate one step as `step` does, with trajectory and `count` tangents in the workspace."""
+def step_loaded(t, longest, a):
+    """Integrate one step as `step` does, with the trajectory in the workspace."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:
         flight_step(a)
-        if count > 0:
-            flight_tangents(a, d)
     else:
         contact_step(a)
-        if count > 0:
-            contact_tangents(a, d)
     return a[LENGTH], np.int64(a[SIDE])
 
 
+@kernel_only
+def unload(y, a):
+    """Read the state from a workspace."""
+    for i in range(4):
+        y[i] = a[STATE + i]
+
+
 @kernel
-def step(p, y, tangents, side, t, longest, tolerance, work):
+def step(p, y, side, t, longest, tolerance, work):
     """Integrate one step, which ends early at an event.
 
     Parameters
@@ -125,8 +115,6 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
         Packed parameters (`packed.pack`).
     y : array, shape (4,)
         Z1, Z1', Z2, Z2', replaced by the state after the step.
-    tangents : array, shape (m, 4)
-        Solutions of the variational equations, m from 0 to 4; also replaced.
     side : int
         Wall in contact, -1 or 1, or 0 in flight.
     t, longest, tolerance : float
@@ -145,10 +133,10 @@ def step(p, y, tangents, side, t, longest, tolerance, work):
     side : int
         Wall in contact after the step.
     """
-    a, d = pointer(work), pointer(work[BEHIND:])
-    load(p, y, tangents, side, tolerance, a, d)
-    length, side = step_loaded(len(tangents), t, longest, a, d)
-    unload(y, tangents, a, d)
+    a = pointer(work)
+    load(p, y, side, tolerance, a)
+    length, side = step_loaded(t, longest, a)
+    unload(y, a)
     return (longest if has_escaped(p, y[0], y[1]) else length), side
 
 
@@ -163,28 +151,3 @@ def side_of(p, y):
     if y[2] < -p[CLEARANCE] or (y[2] == -p[CLEARANCE] and y[3] < 0.0):
         return -1
     return 0
-
-
-@kernel
-def advance(p, y, tangents, side, t, end, tolerance, work):
-    """Integrate from time t to time `end`; the arguments are as in `step`.
-
-    Return the side at the end, the number of contacts begun and the time in contact. If the motion
-    escapes (`equation.no_return`), the integration stops in the state at the escape.
-    """
-    contacts = 0
-    touching = 0.0
-    farthest = no_return(p)
-    a, d = pointer(work), pointer(work[BEHIND:])
-    load(p, y, tangents, side, tolerance, a, d)
-    while t < end:
-        before = side
-        length, side = step_loaded(len(tangents), t, end - t, a, d)
-        escaped = not (abs(a[STATE]) <= farthest or a[STATE] * a[STATE + 1] <= 0.0)
-        t = end if escaped or length >= end - t else t + length
-        if before == 0 and side != 0:
-            contacts += 1
-        if before != 0:
-            touching += length
-    unload(y, tangents, a, d)
-    return side, contacts, touching

@@ -19,7 +19,8 @@ from impact_damper.data.datasets import flag
 from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
 from impact_damper.migration import legs
 from impact_damper.migration.damper_release import destination, kinds
-from impact_damper.motions.records import MOTION, NEVER, trace
+from impact_damper.motions.records import MOTION, NEVER
+from impact_damper.motions.traces import trace
 from impact_damper.system.packed import FREQUENCY
 
 # `course` returns Z1 against time from MARGIN forcing cycles before a run to MARGIN cycles after.

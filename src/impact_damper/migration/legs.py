@@ -16,9 +16,11 @@ import numpy as np
 
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.equation import has_escaped
-from impact_damper.kernel.single import advance, assign, side_of, workspace
-from impact_damper.motions.records import ESCAPED, NEVER, UNRESOLVED, measure, trace
+from impact_damper.kernel.single import assign, side_of, workspace
+from impact_damper.kernel.tangents import advance
+from impact_damper.motions.records import ESCAPED, NEVER, UNRESOLVED, measure
 from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
+from impact_damper.motions.traces import trace
 from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 

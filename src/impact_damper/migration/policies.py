@@ -25,7 +25,8 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel, kernel_only
-from impact_damper.kernel.single import advance, assign, side_of, workspace
+from impact_damper.kernel.single import assign, side_of, workspace
+from impact_damper.kernel.tangents import advance
 from impact_damper.migration.release_set import depth_of
 from impact_damper.motions import ensemble
 from impact_damper.motions.strobe_map import strobe_time

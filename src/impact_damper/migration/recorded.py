@@ -16,7 +16,8 @@ import numpy as np
 
 from impact_damper.attraction.labels import UNRESOLVED
 from impact_damper.kernel.compiling import kernel
-from impact_damper.kernel.single import advance, workspace
+from impact_damper.kernel.single import workspace
+from impact_damper.kernel.tangents import advance
 from impact_damper.migration.policies import switch_on
 from impact_damper.migration.release_set import depth_of
 from impact_damper.motions import ensemble

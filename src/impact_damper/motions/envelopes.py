@@ -62,7 +62,6 @@ def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
     Return the wall in contact, and whether the motion escaped.
     """
     work = workspace()
-    none = np.empty((0, 4))
     for k in range(len(lengths)):
         p = parameters[k]
         t = strobe_time(p)
@@ -70,7 +69,7 @@ def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
         farthest, begun = abs(y[0]), 0
         while t < end:
             before = side
-            length, side = step(p, y, none, side, t, end - t, tolerance, work)
+            length, side = step(p, y, side, t, end - t, tolerance, work)
             if has_escaped(p, y[0], y[1]):
                 largest[k] = np.inf
                 return side, True

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.motions import ensemble, records, strobe_map
+from impact_damper.motions import ensemble, strobe_map, traces
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import balance_amplitudes, maximum_response
 
@@ -90,5 +90,5 @@ def _course(p, state, periods):
     times = begin + period * np.arange(periods * SAMPLES + 1) / SAMPLES
     states = np.empty((len(times), 4))
     none = np.empty((0, 5))
-    records.trace(p, state.copy(), begin, times, strobe_map.POLISH_TOLERANCE, states, none)
+    traces.trace(p, state.copy(), begin, times, strobe_map.POLISH_TOLERANCE, states, none)
     return states

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import flag
-from impact_damper.motions import records, strobe_map
+from impact_damper.motions import strobe_map, traces
 from impact_damper.motions.catalogue import SAME
 from impact_damper.motions.following import record_at
 from impact_damper.motions.start_states import search_starts
@@ -127,12 +127,12 @@ def switched_on(oscillator, p, state, loose, generator):
     times = begin + np.sort(generator.random(len(loose))) * 3 * period
     states, log = np.empty((len(loose), 4)), np.empty((0, 5))
     free = pack(oscillator, None, p[FREQUENCY])
-    records.trace(free, state.copy(), begin, times, strobe_map.POLISH_TOLERANCE, states, log)
+    traces.trace(free, state.copy(), begin, times, strobe_map.POLISH_TOLERANCE, states, log)
     states[:, 2:] = loose[:, 2:]
     states[::2, 3] = 0.0
     for time, y in zip(times, states, strict=True):
         until = np.array([np.ceil(time / period) * period])
-        records.trace(p, y, time, until, strobe_map.POLISH_TOLERANCE, np.empty((1, 4)), log)
+        traces.trace(p, y, time, until, strobe_map.POLISH_TOLERANCE, np.empty((1, 4)), log)
     return states
 
 

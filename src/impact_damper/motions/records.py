@@ -1,4 +1,4 @@
-"""Measurements of motions: largest |Z1|, contacts, harmonics, sampled states, first collisions.
+"""Measurements of motions: largest |Z1|, contacts, harmonics, first collisions.
 
 A record is an element of an array of the type MOTION. It holds the results for one motion.
 
@@ -10,20 +10,19 @@ import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import inlined, kernel, kernel_only
+from impact_damper.kernel.compiling import inlined, kernel
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
-from impact_damper.kernel.single import LENGTH, Q, X, assign, polynomial, side_of, step, workspace
+from impact_damper.kernel.single import X, assign, side_of, step, workspace
 from impact_damper.motions.extrema import extremum
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
+from impact_damper.motions.traces import series_of_step
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # A harmonic below PHASELESS times the harmonic of Z1 is a rounding error, so it has no phase.
 PHASELESS = 1e-9
 # Number of samples in a forcing cycle, from which harmonics are computed.
 SAMPLES = 64
-# Number of steps of a trace in one call of its kernel, which takes a fraction of a second.
-STEPS_AT_ONCE = 50_000
 # Argument `stop` of runs that no other thread stops.
 NEVER = np.zeros(1, bool)
 
@@ -71,26 +70,10 @@ MOTION = np.dtype(
 )
 
 
-@kernel_only
-def series_of_step(work, side, y, t):
-    """Return Z1, Z1', Z2 and Z2' at the time t within a step from the state y.
-
-    In contact (side not 0) the third number is the penetration in place of Z2, with the sign of the
-    wall.
-    """
-    if side == 0:
-        x, v = polynomial(work[X:], FLIGHT_ORDER, t)
-        return x, v, x + (y[2] - y[0]) + (y[3] - y[1]) * t, v + (y[3] - y[1])
-    x, v = polynomial(work[X:], CONTACT_ORDER, t)
-    q, w = polynomial(work[Q:], CONTACT_ORDER, t)
-    return x, v, q, w
-
-
 @inlined
 def measure_one(p, y, periods, tolerance, out, stop):
     """Do the same as `measure` for one motion and a given number of forcing cycles."""
     work = workspace()
-    none = np.empty((0, 4))
     period = 2.0 * math.pi / p[FREQUENCY]
     begin = strobe_time(p)
     end = begin + periods * period
@@ -106,7 +89,7 @@ def measure_one(p, y, periods, tolerance, out, stop):
         ahead = min(end, half) if t < half else end
         assign(start, state)
         before = side
-        length, side = step(p, state, none, side, t, ahead - t, tolerance, work)
+        length, side = step(p, state, side, t, ahead - t, tolerance, work)
         order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
         largest = extremum(work[X:], order, length, largest)
         contacts += before == 0 and side != 0
@@ -175,87 +158,6 @@ def measured(p, y, periods, tolerance):
     return records[0]
 
 
-def trace(p, y, t, times, tolerance, states, log):
-    """Compute the states of a motion at given times, and a log of its contacts.
-
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters.
-    y : array, shape (4,)
-        State at time t, replaced by the last state.
-    t : float
-    times : array, shape (n,)
-        Increasing times, not before t.
-    tolerance : float
-        Largest local error of a step.
-    states : array, shape (n, 4)
-        Receives the states; NaN after the motion has escaped (`kernel.equation.no_return`).
-    log : array, shape (m, 5)
-        Receives a row for each of the first m contacts: wall, beginning, end, and Z2' at the
-        beginning and the end. Further contacts are only counted.
-
-    Returns
-    -------
-    int
-        Number of contacts.
-    """
-    t, side, contacts = float(t), side_of(p, y), 0
-    if side != 0:
-        log[:1] = [[side, t, np.nan, y[3], np.nan]]
-        contacts = 1
-    sample = int(np.searchsorted(times, t, side="right"))
-    states[:sample] = y
-    while sample < len(times):
-        t, side, sample, contacts = trace_steps(
-            p, y, t, side, sample, contacts, times, tolerance, states, log
-        )
-    return contacts
-
-
-@kernel
-def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
-    """Do at most STEPS_AT_ONCE steps of `trace`, because Ctrl-C waits for a kernel to end.
-
-    Return the time, the wall in contact, and the numbers of samples and contacts so far.
-    """
-    work = workspace()
-    none = np.empty((0, 4))
-    start = y.copy()
-    for _ in range(STEPS_AT_ONCE):
-        if sample == len(times):
-            break
-        assign(start, y)
-        before = side
-        # The last sample is the end of a step, so y is the state at the last sample.
-        left = times[-1] - t
-        length, side = step(p, y, none, side, t, left, tolerance, work)
-        gone = has_escaped(p, y[0], y[1])
-        while sample < len(times) and (times[sample] - t < length or length >= left):
-            x, v, z, w = series_of_step(work, before, start, min(times[sample] - t, length))
-            if gone and times[sample] - t > work[LENGTH]:
-                x, v, z, w = np.nan, np.nan, np.nan, np.nan
-            states[sample, 0], states[sample, 1] = x, v
-            states[sample, 2] = z + (before * p[CLEARANCE] if before != 0 else 0.0)
-            states[sample, 3] = w
-            sample += 1
-        t += length
-        if before == 0 and side != 0:
-            contacts = record_beginning(log, contacts, side, t, y[3])
-        elif before != 0 and side == 0 and contacts <= len(log):
-            log[contacts - 1, 2], log[contacts - 1, 4] = t, y[3]
-    return t, side, sample, contacts
-
-
-@kernel_only
-def record_beginning(log, contacts, side, t, speed):
-    """Begin a row of the contact log; return the number of contacts."""
-    if contacts < len(log):
-        log[contacts, 0], log[contacts, 1], log[contacts, 2] = side, t, np.nan
-        log[contacts, 3], log[contacts, 4] = speed, np.nan
-    return contacts + 1
-
-
 @kernel
 def first_collisions(parameters, states, limit, tolerance, periods, stop):
     """Fill `periods` with the number of forcing cycles from T = 0 to each motion's first contact.
@@ -263,7 +165,6 @@ def first_collisions(parameters, states, limit, tolerance, periods, stop):
     The number is infinite without a contact within `limit` cycles. When another thread sets
     `stop[0]`, the remaining numbers are meaningless.
     """
-    none = np.empty((0, 4))
     work = workspace()
     for i in range(len(states)):
         p = parameters[i]
@@ -272,7 +173,7 @@ def first_collisions(parameters, states, limit, tolerance, periods, stop):
         side = side_of(p, y)
         end = limit * 2.0 * math.pi / p[FREQUENCY]
         while side == 0 and t < end and not stop[0]:
-            length, side = step(p, y, none, side, t, end - t, tolerance, work)
+            length, side = step(p, y, side, t, end - t, tolerance, work)
             t += length
         periods[i] = t * p[FREQUENCY] / (2.0 * math.pi) if side != 0 else np.inf
 

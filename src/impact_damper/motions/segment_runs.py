@@ -13,11 +13,11 @@ from impact_damper.kernel.single import (
     CONTACT_ORDER,
     FLIGHT_ORDER,
     X,
-    advance,
     side_of,
     step,
     workspace,
 )
+from impact_damper.kernel.tangents import advance
 from impact_damper.motions.extrema import extremum
 
 
@@ -36,13 +36,13 @@ def largest_displacement(p, states, times, tolerance):
     tolerance : float
         Largest local error of a step.
     """
-    work, none, largest = workspace(), np.empty((0, 4)), 0.0
+    work, largest = workspace(), 0.0
     for k in range(len(states)):
         y, t, end = states[k], times[k], times[k + 1]
         side, largest = side_of(p, y), max(largest, abs(y[0]))
         while t < end:
             order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
-            length, side = step(p, y, none, side, t, end - t, tolerance, work)
+            length, side = step(p, y, side, t, end - t, tolerance, work)
             largest = extremum(work[X:], order, length, largest)
             t = end if length >= end - t else t + length
     return largest

@@ -11,7 +11,7 @@ import warnings
 import numpy as np
 
 from impact_damper.data.datasets import PHASES, dataset
-from impact_damper.motions import records
+from impact_damper.motions import traces
 from impact_damper.system.bounds import (
     FARTHEST,
     FASTEST,
@@ -230,10 +230,10 @@ def simulate(
     states = np.empty((len(times), 4))
     log = np.empty((1024, 5))
     first = y.copy()
-    count = records.trace(p, y, start, times, tolerance, states, log)
+    count = traces.trace(p, y, start, times, tolerance, states, log)
     if count > len(log):
         log = np.empty((count, 5))
-        records.trace(p, first, start, times, tolerance, states, log)
+        traces.trace(p, first, start, times, tolerance, states, log)
     log = log[:count]
     data = dict(zip(COMPONENTS, states.T, strict=True))
     data |= {

@@ -29,7 +29,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.motions import records, strobe_map
+from impact_damper.motions import strobe_map, traces
 from impact_damper.motions.free_motions import free_motions
 from impact_damper.motions.simulate import random_states
 from impact_damper.system.bounds import FREQUENCY_RANGE, RADIUS_RANGE, check_number
@@ -304,7 +304,7 @@ def _ramp(target, indices, factor, tolerance):
             return state
     end, at_zero = np.array([2 * np.pi / target[FREQUENCY]]), np.empty((1, 4))
     begin = strobe_map.strobe_time(target)
-    records.trace(target, state, begin, end, tolerance, at_zero, np.empty((0, 5)))
+    traces.trace(target, state, begin, end, tolerance, at_zero, np.empty((0, 5)))
     return at_zero[0]
 
 

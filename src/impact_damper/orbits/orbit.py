@@ -11,8 +11,9 @@ from functools import cached_property
 
 import numpy as np
 
-from impact_damper.kernel.single import advance, side_of, workspace
-from impact_damper.motions import records
+from impact_damper.kernel.single import side_of, workspace
+from impact_damper.kernel.tangents import advance
+from impact_damper.motions import records, traces
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.system.packed import DAMPING, DASHPOT, FREQUENCY, INVERSE_MASS_RATIO
@@ -160,7 +161,7 @@ class Orbit:
         touching = side_of(self.p, self.state) != 0
         last = end + touching * (end - begin)
         log = np.empty(((1 + touching) * self.periods * CONTACTS, 5))
-        count = records.trace(
+        count = traces.trace(
             self.p,
             self.state.copy(),
             begin,

@@ -24,9 +24,9 @@ from impact_damper.kernel.single import (
     Q,
     X,
     side_of,
-    step,
     workspace,
 )
+from impact_damper.kernel.tangents import step_with_tangents
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.system.packed import CLEARANCE
 
@@ -186,7 +186,7 @@ def follow_path(p, state, begin, end) -> Path:
     sides, begins, lengths, series = [], [], [], []
     while t < end:
         before, first = side, np.vstack([y, tangents])
-        length, side = step(p, y, tangents, side, t, end - t, POLISH_TOLERANCE, work)
+        length, side = step_with_tangents(p, y, tangents, side, t, end - t, POLISH_TOLERANCE, work)
         if not (abs(y[0]) <= farthest or y[0] * y[1] <= 0):
             raise ArithmeticError(f"the motion escapes at the time {t:g}")
         sides.append(before)

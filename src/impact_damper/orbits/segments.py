@@ -18,8 +18,9 @@ from functools import cached_property
 
 import numpy as np
 
-from impact_damper.kernel.single import advance, side_of, workspace
-from impact_damper.motions import records
+from impact_damper.kernel.single import side_of, workspace
+from impact_damper.kernel.tangents import advance
+from impact_damper.motions import traces
 from impact_damper.motions.segment_runs import flow_all, largest_displacement, separate
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.paths import follow_path
@@ -106,7 +107,7 @@ class Chain:
         for k, state in enumerate(self.states):
             begin, end = self.phases[k : k + 2] / self.p[FREQUENCY]
             log, last = np.empty((CONTACTS, 5)), np.empty((1, 4))
-            count = records.trace(
+            count = traces.trace(
                 self.p, state.copy(), begin, np.array([end]), POLISH_TOLERANCE, last, log
             )
             if count > CONTACTS:
@@ -131,7 +132,7 @@ class Chain:
             chosen = (places >= self.phases[k]) & (places < self.phases[k + 1])
             times = places[chosen] / self.p[FREQUENCY]
             part, begin = np.empty((len(times), 4)), self.phases[k] / self.p[FREQUENCY]
-            records.trace(
+            traces.trace(
                 self.p, state.copy(), begin, times, POLISH_TOLERANCE, part, np.empty((0, 5))
             )
             states[chosen] = part

@@ -23,7 +23,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.motions import records
+from impact_damper.motions import traces
 from impact_damper.motions.rotation_numbers import birkhoff_average, find_rotation
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.orbit import TURN, Orbit
@@ -171,7 +171,7 @@ def _iterates(orbit, state, count):
     begin = orbit.phase / orbit.p[FREQUENCY]
     times = begin + orbit.periods * TURN / orbit.p[FREQUENCY] * np.arange(1, count + 1)
     states = np.empty((count, 4))
-    records.trace(orbit.p, state, begin, times, POLISH_TOLERANCE, states, np.empty((0, 5)))
+    traces.trace(orbit.p, state, begin, times, POLISH_TOLERANCE, states, np.empty((0, 5)))
     return states
 
 

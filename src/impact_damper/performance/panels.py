@@ -14,8 +14,8 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from impact_damper.kernel.equation import spring_slope
-from impact_damper.motions.records import trace
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
+from impact_damper.motions.traces import trace
 from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
 
 # NODES: nodes of a panel, scaled to [-1, 1].
@@ -45,7 +45,7 @@ class Panels(NamedTuple):
     Attributes
     ----------
     log : numpy.ndarray, shape (contacts, 5)
-        One row for each contact, from `records.trace`: wall, times of its beginning and end, Z2' at
+        One row for each contact, from `traces.trace`: wall, times of its beginning and end, Z2' at
         both.
     lengths : numpy.ndarray, shape (panels,)
         Lengths of the panels in units of T.

@@ -11,7 +11,8 @@ import math
 import numpy as np
 
 from impact_damper.contact.rigid_impacts import rigid_map
-from impact_damper.kernel.single import advance, side_of, workspace
+from impact_damper.kernel.single import side_of, workspace
+from impact_damper.kernel.tangents import advance
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.rivals.methods import STATISTICS
 from impact_damper.system.packed import DASHPOT, FREQUENCY

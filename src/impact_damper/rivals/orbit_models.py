@@ -97,7 +97,7 @@ def rigid(p, restitution, start, t, periods, tolerance):
             return stopped("failed", steps_work(counts))
         now, end = t, t + period
         while now < end:
-            length, side = step(p, y, none, 0, now, end - now, tolerance, work)
+            length, side = step(p, y, 0, now, end - now, tolerance, work)
             now = end if length >= end - now else now + length
             counts[FLIGHT if side == 0 else MEETING] += 1
             if side != 0:

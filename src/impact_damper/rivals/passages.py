@@ -51,13 +51,12 @@ def largest_of_flight(p, y, t, end):
     0 is returned in place of |Z2''|. y, the state at t, is replaced by the state at the end.
     """
     work = workspace()
-    none = np.empty((0, 4))
     flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
     c = np.zeros(FLIGHT_ORDER + 1)
     at, largest, bend = t, abs(y[2]), 0.0
     while t < end:
         offset, drift = y[2] - y[0], y[3] - y[1]
-        length, _ = step(p, y, none, flight, t, end - t, TOLERANCE, work)
+        length, _ = step(p, y, flight, t, end - t, TOLERANCE, work)
         # The assignment of a whole array would take 2 s longer to compile.
         for k in range(FLIGHT_ORDER + 1):
             c[k] = work[X + k]

@@ -32,7 +32,7 @@ from impact_damper.kernel.single import (
     side_of,
     write_trajectory,
 )
-from impact_damper.motions import records
+from impact_damper.motions import traces
 from impact_damper.rivals.operations import operations
 from impact_damper.rivals.runs import Integrator, Run, root, stopped
 from impact_damper.system.packed import FREQUENCY
@@ -184,5 +184,5 @@ class Taylor(Integrator):
     def strobes(self, p, start, begin, periods, resolution, locate=True):
         times = begin + 2 * math.pi / p[FREQUENCY] * np.arange(1, periods + 1)
         states = np.empty((periods, 4))
-        records.trace(p, start.copy(), begin, times, resolution, states, np.empty((0, 5)))
+        traces.trace(p, start.copy(), begin, times, resolution, states, np.empty((0, 5)))
         return states

@@ -19,8 +19,8 @@ from scipy.optimize import minimize_scalar
 from tqdm import tqdm
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.motions.records import trace
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
+from impact_damper.motions.traces import trace
 from impact_damper.orbits.compliant_orbits import compliant_orbit
 from impact_damper.system.checks import check_frequencies, check_increasing
 from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack

@@ -15,7 +15,7 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset
 from impact_damper.motions.ensemble import collide
-from impact_damper.motions.records import trace
+from impact_damper.motions.traces import trace
 from impact_damper.rivals.methods import COMPARED, METHODS, integrators
 from impact_damper.rivals.passages import TOLERANCE, draw_passages, without_walls
 from impact_damper.rivals.runs import check_resolutions

@@ -51,14 +51,14 @@ def warm_up_orbits() -> None:
     The kernels that `warm_up_settling` also calls come first, and the kernels that call kernels of
     `warm_up_settling` come last, so that the two processes rarely compile the same kernel.
     """
-    from impact_damper.motions import ensemble, envelopes, records, smooth_runs, strobe_map
+    from impact_damper.motions import ensemble, envelopes, records, smooth_runs, strobe_map, traces
 
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
     strobe_map.polish(on, np.zeros(4), 1, 1e-3, 1e-9)
     strobe_map.repeats_sooner(on, np.zeros(4), 1, 1e-9)
     strobe_map.flow_map(on, np.zeros(4), strobe_map.strobe_time(on), 1, False, 1e-9)
     states, log = np.zeros((1, 4)), np.empty((0, 5))
-    records.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9, states, log)
+    traces.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9, states, log)
     ensemble.collide(on[None], states, 1, 1e-9)
     envelopes.envelope(on[None], np.zeros(1), np.zeros(4), 1e-9)
     rows, slopes = np.zeros((1, smooth_runs.COUNT)), np.zeros((1, 4, 4))

@@ -17,7 +17,8 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.kernel import batch
-from impact_damper.kernel.single import advance, side_of, workspace
+from impact_damper.kernel.single import side_of, workspace
+from impact_damper.kernel.tangents import advance
 from references import extended
 from references.extended.starts import KINDS, draw
 

@@ -1,0 +1,93 @@
+"""Integration of one trajectory together with tangents, solutions of the variational equations.
+
+The kernels of the tangents are compiled when this module is imported (`by_address`). Therefore a
+module that integrates no tangents imports `single` only.
+
+Symbols are as in `system.parameters`.
+"""
+
+from impact_damper.kernel import instances
+from impact_damper.kernel.by_address import by_address
+from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.equation import has_escaped, no_return
+from impact_damper.kernel.memory import pointer
+from impact_damper.kernel.single import BEHIND, COLUMNS, SIDE, STATE, load, step_loaded, unload
+
+_ONE = instances.instance(1)
+flight_tangents = by_address(_ONE.flight_tangents)
+contact_tangents = by_address(_ONE.contact_tangents)
+
+
+@kernel_only
+def load_tangents(tangents, d):
+    """Write tangents into their part of a workspace."""
+    if len(tangents) > 0:
+        for i in range(COLUMNS):
+            for j in range(4):
+                d[COLUMNS * j + i] = tangents[i, j] if i < len(tangents) else 0.0
+
+
+@kernel_only
+def unload_tangents(tangents, d):
+    """Read tangents from their part of a workspace."""
+    for i in range(len(tangents)):
+        for j in range(4):
+            tangents[i, j] = d[COLUMNS * j + i]
+
+
+@kernel_only
+def step_all(count, t, longest, a, d):
+    """Integrate one step, with trajectory and `count` tangents in the workspace."""
+    before = a[SIDE]
+    length, side = step_loaded(t, longest, a)
+    if count > 0:
+        if before == 0.0:
+            flight_tangents(a, d)
+        else:
+            contact_tangents(a, d)
+    return length, side
+
+
+@kernel
+def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
+    """Do `single.step` for a trajectory and its tangents; the other arguments are those of `step`.
+
+    Parameters
+    ----------
+    tangents : array, shape (m, 4)
+        Solutions of the variational equations, m from 0 to 4, replaced by those after the step.
+    """
+    a, d = pointer(work), pointer(work[BEHIND:])
+    load(p, y, side, tolerance, a)
+    load_tangents(tangents, d)
+    length, side = step_all(len(tangents), t, longest, a, d)
+    unload(y, a)
+    unload_tangents(tangents, d)
+    return (longest if has_escaped(p, y[0], y[1]) else length), side
+
+
+@kernel
+def advance(p, y, tangents, side, t, end, tolerance, work):
+    """Integrate from time t to time `end`, with the arguments of `step_with_tangents`.
+
+    Return the side at the end, the number of contacts begun and the time in contact. If the motion
+    escapes (`equation.no_return`), the integration stops in the state at the escape.
+    """
+    contacts = 0
+    touching = 0.0
+    farthest = no_return(p)
+    a, d = pointer(work), pointer(work[BEHIND:])
+    load(p, y, side, tolerance, a)
+    load_tangents(tangents, d)
+    while t < end:
+        before = side
+        length, side = step_all(len(tangents), t, end - t, a, d)
+        escaped = not (abs(a[STATE]) <= farthest or a[STATE] * a[STATE + 1] <= 0.0)
+        t = end if escaped or length >= end - t else t + length
+        if before == 0 and side != 0:
+            contacts += 1
+        if before != 0:
+            touching += length
+    unload(y, a)
+    unload_tangents(tangents, d)
+    return side, contacts, touching

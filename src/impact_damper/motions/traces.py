@@ -1,0 +1,110 @@
+"""Traces of motions: states at given times, and a log of the contacts.
+
+This module imports no kernels with tangents, so that `simulate` does not compile them.
+"""
+
+import numpy as np
+
+from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.equation import has_escaped
+from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
+from impact_damper.kernel.single import LENGTH, Q, X, assign, polynomial, side_of, step, workspace
+from impact_damper.system.packed import CLEARANCE
+
+# Number of steps of a trace in one call of its kernel, which takes a fraction of a second.
+STEPS_AT_ONCE = 50_000
+
+
+@kernel_only
+def series_of_step(work, side, y, t):
+    """Return Z1, Z1', Z2 and Z2' at the time t within a step from the state y.
+
+    In contact (side not 0) the third number is the penetration in place of Z2, with the sign of the
+    wall.
+    """
+    if side == 0:
+        x, v = polynomial(work[X:], FLIGHT_ORDER, t)
+        return x, v, x + (y[2] - y[0]) + (y[3] - y[1]) * t, v + (y[3] - y[1])
+    x, v = polynomial(work[X:], CONTACT_ORDER, t)
+    q, w = polynomial(work[Q:], CONTACT_ORDER, t)
+    return x, v, q, w
+
+
+def trace(p, y, t, times, tolerance, states, log):
+    """Compute the states of a motion at given times, and a log of its contacts.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters.
+    y : array, shape (4,)
+        State at time t, replaced by the last state.
+    t : float
+    times : array, shape (n,)
+        Increasing times, not before t.
+    tolerance : float
+        Largest local error of a step.
+    states : array, shape (n, 4)
+        Receives the states; NaN after the motion has escaped (`kernel.equation.no_return`).
+    log : array, shape (m, 5)
+        Receives a row for each of the first m contacts: wall, beginning, end, and Z2' at the
+        beginning and the end. Further contacts are only counted.
+
+    Returns
+    -------
+    int
+        Number of contacts.
+    """
+    t, side, contacts = float(t), side_of(p, y), 0
+    if side != 0:
+        log[:1] = [[side, t, np.nan, y[3], np.nan]]
+        contacts = 1
+    sample = int(np.searchsorted(times, t, side="right"))
+    states[:sample] = y
+    while sample < len(times):
+        t, side, sample, contacts = trace_steps(
+            p, y, t, side, sample, contacts, times, tolerance, states, log
+        )
+    return contacts
+
+
+@kernel
+def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
+    """Do at most STEPS_AT_ONCE steps of `trace`, because Ctrl-C waits for a kernel to end.
+
+    Return the time, the wall in contact, and the numbers of samples and contacts so far.
+    """
+    work = workspace()
+    start = y.copy()
+    for _ in range(STEPS_AT_ONCE):
+        if sample == len(times):
+            break
+        assign(start, y)
+        before = side
+        # The last sample is the end of a step, so y is the state at the last sample.
+        left = times[-1] - t
+        length, side = step(p, y, side, t, left, tolerance, work)
+        gone = has_escaped(p, y[0], y[1])
+        while sample < len(times) and (times[sample] - t < length or length >= left):
+            x, v, z, w = series_of_step(work, before, start, min(times[sample] - t, length))
+            if gone and times[sample] - t > work[LENGTH]:
+                x, v, z, w = np.nan, np.nan, np.nan, np.nan
+            states[sample, 0], states[sample, 1] = x, v
+            states[sample, 2] = z + (before * p[CLEARANCE] if before != 0 else 0.0)
+            states[sample, 3] = w
+            sample += 1
+        t += length
+        if before == 0 and side != 0:
+            contacts = record_beginning(log, contacts, side, t, y[3])
+        elif before != 0 and side == 0 and contacts <= len(log):
+            log[contacts - 1, 2], log[contacts - 1, 4] = t, y[3]
+    return t, side, sample, contacts
+
+
+@kernel_only
+def record_beginning(log, contacts, side, t, speed):
+    """Begin a row of the contact log; return the number of contacts."""
+    if contacts < len(log):
+        log[contacts, 0], log[contacts, 1], log[contacts, 2] = side, t, np.nan
+        log[contacts, 3], log[contacts, 4] = speed, np.nan
+    return contacts + 1
