@@ -15,6 +15,8 @@ from impact_damper.workflow.sources import sources
 
 PACKAGE = Path(impact_damper.__file__).parent
 
+UNUSED_BY_SIMULATE = {"impact_damper.kernel.tangents", "impact_damper.kernel.batch"}
+
 FOREIGN = """
 import numba
 
@@ -68,6 +70,18 @@ def test_importing_the_package_leaves_numba_as_it_was(tmp_path):
     paths = os.pathsep.join([str(tmp_path), *sys.path])
     run(USER, without=("NUMBA_CACHE_DIR",), PYTHONPATH=paths)
     assert list((tmp_path / "__pycache__").glob("foreign.double-*.nbi"))
+
+
+def test_simulate_compiles_no_tangents_and_no_lanes():
+    """Kernels are bound, and therefore compiled, when their modules are imported."""
+    run(f"""
+import sys
+import impact_damper
+impact_damper.simulate
+loaded = {{name for name in sys.modules if name.startswith("impact_damper.kernel.")}}
+assert "impact_damper.kernel.single" in loaded
+assert loaded.isdisjoint({UNUSED_BY_SIMULATE})
+""")
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,8 @@
 """Traces of motions: states at given times, and a log of the contacts.
 
 This module imports no kernels with tangents, so that `simulate` does not compile them.
+
+Z1 is the displacement of the primary mass, and Z2 its displacement relative to the loose mass.
 """
 
 import numpy as np
