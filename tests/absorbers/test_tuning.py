@@ -56,7 +56,10 @@ def test_peaks_are_equal_and_no_other_tuning_has_lower_ones(name):
 
 
 def test_den_hartogs_fixed_points():
-    """Curves for two dampings cross at the height of sqrt(1 + 2/m) static deflections."""
+    """Response curves for two dampings cross at sqrt(1 + 2/m) static deflections.
+
+    m is the mass ratio.
+    """
     absorber, frequencies = den_hartog_absorber(UNDAMPED, 0.6), np.linspace(15, 26, 200001)
     first, second = (
         response(UNDAMPED, replace(absorber, damping=d), frequencies) for d in (10.0, 30.0)

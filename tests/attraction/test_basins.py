@@ -103,7 +103,7 @@ def test_threads_do_not_change_labels(free):
 
 
 def changes(data):
-    """Return places midway between neighbouring states with different labels, in cells."""
+    """Return places midway between neighbouring states with different labels, in cell widths."""
     label = data["basin_label"].values
     rows, columns = np.indices(label.shape)
     found = []
@@ -117,7 +117,7 @@ def changes(data):
 
 
 def in_cells(data, x, v):
-    """Return states as places in a plane, in cells."""
+    """Return states as places in a plane, in cell widths."""
     axes = [data[f"basin_{name}"].values for name in ("displacement", "velocity")]
     return np.stack(
         [
@@ -210,6 +210,6 @@ def test_mirrored_states_with_the_damper_lead_to_motions_of_equal_size():
 
 
 def test_the_numbers_of_labels_stand_in_the_registry():
-    """The kernels may not import the registry, so they repeat two of its numbers."""
+    """Kernels may not import the registry of variables, so they repeat two of its numbers."""
     assert labels.ESCAPED == BASIN_LABEL["escaped"]
     assert labels.UNRESOLVED == BASIN_LABEL["unresolved"]

@@ -1,4 +1,4 @@
-"""The import of the package changes no setting of numba. Folder and message of its compilation."""
+"""The import of the package changes no setting of numba; kernels have their own cache folder."""
 
 import os
 import shutil

@@ -99,7 +99,7 @@ def found(lanes, searched, series_given, length, **numbers):
 
 
 def first_contact(lanes, c, offset, drift, clearance, length, expecting=()):
-    """Return time and wall (0 for none) of the first contact of Z2, c plus offset + drift t.
+    """Return time and wall (0 for none) of the first contact, with Z2 = Z1 + offset + drift t.
 
     c are the coefficients of Z1, lowest power first.
     """

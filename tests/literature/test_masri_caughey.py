@@ -64,7 +64,7 @@ def _before(oscillator, frequency, motion, lead):
 
 @pytest.mark.parametrize("case", CASES)
 def test_multipliers_are_those_of_the_map(case):
-    """Eigenvalues of the derivative of the mirrored map over half a period, by differences."""
+    """Against the derivative of the mirrored state half a period later, by differences."""
     oscillator, damper, frequency = built(case)
     for motion in two_impact_motions(oscillator, damper, frequency):
         if motion.room < 0:

@@ -1,4 +1,4 @@
-"""Extreme machines and dampers: every motion ends within the limit of its settling.
+"""Extreme machines and dampers: every motion ends within its limit of forcing cycles.
 
 Mass ratios 1e-4 to 1, gaps from the penetration of the contact to 1000 static deflections on each
 side, restitution 0.05 to 1, contacts up to 1e6 times as stiff as the machine, damping ratios 1e-5

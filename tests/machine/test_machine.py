@@ -162,7 +162,7 @@ def test_a_loose_mass_on_a_moving_base_sees_the_motion_in_space():
         (
             {"damping_ratio": 1},
             "damping_ratio = 1: must be greater than 0 and at most 0.99 (at 1, critical"
-            " damping, nothing swings; 1 per cent is 0.01 or '1 %')",
+            " damping, nothing vibrates; 1 per cent is 0.01 or '1 %')",
         ),
         ({"damping_ratio": 0}, "damping_ratio = 0: must be greater than 0"),
         (

@@ -136,7 +136,7 @@ def test_basins_of_a_machine_with_a_damper():
 
 
 def test_migration_of_a_softening_machine():
-    """The resonance branch of a softening spring comes from high frequencies."""
+    """The resonance branch of a softening spring extends to high frequencies."""
     damper = SOFT.damper(
         mass=0.1 * MASS,
         clearance_each_side=0.4 * LENGTH,

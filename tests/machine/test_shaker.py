@@ -43,7 +43,7 @@ def branch():
 
 @pytest.fixture(params=[18.0, 20.0, 21.9])
 def point(branch, request):
-    """Return the orbit of the branch whose frequency is nearest to the parameter."""
+    """Return the orbit of the branch whose frequency (Hz) is nearest to the fixture's parameter."""
     return branch.isel(point=int(np.argmin(np.abs(branch.followed_value.values - request.param))))
 
 

@@ -103,7 +103,7 @@ def test_a_decay_that_is_cut_short_is_unresolved():
 
 @pytest.mark.parametrize("oscillator", [SOFT, idm.Oscillator(0.2, 1.0, 0.5, 0.0)], ids=str)
 def test_responses_hold_one_escape_and_one_rest(oscillator):
-    """Starts lie on either side of the barrier. All escapes are one motion, all rests one."""
+    """Starts lie on both sides of the barrier. All escapes count as one motion, as do all rests."""
     found = idm.frequency_response(oscillator, None, [0.9, 1.0], starts=12, radius=4.0)
     outcomes = found["outcome"].values
     assert set(np.unique(found["run_outcome"])) == (

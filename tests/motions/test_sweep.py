@@ -159,7 +159,7 @@ def test_mirrored_motion_is_the_same():
 
 
 def test_sweep_of_the_clearance():
-    """The quiet motion is on one branch, and at each clearance it is a periodic orbit."""
+    """The small motion is on one branch, and at each clearance it is a periodic orbit."""
     clearances = np.array([1.9, 2.0, 2.1])
     parameters = np.array([pack(PAPER, Damper(0.12, d), 2.0) for d in clearances])
     # state of the orbit for d0 = 2 at T = 0, in contact

@@ -1,4 +1,4 @@
-"""The slow flow against the polar equations (17), its Jacobian against differences.
+"""The slow flow (averaged equations) against equations (17), its Jacobian against differences.
 
 Symbols are as in `system.parameters`. Numbers in brackets are equations of the paper.
 """

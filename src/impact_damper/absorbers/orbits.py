@@ -125,7 +125,10 @@ def _corrected(problems, state, active, steps, period, longest):
 
 
 def _period_map(problems, state, steps, period):
-    """Return the change of states over a period, the map's derivative, and largest components."""
+    """Return the change of states over a period, a derivative, and the largest components.
+
+    The derivative is that of the state after the period with respect to the first state.
+    """
     after, largest = state.copy(), np.empty_like(state)
     slopes = np.empty((len(state), SIZE, SIZE))
     run(problems, after, steps, period, slopes, largest)

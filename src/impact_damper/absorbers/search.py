@@ -4,7 +4,7 @@ Orbits are found from single-term harmonic balance (`seeds`), and from random st
 none of these orbits (`settling`). An orbit that was found by a random start is followed to the
 neighbouring frequencies and forces. Motions that are not periodic are found by runs from three
 kinds of starts: random starts, states near unstable orbits (`_without_period`), and states of such
-motions at neighbouring frequencies and forces.
+motions at neighbouring frequencies and forces. x is the displacement of the machine.
 """
 
 from typing import NamedTuple

@@ -1,7 +1,8 @@
 """The best clearance for migration and for suppression, at each mass ratio.
 
-Suppression keeps the damper on, so that the motion stays small. Migration switches the damper on
-and off, until the motion without damper stays small by itself. This motion is called the goal.
+Suppression keeps the damper on, so that the motion stays small. This motion is called quiet.
+Migration switches the damper on and off, until the motion without damper stays small by itself.
+This motion is called the goal.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Text for two ranges that the design of a damper computes: quiet gaps, and the stable quiet orbit.
 
-In a quiet gap nearly all starts lead to quiet motions. An end of a range can be unknown, because
-the search stopped before the range ended.
+In a quiet gap nearly all starts lead to motions of small displacement (quiet motions). An end of a
+range can be unknown, because the search stopped before the range ended.
 """
 
 import numpy as np

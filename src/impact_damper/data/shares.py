@@ -113,7 +113,7 @@ def escape_rate(lives, horizon, lead=LEAD):
 
 
 def missed_share(data):
-    """Return the share of completed runs in which an integrator misses the contact.
+    """Return the share of completed runs in which an integrator misses a contact near grazing.
 
     NaN where no run was completed.
 

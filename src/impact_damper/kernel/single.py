@@ -1,4 +1,4 @@
-"""Integration of one trajectory in steps that end at events, the begins and ends of contacts.
+"""Integration of one trajectory in steps that end at the beginnings and ends of contacts (events).
 
 A state is (Z1, Z1', Z2, Z2') together with `side`: the wall that the loose mass touches, -1 or 1,
 or 0 in flight. The module `tangents` also integrates tangents, solutions of the variational

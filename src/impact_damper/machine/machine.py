@@ -75,7 +75,7 @@ class Machine:
         "number",
         above=0,
         most=MOST_DAMPING,
-        why="at 1, critical damping, nothing swings; 1 per cent is 0.01 or '1 %'",
+        why="at 1, critical damping, nothing vibrates; 1 per cent is 0.01 or '1 %'",
         default=None,
     )
     damping: float | None = physical("damping", above=0, default=None)
@@ -122,7 +122,7 @@ class Machine:
                 ", for damping in N s/m (there is no critical damping)"
             )
         if self.damping is not None and critical:
-            why = f"{MOST_DAMPING:g} of critical damping, near which nothing swings"
+            why = f"{MOST_DAMPING:g} of critical damping, near which nothing vibrates"
             check_si("damping", self.damping, "damping", most=MOST_DAMPING * critical, why=why)
         bounds = self.scales.range_to_si(DAMPING_RANGE, "damping")
         check_si("damping", self.viscous_damping, "damping", **bounds)
@@ -144,10 +144,10 @@ class Machine:
         """Scales with which the dimensionless equations describe the machine.
 
         The length is the geometric mean of the static deflection and the displacement at resonance.
-        With this length quiet motions, violent motions and useful gaps are all of the order 1. In
+        With this length small motions, large motions and useful gaps are all of the order 1. In
         these scales omega_l^2 + |k3| = 1. Without a force the static deflection is replaced by the
-        deflection at which the linear and the cubic part of the spring's force are equal, or by
-        1 mm if the spring has only one part.
+        deflection at which the linear and the cubic part of the spring's force are equal, or by 1
+        mm if the spring has only one part.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -228,7 +228,7 @@ class Machine:
             return amplitude * math.hypot(stiffness, damping * angular), 0.0, 0.0
         ratio = damping / (2 * math.sqrt(stiffness * self.mass))
         given = "base_acceleration" if self.base_displacement is None else "base_displacement"
-        why = f"for a range of frequencies with {given}: force of the dashpot"
+        why = f"for a range of frequencies with {given}: the force is approximated"
         check_si("damping_ratio", ratio, "number", most=LIGHT, why=why)
         softness = damping**2 / (2 * stiffness)
         if self.base_displacement is None:

@@ -44,8 +44,8 @@ def _end_event(record, multiplier, beyond):
     record : records.MOTION
         The motion on the branch.
     multiplier : complex
-        Dominant multiplier of its last orbit; NaN if Newton's method fails because the map is not
-        smooth.
+        Dominant multiplier of its last orbit; NaN if Newton's method fails because the motion does
+        not depend smoothly on its start.
     beyond : records.MOTION
         The motion that the state of the last orbit leads to at the next value of the parameter.
     """

@@ -233,7 +233,7 @@ def _on_orbit(p, record, states, contacts, limit):
 
 
 def _quasi_periodic(p, record, states, mean, error):
-    """Return QUASI_PERIODIC if the states lie on closed curves that the map turns, or UNRESOLVED.
+    """Return QUASI_PERIODIC if the states move along closed curves, otherwise UNRESOLVED.
 
     `find_rotation` is tried on each of the curves, because a curve on which contacts begin or end
     at the strobe has corners. It is tried in the plane of (Z1, Z1') and in the plane of (Z2, Z2'),

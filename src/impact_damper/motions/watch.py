@@ -2,10 +2,11 @@
 
 The judgement is at the strobe, the time at which the forcing has the phase W T = pi/2. When a
 motion settles to an orbit of period n, the distances between states n cycles apart decrease
-geometrically. Once the sum of the remaining geometric series is small, Newton's method on the map
-over n cycles, with its exact derivative, moves the state onto the orbit. The motion has settled if
-this orbit is close and stable. By this test a slow passage near a fold, during which states hardly
-change, is not mistaken for an orbit. For other motions the largest Lyapunov exponent is computed.
+geometrically. Once the sum of the remaining geometric series is small, Newton's method moves the
+state onto the orbit: it makes the state n cycles later, whose derivative is computed exactly, equal
+to the state. The motion has settled if this orbit is close and stable. By this test a slow passage
+near a fold, during which states hardly change, is not mistaken for an orbit. For other motions the
+largest Lyapunov exponent is computed.
 
 Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
 forcing frequency, and T the time.
@@ -106,8 +107,8 @@ def move_onto_orbit(p, y, periods, near, out):
 
     A motion that spirals towards an orbit may seem to repeat after a multiple of the orbit's
     period, so the divisors of `periods` are tried first. At a distance below NEAREST a motion
-    counts as an orbit even if Newton's method fails, because the map may not be smooth there. The
-    residual and the multiplier are then NaN.
+    counts as an orbit even if Newton's method fails, because near a grazing contact the later state
+    is not a smooth function of the state. The residual and the multiplier are then NaN.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):

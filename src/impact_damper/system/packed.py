@@ -110,7 +110,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
 
 def cubic_spring(p) -> tuple:
-    """Return omega_l^2 and k3, for closed forms that know these two terms of the spring only."""
+    """Return omega_l^2 and k3, for closed forms that contain only these two terms of the spring."""
     return p[STIFFNESS], p[CUBIC]
 
 

@@ -3,9 +3,9 @@
 A cell is a pair of a forcing frequency (column) and a value of another parameter (row). a is the
 amplitude of Z1, the displacement of the primary mass. b is the amplitude of Z2, the displacement of
 the primary mass relative to the loose mass. The quiet solution is the motion for which the damper
-is designed. The high solution has an amplitude comparable with the free resonance. `balance_cells`
-defines both. Single-term harmonic balance assumes elastic contact, so cells with restitution e < 1
-have the solutions for e = 1.
+is designed. The high solution has an amplitude comparable with the resonance without the damper.
+`balance_cells` defines both. Single-term harmonic balance assumes elastic contact, so cells with
+restitution e < 1 have the solutions for e = 1.
 
 W is the forcing frequency, and T the time. Numbers in brackets are equations of the paper.
 """

@@ -1,4 +1,4 @@
-"""Closed forms for the optimum clearance, by a model of the quiet motion with straight flights.
+"""Closed forms for the optimum clearance, by a model of the small motion with straight flights.
 
 In the model the loose mass flies at constant velocity between two impacts in each forcing cycle. At
 small displacement the cubic spring is negligible, and the primary mass is a linear oscillator under
