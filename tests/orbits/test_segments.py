@@ -78,6 +78,20 @@ def test_multipliers_of_a_product_that_loses_all_digits(seed):
     assert_eigenvalues(segments.multipliers(factors), factors, 1e-9)
 
 
+def test_a_complex_pair_between_real_multipliers_is_not_taken_for_two_real_ones():
+    """The pair turns on a long ellipse, so that the lengths of its axes differ by more than 30."""
+    generator = np.random.default_rng(1)
+    for angle in generator.uniform(0.3, 2.8, 100):
+        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        product = np.triu(generator.normal(size=(4, 4)), 1)
+        product[[0, 3], [0, 3]] = 9e2, 1e-2
+        product[1:3, 1:3] = 0.68 * turn * [[1, 30], [1 / 30, 1]]
+        bases = [np.linalg.qr(generator.normal(size=(4, 4)))[0] for _ in range(4)]
+        factors = [after @ before.T for before, after in zip(bases, bases[1:], strict=False)]
+        factors.append(bases[0] @ product @ bases[-1].T)
+        assert_eigenvalues(segments.multipliers(np.array(factors)), np.array(factors), 1e-8)
+
+
 def test_multipliers_of_similar_modulus():
     """The product has a conjugate pair of eigenvalues between a large and a small real one."""
     random = np.random.default_rng(1)

@@ -131,7 +131,9 @@ def separate(factors, apart, sweeps, settled, blocks, cuts):
     factors : array, shape (m, n, n)
         Factors of the product, the rightmost factor first.
     apart : float
-        Two neighbouring moduli belong to different groups if their ratio exceeds this number.
+        Two neighbouring moduli belong to different groups if their ratio exceeds this number, and
+        if the subspaces of the groups turn by less than the root of `settled` in the last
+        iteration.
     sweeps : int
         Largest number of iterations.
     settled : float
@@ -172,6 +174,17 @@ def separate(factors, apart, sweeps, settled, blocks, cuts):
         cuts[groups] = n
         if moved < settled:
             break
+    # A complex pair turns in its plane for ever, and the lengths of its two axes may seem apart.
+    kept = 1
+    for group in range(1, groups):
+        j, moved = cuts[group], 0.0
+        for row in range(j, n):
+            for column in range(j):
+                moved = max(moved, abs(turned[row, column]))
+        if moved < np.sqrt(settled):
+            cuts[kept] = j
+            kept += 1
+    groups, cuts[kept] = kept, n
     product, next_product = np.empty((n, n)), np.empty((n, n))
     for group in range(groups):
         begin, end = cuts[group], cuts[group + 1]

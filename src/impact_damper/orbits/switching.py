@@ -14,6 +14,7 @@ orbits of more symmetry.
 """
 
 from dataclasses import replace
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +32,8 @@ DISTANCES, CLOSE, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4), (1e-4, 1e-5, 1e-6), 0.5
 # Close to a grazing. SHARES: changes of the height at which an orbit is searched for, one after the
 # other, as shares of the height. MISSED: largest relative error of its distance from the
 # bifurcation. REACH: largest such distance, within which also the other contact must vanish.
-SHARES, MISSED, REACH = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3
+# PASSAGES: number of orbits from which a way past the grazing is tried.
+SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 LEAVING = ("symmetry_breaking", "period_doubling")
 # Largest distance of the orbit at which a branch ends from that of the branch that it meets there.
 MEETING = 1e-3
@@ -116,7 +118,7 @@ def other_branch(event) -> Point | None:
     point = _at_distance(leaving, DISTANCES)
     if point is not None:
         return point if _is_other(point.orbit, doubled) else None
-    for point in _at_heights(leaving):
+    for point in islice(_at_heights(leaving), PASSAGES):
         passage = through_grazing(point, REACH)
         if passage and _is_other(passage.points[-1].orbit, doubled):
             return passage.points[-1]
@@ -188,7 +190,10 @@ def _at_heights(leaving):
     other one falls.
     """
     problem, x, direction = leaving
-    turns = turns_of(problem, x, problem.shoot(x)[0]) if problem.damped else []
+    # the second half of the segments has the same extrema as the first
+    half = (len(problem.phases) - 1) // 2 if problem.damped else 0
+    orbit = problem.shoot(x)[0]
+    turns = [turn for k in range(half) for turn in turns_of(problem, x, orbit, k)]
     if not turns:
         return
     turn = min(turns, key=lambda turn: abs(turn.height))
