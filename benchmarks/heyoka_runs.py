@@ -47,7 +47,9 @@ SETTINGS = {
 
 
 class Motions:
-    """A heyoka integrator for given parameters. Factors of 1, as in the paper, are left out.
+    """A heyoka integrator for given parameters.
+
+    Its equations omit factors that are 1, such as the cubic coefficient and the force of the paper.
 
     Parameters
     ----------

@@ -58,7 +58,7 @@ def single(scene, tolerance):
 
 
 def of_orders(orders):
-    """Return `prepare` for the kernel with other orders of the series, in flight and in contact."""
+    """Return `prepare` for the kernel with other Taylor orders, in flight and in contact."""
 
     def prepare(scene, tolerance):
         p, rows, made = scene.parameters, np.empty((ROWS, SERIES)), steps_of(orders)

@@ -1,7 +1,7 @@
 """Periodic orbits that one thread finds in a second, by single and by multiple shooting.
 
-Shooting is Newton's method for the state that repeats after a period; multiple shooting divides the
-period, for strongly unstable orbits.
+Shooting is Newton's method for the state that repeats after a period. Multiple shooting divides the
+period, for strongly unstable orbits. The quiet motion is the small motion with damper.
 """
 
 import numpy as np
@@ -19,7 +19,7 @@ QUIET, DISTURBED = (0.006, 0.187, 0.002, -2.408), 1e-8
 
 
 def family(frequency):
-    """Return the packed parameters of the damper of figure 5 (a)."""
+    """Return the parameters, packed by `pack`, of the damper of figure 5 (a) of the paper."""
     return pack(Oscillator(0.215), DAMPER, frequency)
 
 

@@ -1,4 +1,8 @@
-"""Run all trials or chosen kinds of trials, and write a table of their outcomes."""
+"""Run all trials or chosen kinds of trials, and write a table of their outcomes.
+
+A trial injects a fault, such as a kill or a full disk, into a run of the workflow. An undisturbed
+run has no fault.
+"""
 
 import argparse
 import shutil
@@ -28,7 +32,8 @@ KINDS = {
 class Context:
     """What all trials share: a folder, the outputs of an undisturbed run, and random generators.
 
-    `seconds` is the duration of an undisturbed run, and `moments` the number of kills of each kind.
+    `seconds` is the duration of an undisturbed run, and `moments` the number of random moments at
+    which each kind of process is killed.
     """
 
     def __init__(self, folder, given):

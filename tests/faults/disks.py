@@ -8,6 +8,7 @@ from .project import DATA, expect
 
 FIGURE = ["results/figures/figure_06.png", "results/figures/figure_06.pdf"]
 FULL = "No space left on device"
+# Sizes of the disk. The results do not fit, so the run fails, earlier or later in its course.
 KILOBYTES = (8, 40, 80, 120, 160, 200)
 
 

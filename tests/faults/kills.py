@@ -1,4 +1,7 @@
-"""`kill -9` of Snakemake and of a job, and Ctrl-C, at random moments."""
+"""`kill -9` of Snakemake and of a job, and Ctrl-C, at random moments of a run.
+
+A trial is a run of the workflow with a kill, and a second run that must recover.
+"""
 
 import os
 import signal

@@ -8,9 +8,10 @@ from impact_damper.data.datasets import dataset, flag
 def branch(frequency, size, *, stable=True, **others):
     """Return the columns of one branch, keyed by name.
 
-    `size` is max |Z1|. It is a scalar or an array over `frequency`, and so are `stable` and the
-    other columns `period`, `contacts`, `phase` (of Z1 relative to Z2), `asymmetry` and
-    `restitution`.
+    `size` is max |Z1|, the largest displacement of the primary mass. It is a scalar or an array
+    over `frequency`, and so are `stable` and the other columns: `period` in forcing cycles,
+    `contacts` of a period, `phase` of Z1 relative to Z2 in radians, `asymmetry`, which is 0 for a
+    symmetric orbit, and `restitution`.
     """
     usual = {"period": 1, "contacts": 2.0, "phase": np.pi, "asymmetry": 0.0, "restitution": np.nan}
     given = {"size": size, "multiplier": np.where(stable, 0.5, 2.0)} | usual | others
@@ -19,7 +20,7 @@ def branch(frequency, size, *, stable=True, **others):
 
 
 def branches(*parts, folds=(), parameters):
-    """Return the dataset of branches from `branch`, with `folds` as (branch number, W, size)."""
+    """Return the dataset of branches from `branch`, with `folds` as (number of branch, W, size)."""
     table = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     number = np.repeat(np.arange(len(parts)), [len(part["frequency"]) for part in parts])
     count = len(number)

@@ -1,4 +1,4 @@
-"""The equations of motion, (3), (4) and (20) to (24), written independently of the package.
+"""The equations of motion, (3), (4) and (20) to (24) of the paper, independent of the package.
 
 p is the array of packed parameters (`system.packed`). x, v are Z1, Z1', and z, w are Z2, Z2'. The
 functions take numbers, arrays, or expressions of heyoka.py.

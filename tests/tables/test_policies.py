@@ -1,4 +1,8 @@
-"""Tables of policies of migration, from made-up data."""
+"""Tables of migration by different policies, from made-up data.
+
+Migration takes the oscillator from its resonance to its small motion by switching the damper on and
+off; a policy chooses the moments.
+"""
 
 import numpy as np
 import xarray as xr

@@ -70,7 +70,7 @@ def test_no_junk_is_a_configuration(value):
 @settings(max_examples=15)
 @given(data=st.data())
 def test_a_key_that_stands_twice_is_told(data, tmp_path_factory):
-    """In any mapping of the file, with the same value or another."""
+    """The second key stands in any mapping of the file, with the same value or another."""
     path = data.draw(st.sampled_from([path for path in MAPPINGS if at(path)]))
     root = node = yaml.compose(TEXT, Loader=LOADER)
     for key in path:

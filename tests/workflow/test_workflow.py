@@ -47,7 +47,7 @@ def test_every_script_serves_the_paper_and_the_smoke_run(arguments, beside, tmp_
     assert sum(found.values()) <= len(scripts) + beside
     chapters = {f"chapter_{name}" for name in CHAPTERS}
     assert chapters < found.keys()
-    # Only the smoke run divides a study into chunks.
+    # Only the smoke run (a small configuration) divides a study into chunks.
     assert found.keys() - chapters | {"chapter", "study_chunks"} == scripts
 
 
@@ -110,7 +110,7 @@ def test_a_key_that_stands_twice_is_told(tmp_path):
 
 
 def test_each_hook_stands_once():
-    """A second hook such as `onstart` would replace the first without a message."""
+    """Snakemake replaces the first of two hooks `onstart` by the second, without a message."""
     files = [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")]
     hooks = re.findall("^(on[a-z]+):", "".join(path.read_text() for path in files), re.MULTILINE)
     assert sorted(hooks) == ["onstart", "onsuccess"]

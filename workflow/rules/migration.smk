@@ -32,7 +32,7 @@ rule release_scan:
     params:
         **parameters("release_scan"),
     message:
-        "Motions that releases lead to over frequency, the scan {wildcards.name}"
+        "Motions after the damper is switched off, over frequency, the scan {wildcards.name}"
     script:
         "../scripts/release_scan.py"
 
@@ -51,7 +51,7 @@ rule basins:
     params:
         **parameters("basins"),
     message:
-        "Motions that states of a plane lead to, the plane {wildcards.name}"
+        "Motions to which the states of a plane lead, the plane {wildcards.name}"
     script:
         "../scripts/basins.py"
 

@@ -1,4 +1,4 @@
-"""Errors of integrators and models against counted work, on one scene (test case)."""
+"""Errors of integrators and models over floating-point operations, on a scene (test case)."""
 
 import json
 from pathlib import Path

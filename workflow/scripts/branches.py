@@ -1,4 +1,4 @@
-"""All branches of periodic orbits of a curve, stable or not (figures 2, 5, 8 and 10)."""
+"""All branches of periodic orbits of a curve, stable or not (paper: figures 2, 5, 8 and 10)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.data.datasets import load

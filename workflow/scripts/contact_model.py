@@ -1,4 +1,7 @@
-"""Errors of the contact model over restitution and load, and contacts of simulated motions."""
+"""Errors of the contact model over restitution and load, and contacts of simulated motions.
+
+The load is the acceleration that all forces except the contact force cause.
+"""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.contact_model import contact_model, spread_loads

@@ -1,4 +1,7 @@
-"""Response by harmonic balance, and suppression band (section 2, figures 2, 3, 5 and 8)."""
+"""Response by harmonic balance, and suppression band (paper: section 2, figures 2, 3, 5, 8).
+
+The suppression band is the range of frequencies without violent (large) motion.
+"""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.harmonic_balance import harmonic_balance

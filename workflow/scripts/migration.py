@@ -1,4 +1,4 @@
-"""Runs of the migration controller (section 5, figures 13 to 16)."""
+"""Runs of the controller that switches the damper to leave the resonance (figures 13 to 16)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.migration import trials

@@ -1,4 +1,4 @@
-"""A steady motion over its period (figure 4)."""
+"""A steady motion over its period (paper: figure 4)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.motions.steady import steady_orbit

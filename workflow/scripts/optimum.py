@@ -1,4 +1,4 @@
-"""Largest displacement against clearance, and its optimum (figures 6, 7 and 11)."""
+"""Largest displacement against clearance, and its optimum (paper: figures 6, 7 and 11)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.optimum import clearance_sweep

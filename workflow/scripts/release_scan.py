@@ -1,4 +1,4 @@
-"""Motions that follow when the damper is switched off, over frequency (section 5, figure 14)."""
+"""Motions that follow when the damper is switched off, over frequency (paper: figure 14)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.release_scan import release_scan

@@ -1,4 +1,4 @@
-"""Motions over frequency, from random starts (figures 2, 5, 8 and 10)."""
+"""Motions over frequency, from random starts (paper: figures 2, 5, 8 and 10)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.response import frequency_response

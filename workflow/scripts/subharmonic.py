@@ -1,4 +1,4 @@
-"""Runs from the one-third subharmonic with the damper switched on (figures 5 and 8)."""
+"""Runs from the one-third subharmonic with the damper switched on (paper: figures 5 and 8)."""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.subharmonic import subharmonic_suppression

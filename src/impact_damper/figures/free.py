@@ -1,4 +1,4 @@
-"""Response of the oscillator without a damper: figure 2 (figure kind `free`)."""
+"""Response of the oscillator without a damper (paper: figure 2; figure kind `free`)."""
 
 from impact_damper.figures.branches import draw_free_orbits
 from impact_damper.figures.style import axis_label, figure, legend, letter_panels, style

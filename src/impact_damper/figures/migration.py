@@ -1,4 +1,4 @@
-"""A run of migration control against time: figures 13, 15 and 16 (figure kind `migration`).
+"""A run of migration control against time (paper: figures 13, 15 and 16; figure kind `migration`).
 
 Migration takes the oscillator from its resonance to its small motion, the goal, by switching the
 damper on and off. A release switches it off.

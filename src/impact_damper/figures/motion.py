@@ -1,4 +1,4 @@
-"""Phase plots of steady motions: figure 4 (figure kind `motion`)."""
+"""Phase plots of steady motions (paper: figure 4; figure kind `motion`)."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""States at which the damper is switched off (releases), by destination: figure 14.
+"""States at which the damper is switched off (releases), by destination (paper: figure 14).
 
 Figure kind `release`. The destination is the motion on which the free oscillator then settles.
 """
@@ -12,7 +12,7 @@ the free oscillator then settles. Panels: releases before the motion with damper
 from each settled motion. The scales of the panels differ.
 """
 
-# Role (key of `style.ROLES`) of each destination, and title of the panel of each damped motion.
+# Role (key of `style.ROLES`) of each destination, and panel title of each motion with damper.
 DESTINATIONS = {
     "non_resonance": "non_resonance",
     "subharmonic": "subharmonic",
@@ -30,7 +30,7 @@ MOTIONS = {
 
 @style()
 def draw_release(*, migration):
-    """Draw the states at which each damped motion is released, marked by destination.
+    """Draw the states at which the damper is switched off, with a marker for each destination.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def draw_release(*, migration):
 
 
 def draw_releases(axes, releases):
-    """Draw the releases of one damped motion."""
+    """Draw the releases from one motion with damper."""
     for destination, role in DESTINATIONS.items():
         value = flag("release_destination", destination)
         chosen = releases["release_destination"].values == value

@@ -1,7 +1,9 @@
-"""Noise, delay and a wrong model in the release by state (figure kind `release_disturbances`).
+"""Migration disturbed by noise, delay and a wrong model (figure kind `release_disturbances`).
 
-A release switches the damper off. The policy by state releases when the measured state lies in the
-basin of the free small motion, at least a margin away from its boundary.
+Migration takes the oscillator from its resonance to its small motion (success) by switching the
+damper on and, at the release, off. The policy by state releases when the measured state lies in the
+basin of the small motion without damper, at least a margin away from the boundary. A trial is a run
+from a random state.
 """
 
 from impact_damper.figures.release_policies import case_label, draw_bounded

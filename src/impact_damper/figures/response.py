@@ -1,4 +1,4 @@
-"""Frequency responses with and without a damper: figures 5, 8, 10 (figure kind `response`).
+"""Frequency responses with and without a damper (paper: figures 5, 8, 10; figure kind `response`).
 
 A role is a key of `style.ROLES`, the colour and marker of a kind of motion. Free means without the
 damper.

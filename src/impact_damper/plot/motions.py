@@ -1,4 +1,7 @@
-"""Plots of single motions, of migration control, and of basins of attraction."""
+"""Plots of single motions, of migration control, and of basins of attraction.
+
+Migration control takes an oscillator from one motion to another by switching the damper.
+"""
 
 import json
 from dataclasses import fields

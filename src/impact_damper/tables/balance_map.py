@@ -1,7 +1,8 @@
 """Table of the maps that compare harmonic balance with the exact motions, cell by cell.
 
 A cell is a pair of forcing frequency and another parameter. A quiet motion is small, a high motion
-large compared with the resonance without damper. The quiet solution is the one of harmonic balance.
+not small compared with the resonance without damper. The quiet solution is the small solution of
+harmonic balance. Wp is the peak frequency of the oscillator without damper.
 """
 
 import numpy as np

@@ -54,7 +54,10 @@ class Entry:
 
     @property
     def damper(self):
-        """The damper, or None; the clearance `rule` is replaced by the value of equation (19)."""
+        """The damper, or None.
+
+        The clearance `rule` is replaced by the value of equation (19) of the paper.
+        """
         from impact_damper.system.parameters import Damper
         from impact_damper.theory.design_rule import rule_clearance
 

@@ -64,5 +64,5 @@ def module_file(name) -> Path:
 
 
 def compiled_kernels(config) -> str:
-    """Return the text of the marker file: digest of the sources, and orders of the series."""
+    """Return the text of the marker file: digest of the sources, and orders of Taylor series."""
     return f"{source_digest()} {config['comparison']['orders']}\n"

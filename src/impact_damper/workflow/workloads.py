@@ -30,7 +30,8 @@ COUNTS = (
 # Forcing frequency assumed for a section without an oscillator. Frequencies of such a section are
 # ratios to the natural frequency.
 NATURAL = 1.0
-# Radius of the ball from which the migration stages draw starts.
+# Radius of the ball from which the stages on migration (a change of the motion by switching the
+# damper) draw random initial states.
 MIGRATION_RADIUS = 2
 
 

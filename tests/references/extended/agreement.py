@@ -23,7 +23,7 @@ from references import extended
 from references.extended.starts import KINDS, draw
 
 SEED = 4
-COUNT = 600  # of each kind, 10 200 in all
+COUNT = 600  # starts of each kind
 TOLERANCES = (1e-6, 1e-9, 1e-12)
 
 

@@ -1,4 +1,7 @@
-"""The contact: its model, the limit of rigid walls, and failures of integrators at contacts."""
+"""The contact: its model, the limit of rigid walls, and failures of integrators at contacts.
+
+The load on a contact is the acceleration that all forces except the contact force cause.
+"""
 
 from typing import ClassVar
 

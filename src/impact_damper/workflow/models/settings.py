@@ -82,7 +82,7 @@ class Settling(Section):
 
 
 class Controller(Section):
-    """The migration controller of figure 17, and its runs."""
+    """The migration controller, which switches the damper (the paper's figure 17), and its runs."""
 
     trials: count("runs of each case", **RUNS_RANGE)
     periods: count("forcing cycles of a run after which no switching begins", **PERIODS_RANGE)

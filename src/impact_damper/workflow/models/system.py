@@ -33,7 +33,8 @@ MASS_RATIO, CLEARANCE, RESTITUTION, CONTACT_STIFFNESS, FREQUENCY = (
 RUN_PERIODS = count("forcing cycles of a run", **PERIODS_RANGE)
 CLEARANCE_OR_RULE = number_or_word(
     "rule",
-    f"{MEANINGS['clearance']}; the word `rule` stands for the clearance by equation (19)",
+    f"{MEANINGS['clearance']}; the word `rule` stands for the clearance by equation (19) of "
+    "the paper",
     **BOUNDS["clearance"],
 )
 

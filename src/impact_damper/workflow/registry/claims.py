@@ -1,4 +1,7 @@
-"""Chapter of the report: claims of the paper, judged by the data of the other chapters."""
+"""Chapter of the report: claims of the paper, judged by the data of the other chapters.
+
+The suppression band is the range of frequencies without violent (large) motion.
+"""
 
 from impact_damper.workflow.registry.records import Table
 

@@ -69,7 +69,7 @@ TABLES = (
         "optimum",
         "tables.clearance",
         ("optimum",),
-        "Optimum clearances by simulation, by equations (7) and by rules (18) and (19).",
+        "Optimum clearances by simulation, by equations (7) and by rules (18), (19) of the paper.",
     ),
     Table(
         "design_rules",

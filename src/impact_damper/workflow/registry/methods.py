@@ -1,7 +1,8 @@
 """Chapter of the report: methods compared.
 
 A function with the name of a stage returns the parameters of its job for an entry of the
-configuration.
+configuration. The load on a contact is the acceleration that all forces except the contact force
+cause.
 """
 
 from impact_damper.system.parameters import Damper, Oscillator, pick
