@@ -46,7 +46,7 @@ MACHINES = {
 
 
 def named_systems():
-    """Yield name, oscillator, damper and frequency W of the machines above."""
+    """Yield name, oscillator, damper and frequency W of the machines in `MACHINES`."""
     for name, (force, cubic, gap, frequencies) in MACHINES.items():
         machine = Machine(
             mass=12, linear_stiffness=2e5, cubic_stiffness=cubic, damping_ratio=0.005, force=force

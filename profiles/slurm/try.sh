@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Do the smoke run on a Slurm of one node and locally, and fail unless the results have the same
-# bytes.
+# Do the smoke run (config/smoke.yaml, little data) on a Slurm of one node and locally, and fail
+# unless the results have the same bytes.
 #   make slurm, or profiles/slurm/try.sh [PATH OF SNAKEMAKE]
 # Do another run on such a Slurm, with results in the repository and without comparison:
 #   profiles/slurm/try.sh PATH-OF-SNAKEMAKE TARGETS --configfile FILE

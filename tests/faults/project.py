@@ -1,4 +1,7 @@
-"""A small copy of the project, its runs, and the comparison with an undisturbed run."""
+"""A small copy of the project, its runs, and the comparison with an undisturbed run.
+
+A trial runs the command of the README (the documented command), with a fault such as a kill.
+"""
 
 import os
 import re

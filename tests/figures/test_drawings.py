@@ -55,7 +55,7 @@ def response(**parameters):
 
 
 def balance():
-    """Return free solutions on a curve with two folds, and a suppression band."""
+    """Return solutions without damper on a curve with two folds, and a suppression band."""
     phase = -np.stack([FREQUENCY - 0.9, 2.3 - FREQUENCY / 2, 1 + FREQUENCY], axis=1)
     stable = [flag("free_stability", name) for name in ("stable", "unstable", "stable")]
     shape = phase.shape
@@ -100,7 +100,10 @@ def optimum(mass_ratio, restitution):
 
 
 def migration():
-    """Return runs with one and two switchings, and releases to each free motion."""
+    """Return runs with one and two switchings, and releases to each motion without damper.
+
+    A release switches the damper off.
+    """
     time = np.linspace(-30, 300, 2000)
     kinds = [value for value in DAMPED_MOTION.values() if value >= 0]
     destinations = list(FREE_MOTION.values())

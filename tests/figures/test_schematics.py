@@ -44,7 +44,7 @@ def elsewhere(tmp_path_factory):
 @pytest.mark.thorough
 @pytest.mark.parametrize("name", NAMES)
 def test_saves_have_the_same_bytes(name, tmp_path, elsewhere):
-    """The bytes are the same if drawn by the process of `elsewhere`."""
+    """The process of `elsewhere` writes the same bytes as this process."""
     save_figure(getattr(schematics, name)(), tmp_path / name)
     assert read(tmp_path / name) == read(elsewhere / name)
     assert len(list(tmp_path.iterdir())) == 2, "parts left behind"

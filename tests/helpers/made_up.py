@@ -2,6 +2,7 @@
 
 Tests of claims, tables and figures change one dataset and expect one claim to fail. Functions with
 the name of a stage return a dataset of this stage. Wp is the peak frequency without damper.
+With damper, the quiet motion is small, and the high motion large up to the suppression band.
 """
 
 from functools import cache
@@ -72,7 +73,7 @@ def resonance_size(frequency, peak, damping):
 def design(name, mass_ratio=0.12, damping=0.215, linear=0.0):
     """Return a harmonic balance: a quiet solution with a = 0 at the peak, and a high solution.
 
-    The high solution exists below the suppression band.
+    a is the amplitude of Z1. The high solution exists below the suppression band.
     """
     peak = LINEAR[linear] if damping == 0.215 else PEAKS[damping]
     frequency = frequencies(peak)
