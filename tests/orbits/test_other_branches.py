@@ -1,4 +1,10 @@
-"""Branches that leave at bifurcations: against 80-bit arithmetic, simulation, and each other."""
+"""Branches that leave at bifurcations, compared with 80-bit arithmetic and with simulations.
+
+A branch is the curve of the periodic orbits over the forcing frequency W. At a loss of symmetry or
+a period doubling another branch leaves it, whose orbits have less symmetry. This branch begins
+supercritical if it has as many unstable multipliers (of modulus above 1) as the more stable side of
+the first branch, and subcritical if it has one more. A grazing is a contact with zero speed.
+"""
 
 import numpy as np
 import pytest
@@ -18,7 +24,8 @@ from impact_damper.system.parameters import Damper, Oscillator, describe
 from impact_damper.system.settling import Settling
 from impact_damper.tables import branches as tables
 
-# Oscillator, damper, W, state at W T = pi/2 of a stable orbit, its period, and the range of W.
+# For each branch: damping of the oscillator; mass ratio, clearance and restitution of the damper;
+# W, state at W T = pi/2 and period of a stable orbit; least and greatest W.
 CASES = {
     "elastic": (0.15, (0.4, 0.7, 1.0), 1.0667, (0.0174, 0.6878, -0.3083, -0.2503), 1, (1.0, 1.3)),
     "inelastic": (0.18, (0.3, 0.9, 0.9), 1.3333, (0.5346, 0.4314, 0.0346, -0.6285), 3, (1.1, 1.6)),
@@ -42,9 +49,10 @@ def branches():
 
 
 def polished(p, state, phase, cycles, sign):
-    """Return the fixed point of `sign` times the map over `cycles`, and its derivative, in 80 bits.
+    """Return a fixed point, computed in 80 bits, and the derivative of its map, shape (4, 4).
 
-    Newton's method begins at the state.
+    The map integrates a state over `cycles` forcing cycles and multiplies it by `sign`. Newton's
+    method begins at `state`, which is given at the phase W T = `phase`.
     """
     turn = 2 * np.arccos(extended.Real(-1))
     x = np.array(state, extended.Real)
@@ -67,10 +75,10 @@ def unstable(matrix):
 @pytest.mark.thorough
 @pytest.mark.parametrize("case", CASES)
 def test_80_bit_arithmetic_finds_the_orbit_that_leaves_and_its_side(case, branches):
-    """Newton's method in 80 bits stays at the orbit, and not at the one of more symmetry.
+    """Newton's method in 80 bits finds the orbit of the other branch, not one of more symmetry.
 
-    At the parameter of this orbit the first orbit has one unstable multiplier more if the branch
-    begins supercritical, and one fewer if subcritical.
+    At the frequency of this orbit, the orbit of the first branch has one unstable multiplier more
+    than this orbit if the other branch begins supercritical, and one fewer if subcritical.
     """
     if extended.obstacle():
         pytest.skip(extended.obstacle())
@@ -81,7 +89,8 @@ def test_80_bit_arithmetic_finds_the_orbit_that_leaves_and_its_side(case, branch
             continue
         begun = departure(event)
         orbit, first = begun.point.orbit, event.point.orbit
-        # the first branch: half of the period, then a change of sign if it is symmetric
+        # The orbit of the first branch repeats after half of this period, with a change of sign if
+        # it is symmetric.
         cycles, sign = orbit.periods / 2, 1 if event.kind == "period_doubling" else -1
         x, whole = polished(orbit.p, orbit.state, orbit.phase, orbit.periods, 1)
         _, half = polished(orbit.p, first.state, first.phase, cycles, sign)
@@ -105,7 +114,7 @@ def extended_state(p, state, phase, cycles):
 
 @pytest.mark.thorough
 def test_a_simulated_motion_goes_over_to_a_supercritical_branch(branches):
-    """From a disturbed orbit that has lost its symmetry, to the asymmetric orbit beside it."""
+    """A motion beside an unstable symmetric orbit settles to the asymmetric orbit close to it."""
     branch = branches["inelastic"]
     event = next(
         event
@@ -133,7 +142,10 @@ def test_a_simulated_motion_goes_over_to_a_supercritical_branch(branches):
 
 
 def test_each_bifurcation_has_an_outcome_and_the_table_counts_them():
-    """The large orbit of figure 5 (a): loss of symmetry and a doubling, whose branches it has."""
+    """On the branch of the large orbit of figure 5 (a) a period doubling has another branch.
+
+    `follow_others` follows this branch, and the tables name it.
+    """
 
     def family(value):
         return pack(PAPER, DESIGN, value)

@@ -1,39 +1,48 @@
-"""The branches that leave at the bifurcations of other branches: found, followed, and counted.
+"""The branches that leave other branches at bifurcations: found, and followed if that can end.
 
-At every loss of symmetry and every period doubling another branch leaves. Its orbit closest to the
-bifurcation is always searched for. The branch is followed if its period is short or its orbits are
-stable: period doublings form infinite cascades, and unstable branches of long periods wind through
-chaos.
+A branch is the curve of the periodic orbits over a parameter. At every loss of symmetry and every
+period doubling another branch leaves. The orbits of this other branch have less symmetry: they are
+not symmetric, or repeat only after twice the period. An orbit of the other branch close to the
+bifurcation is always searched for. The branch is followed only if its period is short or its orbits
+are stable. Otherwise there would be no end, because period doublings form infinite cascades, and
+unstable branches of long periods wind through chaos.
+
+An end of a branch is its first or its last point. Z1 is the displacement of the primary mass.
+Multipliers are Floquet multipliers.
 """
 
 from typing import NamedTuple
 
 from impact_damper.orbits.switching import LEAVING, Departure, departure, met_branch, other_branch
 
-# Longest periods of branches that are followed: all; those that begin beside a stable orbit; and
-# those whose own orbits are stable where they begin, which are followed only as far as they are
-# stable.
+# Longest period, in forcing cycles, of the branches that are followed.
+# ALWAYS: of any branch.
+# BESIDE_STABLE: of a branch that leaves beside a stable orbit.
+# STABLE: of a branch whose orbits are stable where it begins. It is followed only as far as they
+#   are stable.
 ALWAYS, BESIDE_STABLE, STABLE = 3, 4, 9
-# Two branches meet at an event if its parameter and max |Z1| on both agree within these tolerances.
+# Two branches meet at an event if the parameter and max |Z1| at the event and at the end of the
+# other branch agree within these tolerances.
 SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
-# Bifurcations of one kind at frequencies that differ by less are the same.
+# Two bifurcations of one kind are the same if their parameters differ by less than NEAR.
 NEAR = 1e-9
 
 
 class Other(NamedTuple):
-    """The other branch at a bifurcation.
+    """What was found of the other branch at a bifurcation.
 
     Attributes
     ----------
     outcome : str
-        followed: the branch `number` begins here. ended: the branch on which the event lies ends
-        here, at the branch `number` of more symmetry (-1: not followed). not_followed: its period
-        is too long. not_passed: it is short enough, but Newton's method found no way past a
-        grazing close by. not_found: no orbit of it was found.
+        "followed": the other branch begins at the bifurcation and is in the list of branches.
+        "ended": the other branch is the one of more symmetry, and the branch on which the
+        bifurcation lies ends at it. "not_followed": the period of the other branch is too long.
+        "not_passed": its period is short enough, but a grazing is close, and Newton's method found
+        no orbit beyond it. "not_found": no orbit of the other branch was found.
     departure : Departure or None
-        Its beginning; None if the outcome is ended or not_found.
+        Beginning of the other branch; None if the outcome is "ended" or "not_found".
     number : int
-        Number of the branch in the list of branches, -1 if it was not followed.
+        Index of the other branch in the list of branches, -1 if it is not in the list.
     """
 
     outcome: str
@@ -42,22 +51,23 @@ class Other(NamedTuple):
 
 
 def follow_others(branches, follow):
-    """Follow the branches that leave at bifurcations, and say of each what became of it.
+    """Follow the branches that leave at bifurcations, and return the outcome at each bifurcation.
 
     The branches of more symmetry at which a branch ends are followed too. New branches are
-    appended to the list, and the branches that leave from them are followed too.
+    appended to the list, and the branches that leave them are followed in turn.
 
     Parameters
     ----------
     branches : list of Branch
     follow : callable
-        Maps an orbit, its value of the parameter, and whether to follow the branch only as far as
-        it is stable, to a Branch.
+        Function that returns the `Branch` of an orbit. Its arguments are the orbit, the value of
+        the parameter, and whether to follow the branch only as far as it is stable.
 
     Returns
     -------
     list of list of (Other or None)
-        For each branch and each of its events; None at events of other kinds.
+        An entry for each branch, with an entry for each of its events; None for an event that is
+        not a loss of symmetry or a period doubling.
     """
     found = []
     for branch in branches:
@@ -85,7 +95,10 @@ def follow_others(branches, follow):
 
 
 def _follow_ends(branches, branch, follow):
-    """Follow the branches at which a branch ends, up to the period BESIDE_STABLE."""
+    """Follow the branches of more symmetry at which a branch ends.
+
+    This is done only for branches of periods up to BESIDE_STABLE.
+    """
     for edge, kind in zip((0, -1), branch.ends, strict=True):
         if kind in LEAVING and branch.points[0].orbit.periods <= BESIDE_STABLE:
             met = met_branch(branch.points[edge], kind)
@@ -94,10 +107,11 @@ def _follow_ends(branches, branch, follow):
 
 
 def _follow_at(branches, branch, place, event, follow):
-    """Find and, if it is wanted, follow the branch that leaves at an event of a branch.
+    """Find the branch that leaves at an event of a branch, and follow it if its period allows it.
 
-    Return an `Other`, whose outcome is not yet "followed" if the branch was followed from its other
-    end; or None for an event of another kind.
+    `place` is the index of the event's point. Return an `Other`, or None for an event that is not a
+    loss of symmetry or a period doubling. `follow_others` changes the outcome later if the branch
+    that leaves is reached from its other end.
     """
     if event.kind not in LEAVING:
         return None
@@ -128,20 +142,21 @@ def _follow_at(branches, branch, place, event, follow):
 
 
 def _is_end(branch, place, event):
-    """Return whether a branch ends at one of its events."""
+    """Return whether a branch ends at one of its events, whose point has the index `place`."""
     edges = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
     return edges.get(place) == event.kind
 
 
 def ends_at(branches, number, edge, event):
-    """Return whether a branch ends, at one edge, at an event of a branch of more symmetry.
+    """Return whether one end of a branch lies at an event of a branch of more symmetry.
 
     Parameters
     ----------
     branches : list of Branch
     number, edge : int
-        Number of the branch, and 0 for its first end or 1 for its last.
+        Index of the branch, and its end: 0 for the first, 1 for the last point.
     event : Event
+        The event of the branch of more symmetry.
     """
     branch = branches[number]
     if branch.ends[edge] != event.kind or event.kind not in LEAVING:
@@ -155,7 +170,10 @@ def ends_at(branches, number, edge, event):
 
 
 def met_by(branches, number, edge):
-    """Return the number of the branch that a branch meets at one edge, -1 if there is none."""
+    """Return the index of the branch that a branch meets at one end, or -1 if there is none.
+
+    The arguments are those of `ends_at`.
+    """
     for other, candidate in enumerate(branches):
         if other == number:
             continue
@@ -170,7 +188,11 @@ def _size(orbit):
 
 
 def _passes(branch, kind, point):
-    """Return whether a branch holds the orbit of a point, or has an event of a kind there."""
+    """Return whether a branch passes through a point.
+
+    It does if it holds the orbit of the point, or if it has an event of the given kind at the value
+    of the point and orbits of the same period.
+    """
     periods = point.orbit.periods
     there = [each.point for _, each in branch.events if each.kind == kind]
     near = any(abs(each.value - point.value) < NEAR for each in there)

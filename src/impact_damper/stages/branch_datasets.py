@@ -108,7 +108,7 @@ def _is_same(first, second):
 
 
 def leaving_variables(found):
-    """Return the variables of dimension `event` on the branches that leave at bifurcations.
+    """Return the variables of the branches that leave at losses of symmetry and period doublings.
 
     Parameters
     ----------
@@ -118,6 +118,8 @@ def leaving_variables(found):
     Returns
     -------
     dict of numpy.ndarray
+        Variables with the dimension `event`, keyed by name. At other events they are absent, -1 or
+        NaN.
     """
     others = [other for each in found for other in each]
     begun = [other.departure if other else None for other in others]

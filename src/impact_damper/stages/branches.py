@@ -1,7 +1,7 @@
 """All branches of periodic orbits of a response, as one labelled dataset.
 
-A branch is a curve of orbits along which the forcing frequency varies. Orbits may be stable or not,
-of any period, and touch the walls in any sequence.
+A branch is the curve of the periodic orbits over the forcing frequency W. Orbits may be stable or
+not, of any period, and touch the walls in any sequence. Z1 is the displacement of the primary mass.
 """
 
 import sys
@@ -26,20 +26,23 @@ from impact_damper.system.checks import check_frequency, check_span
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
 
-# `complete_branches` follows a branch for at most MOST_POINTS orbits in one direction, for periods
-# beyond LONG for at most MOST_LONG. Branches of periods beyond LONGEST are followed only as far as
-# they are stable. All these branches wind through chaos.
+# Branches of long periods wind through chaos without end. Therefore their lengths are limited.
+# MOST_POINTS: largest number of orbits of a branch in one direction.
+# MOST_LONG: the same for periods of more than LONG forcing cycles.
+# LONGEST: branches of longer periods are followed only as far as they are stable.
 MOST_POINTS, MOST_LONG, LONG, LONGEST = 4000, 2000, 7, 9
 
 
 def complete_branches(oscillator, damper, frequencies, motions, *, progress=None):
     """Follow every branch of orbits over frequency on which a settled motion lies.
 
-    Stable orbits that lie on none of these branches are searched for from random states. Wherever
-    an orbit loses its symmetry or doubles its period, an orbit of the branch that leaves there is
-    searched for. This branch is followed if its period is at most 3, or at most 4 beside a stable
-    orbit; or, only as far as it is stable, if its orbits are stable there and its period is at most
-    9. So is the branch at which one of these branches ends, up to period 4.
+    Stable orbits that lie on none of these branches are searched for from random states.
+
+    At each loss of symmetry and each period doubling another branch leaves, and an orbit of this
+    other branch is searched for. The other branch is followed if its period is at most 3 forcing
+    cycles, or at most 4 if it leaves beside a stable orbit. With a period of up to 9 it is followed
+    only if its orbits are stable where it begins, and only as far as they are. If a branch of a
+    period of at most 4 ends at another branch, this one is followed too.
 
     Parameters
     ----------
@@ -56,14 +59,20 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
     Returns
     -------
     xarray.Dataset
-        As from `orbit_branch`, for all branches; `seeds`, the number of settled motions, and
-        `seeds_lost`, the number of those motions from which Newton's method found no orbit;
-        `searches` from random states, those that found a stable orbit, and new branches. For each
-        loss of symmetry and period doubling what became of the branch that leaves there,
-        `leaving_outcome`, and its orbit closest to the event. With a damper for each Neimark-Sacker
-        point what splits off there, `torus_kind`, and the rotation number of a stable torus. Mirror
-        images count as one branch. Motions without contacts are left out if there is a damper,
-        because they are motions of the free oscillator.
+        The variables of `orbit_branch` for all branches, and:
+
+        - `seeds`, the number of settled motions, and `seeds_lost`, the number of those from which
+          Newton's method found no orbit;
+        - `searches`, the number of searches from random states, `searches_stable`, the number of
+          those that found a stable orbit, and `searches_new`, the number of branches found so;
+        - for each loss of symmetry and period doubling: `leaving_outcome`, which says whether the
+          other branch was found and followed, and the orbit of the other branch that was found
+          closest to the event;
+        - with a damper, for each Neimark-Sacker point: `torus_kind`, the kind of the torus that
+          begins there, and the rotation number of a stable torus.
+
+        A branch and its mirror image count as one. With a damper, motions without contacts are left
+        out, because they are motions of the oscillator without the damper.
 
     Raises
     ------
@@ -124,7 +133,10 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
 
 
 def _summary(branches, seeds, lost):
-    """Return a line with the numbers of motions, branches, orbits, events and ends of branches."""
+    """Return a line with the numbers of motions, branches, orbits, events and ends of branches.
+
+    `seeds` is the number of motions, and `lost` the number of those from which no orbit was found.
+    """
 
     def listed(names):
         counts = Counter(names)

@@ -1,7 +1,9 @@
 """Periodic orbits as labelled datasets: one orbit, or its branch over one parameter.
 
-A branch is a curve of orbits along which one parameter varies. Orbits may be stable or not, of any
+A branch is the curve of the periodic orbits over a parameter. Orbits may be stable or not, of any
 period, and touch the walls in any sequence.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
 """
 
 import warnings
@@ -40,8 +42,9 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None
     Returns
     -------
     xarray.Dataset
-        A dataset as from `orbit_branch` with the orbit as its single point. Its state is given at a
-        phase at which no wall is touched. For each `contact`: wall, times and relative speeds.
+        The variables of `orbit_branch`, with the orbit as the only point. Its state is given at a
+        phase at which no wall is touched. For each `contact`: the wall, and the times and the
+        relative speeds Z2' at its beginning and end.
 
     Raises
     ------
@@ -103,12 +106,13 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     Returns
     -------
     xarray.Dataset
-        For each `point`, in order along the branch, an orbit: parameter, largest displacement,
-        stability, multipliers, contacts, state and its phase, status, residual, error of
-        Liouville's determinant. For each `event`: fold, symmetry breaking, period doubling,
-        Neimark-Sacker bifurcation, or change of contacts, which is grazing (a contact appears in
-        flight) or merging (two contacts with a wall become one). For each (branch, edge): the
-        reason why the branch ends.
+        For each `point`, in order along the branch, an orbit: the parameter, the largest
+        displacement, stability, Floquet multipliers, contacts, the state and its phase, the
+        residual, and the relative error of the determinant, which Liouville's theorem gives.
+        `orbit_status` says how reliable these numbers are. For each `event` its kind: fold,
+        symmetry breaking, period doubling, Neimark-Sacker bifurcation, grazing (a contact appears
+        or vanishes in flight) or merging (two contacts with a wall become one). For each (branch,
+        edge), that is for each end: the reason why the branch ends.
 
     Raises
     ------
@@ -133,7 +137,7 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     if orbit.repeats_sooner():
         raise ArithmeticError(
             f"period = {period}: the orbit near the state repeats after a divisor of {period}; "
-            "give this as the period, or a state closer to the orbit"
+            "give the divisor as the period, or a state closer to the orbit"
         )
     branch = follow_branch(family, orbit, value, span)
     made = describe(oscillator, damper) | {
