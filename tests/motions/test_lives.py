@@ -20,7 +20,7 @@ RUNNING = {"workers": 2, "progress": None}
 
 @pytest.fixture(scope="module")
 def violent():
-    """Return parameters and states of violent motions of figure 5 (a), at two frequencies.
+    """Return parameters and states of chaotic motions of figure 5 (a), at two frequencies.
 
     At W = 1.1 the chaos lasts, and at W = 1.6 it is a transient.
     """

@@ -1,7 +1,8 @@
 """Design of a damper: screening, comparison of gaps, cliff, deviations, masses, motions.
 
-The cliff is the end of the range of gaps with quiet motions. Deviations are errors of the built
-machine and damper.
+Screening is the first look at a design, by harmonic balance, rules and orbits. The cliff is the end
+of the range of gaps with quiet motions. Deviations are errors of the built machine and damper. An
+edge is a curve in the plane of two parameters on which the quiet orbit loses its stability.
 """
 
 from impact_damper.data.variables.variable import Variable
@@ -17,7 +18,7 @@ ENDS = {
     "branch_ends": 3,
     "range_ends": 4,
 }
-# Bifurcation by which a quiet orbit loses its stability on an edge.
+# Bifurcations at which a quiet orbit loses its stability.
 EDGES = {"fold": 0, "symmetry_breaking": 1, "neimark_sacker": 2}
 VARIABLES = {
     # screening
