@@ -66,7 +66,7 @@ def lacking(path, target):
 
 
 def test_every_link_and_picture_exists():
-    """Only within the site: other addresses are not opened."""
+    """Addresses outside of the site are not opened."""
     dead = [
         f"{path.relative_to(SITE)}: {target}"
         for path in PAGES

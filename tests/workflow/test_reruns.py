@@ -272,7 +272,7 @@ def test_touched_files_comments_and_order_rerun_nothing(project, edit, config):
 
 
 def test_a_dry_run_shows_what_changed(project, edit, config):
-    """A value, the number of chunks, and a script; a study in other chunks is computed anew."""
+    """The edits concern a value, a script, and the number of chunks, which recomputes a study."""
     edited = copy.deepcopy(config) | {"chunks": 2}
     edited["curves"]["figure_08"]["clearance"] = 1.07
     edit("config/config.yaml", yaml.safe_dump(edited))

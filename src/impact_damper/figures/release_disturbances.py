@@ -2,8 +2,8 @@
 
 Migration takes the oscillator from its resonance to its small motion (success) by switching the
 damper on and, at the release, off. The policy by state releases when the measured state lies in the
-basin of the small motion without damper, at least a margin away from the boundary. A trial is a run
-from a random state.
+basin of the small motion without damper, at least a margin away from the boundary. A trial
+begins with the resonance motion, and the damper is switched on at a random phase.
 """
 
 from impact_damper.figures.release_policies import case_label, draw_bounded

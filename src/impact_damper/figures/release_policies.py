@@ -1,8 +1,8 @@
 """Policies of migration compared (figure kind `release_policies`).
 
 Migration takes the oscillator from its resonance to its small motion: the damper is switched on,
-and off again (the release) at a moment that a policy chooses. A trial is a run from a random state
-of the resonance; it is a success if it ends on the small motion.
+and off again (the release) at a moment that a policy chooses. A trial begins with the resonance
+motion, and the damper is switched on at a random phase.
 """
 
 import numpy as np

@@ -1,6 +1,7 @@
 """Errors of rigid impacts against contact stiffness and frequency (figure kind `rigid_limit`).
 
-Rigid impacts are instantaneous; the exact system has contacts of stiffness r1.
+Rigid impacts are instantaneous; the exact system has contacts of stiffness r1. Rigid walls are
+corrected for the penetration of the loose mass by standing farther out.
 """
 
 import numpy as np

@@ -134,7 +134,7 @@ class ReleasePolicies(WithOscillator):
         FREQUENCY, "frequencies with noise, delay and a wrong model", least=1, distinct=True
     )
     trials: count("trials of each policy", **RUNS_RANGE)
-    tested: count("releases that test the predicted set of good states", **RUNS_RANGE)
+    tested: count("releases that test which states are predicted to lead to the goal", **RUNS_RANGE)
     cells: count("cells on each axis of the coarse grid of a basin", least=4, most=4096)
 
     def contradictions(self, path, config):

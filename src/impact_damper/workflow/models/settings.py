@@ -87,7 +87,7 @@ class Controller(Section):
     trials: count("runs of each case", **RUNS_RANGE)
     periods: count("forcing cycles of a run after which no switching begins", **PERIODS_RANGE)
     releases: count(
-        "releases of each motion with damper; as many long runs with damper measure lifetimes",
+        "releases of each motion with damper, and number of long runs that measure lifetimes",
         **RUNS_RANGE,
     )
     lifetime: count("forcing cycles of the long runs", **LIFETIME_RANGE)

@@ -33,8 +33,7 @@ MASS_RATIO, CLEARANCE, RESTITUTION, CONTACT_STIFFNESS, FREQUENCY = (
 RUN_PERIODS = count("forcing cycles of a run", **PERIODS_RANGE)
 CLEARANCE_OR_RULE = number_or_word(
     "rule",
-    f"{MEANINGS['clearance']}; the word `rule` stands for the clearance by equation (19) of "
-    "the paper",
+    f"{MEANINGS['clearance']}, or the word `rule` for the clearance by equation (19) of the paper",
     **BOUNDS["clearance"],
 )
 
