@@ -14,10 +14,10 @@ from numpy.testing import assert_allclose
 from references import extended
 
 from impact_damper.orbits.branches import follow_branch
-from impact_damper.orbits.grazing import turns_of
 from impact_damper.orbits.sensitivity import path_of
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import other_branch
+from impact_damper.orbits.turns import turns_of
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import COUNT, FREQUENCY, pack
 

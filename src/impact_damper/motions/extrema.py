@@ -32,14 +32,15 @@ def extremum(c, order, length, start):
         best = max(best, abs(value))
         # The modulus increases at the beginning of the piece and decreases at its end.
         if slope * fall < 0.0 and value * slope < 0.0:
-            best = max(best, abs(turning_value(c, order, t - length / PIECES, t, fall, slope)))
+            turn = turning_time(c, order, t - length / PIECES, t, fall, slope)
+            best = max(best, abs(polynomial(c, order, turn)[0]))
         fall = slope
     return best
 
 
 @kernel_only
-def turning_value(c, order, begin, end, first, last):
-    """Return the value of a polynomial at its turning point between `begin` and `end`.
+def turning_time(c, order, begin, end, first, last):
+    """Return the turning point of a polynomial between `begin` and `end`.
 
     `first` and `last` are the slopes at `begin` and `end`.
     """
@@ -52,5 +53,4 @@ def turning_value(c, order, begin, end, first, last):
         if bend == 0.0:
             break
         t = min(max(t - slope / bend, begin), end)
-    value, _ = polynomial(c, order, t)
-    return value
+    return t

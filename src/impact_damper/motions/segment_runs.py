@@ -6,46 +6,138 @@ Newton's method makes the end of each segment equal to the beginning of the next
 Z1 is the displacement of the primary mass.
 """
 
+import math
+
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.single import (
     CONTACT_ORDER,
     FLIGHT_ORDER,
+    Q,
     X,
+    assign,
+    polynomial,
     side_of,
     step,
     workspace,
 )
 from impact_damper.kernel.tangents import advance
-from impact_damper.motions.extrema import extremum
+from impact_damper.motions.extrema import PIECES, extremum, turning_time
+from impact_damper.motions.records import SAMPLES
+from impact_damper.motions.strobe_map import STROBE
+from impact_damper.motions.traces import record_beginning, series_of_step
+from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 
 @kernel
-def largest_displacement(p, states, times, tolerance):
-    """Return the largest |Z1| on all segments of a chain.
+def survey(p, states, phases, tolerance, log, sums):
+    """Record contacts, the largest |Z1| and first harmonics of a motion in segments.
 
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
         Packed parameters.
     states : array, shape (m, 4)
-        States at the beginnings of the segments, replaced by the states at their ends.
-    times : array, shape (m + 1,)
-        Beginnings of the segments, and end of the last one.
+        States at the beginnings of the segments; replaced by those at the ends.
+    phases : array, shape (m + 1,)
+        Phases W T at which the segments begin, and at which the last one ends, radian.
     tolerance : float
-        Largest local error of a step.
+        Local error allowed.
+    log : array, shape (n, 5)
+        Receives a row for each of the first n contacts, as from `records.trace`.
+    sums : array, shape (2, 2)
+        Receives real and imaginary part of the mean of 2 exp(-i W T) Z1 and of the same with Z2,
+        over SAMPLES phases a cycle of the forcing.
+
+    Returns
+    -------
+    contacts : int
+        Number of contacts.
+    largest : float
+        Largest |Z1|.
     """
-    work, largest = workspace(), 0.0
+    work, start = workspace(), np.empty(4)
+    frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
+    sample = math.ceil((phases[0] - STROBE) / spacing)
+    last = sample + round((phases[-1] - phases[0]) / spacing)
+    weight, contacts, largest = 2.0 / (last - sample), 0, 0.0
+    for i in range(2):
+        sums[i, 0] = sums[i, 1] = 0.0
     for k in range(len(states)):
-        y, t, end = states[k], times[k], times[k + 1]
+        y, t, end = states[k], phases[k] / frequency, phases[k + 1] / frequency
         side, largest = side_of(p, y), max(largest, abs(y[0]))
         while t < end:
+            assign(start, y)
+            before = side
             order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
             length, side = step(p, y, side, t, end - t, tolerance, work)
             largest = extremum(work[X:], order, length, largest)
+            ahead = end if length >= end - t else t + length
+            final = k == len(states) - 1 and ahead == end
+            while sample < last and (final or STROBE + sample * spacing < ahead * frequency):
+                phase = STROBE + sample * spacing
+                x, _, z, _ = series_of_step(work, before, start, phase / frequency - t)
+                z += before * p[CLEARANCE] if before != 0 else 0.0
+                cosine, sine = weight * math.cos(phase), weight * math.sin(phase)
+                sums[0, 0] += x * cosine
+                sums[0, 1] -= x * sine
+                sums[1, 0] += z * cosine
+                sums[1, 1] -= z * sine
+                sample += 1
+            t = ahead
+            if before == 0 and side != 0:
+                contacts = record_beginning(log, contacts, side, t, y[3])
+            elif before != 0 and side == 0 and contacts <= len(log):
+                log[contacts - 1, 2], log[contacts - 1, 4] = t, y[3]
+    return contacts, largest
+
+
+@kernel
+def list_turns(p, states, phases, tolerance, turns):
+    """List the extrema of Z2 of a motion in segments; return their number.
+
+    Parameters
+    ----------
+    p, states, phases, tolerance
+        As in `survey`.
+    turns : array, shape (n, 4)
+        Receives a row for each of the first n extrema: segment, phase W T, 1 for a maximum of |Z2|
+        or 0 for a minimum, and |Z2| - d0.
+    """
+    work, start = workspace(), np.empty(4)
+    c = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
+    count = 0
+    for k in range(len(states)):
+        y, t, end = states[k], phases[k] / p[FREQUENCY], phases[k + 1] / p[FREQUENCY]
+        side = side_of(p, y)
+        while t < end:
+            assign(start, y)
+            before = side
+            order, first = (FLIGHT_ORDER, X) if side == 0 else (CONTACT_ORDER, Q)
+            length, side = step(p, y, side, t, end - t, tolerance, work)
+            for i in range(order + 1):
+                c[i] = work[first + i]
+            if before == 0:
+                c[0] += start[2] - start[0]
+                c[1] += start[3] - start[1]
+            else:
+                c[0] += before * p[CLEARANCE]
+            _, begun = polynomial(c, order, 0.0)
+            for piece in range(1, PIECES + 1):
+                place = length * piece / PIECES
+                _, slope = polynomial(c, order, place)
+                if begun * slope <= 0.0 and begun != slope:
+                    turn = turning_time(c, order, place - length / PIECES, place, begun, slope)
+                    if count < len(turns):
+                        turns[count, 0], turns[count, 1] = k, (t + turn) * p[FREQUENCY]
+                        value, _ = polynomial(c, order, turn)
+                        turns[count, 2] = 1.0 if value * (begun - slope) > 0.0 else 0.0
+                        turns[count, 3] = abs(value) - p[CLEARANCE]
+                    count += 1
+                begun = slope
             t = end if length >= end - t else t + length
-    return largest
+    return count
 
 
 @kernel
@@ -120,7 +212,7 @@ def sweep(factors, basis, triangles):
 
 
 @kernel
-def separate(factors, apart, sweeps, settled, blocks, cuts):
+def separate(factors, apart, sweeps, settled, coupled, blocks, cuts):
     """Separate the eigenvalues of a product of matrices by modulus; return the number of groups.
 
     Orthogonal iteration makes the product block triangular. Each diagonal block has the eigenvalues
@@ -138,6 +230,9 @@ def separate(factors, apart, sweeps, settled, blocks, cuts):
         Largest number of iterations.
     settled : float
         The iteration ends once the subspaces of the groups turn by less than this (radian).
+    coupled : float
+        Groups whose subspaces still turn by more are not separated. Within a complex pair the
+        moduli of the iterates may differ by any factor, but the subspaces keep turning.
     blocks : array, shape (n, n)
         Receives the diagonal blocks.
     cuts : array of int, shape (n + 1,)
@@ -165,11 +260,14 @@ def separate(factors, apart, sweeps, settled, blocks, cuts):
             for k in range(m):
                 size += np.log(abs(triangles[k, j, j]) + 1e-300)
             if j > 0 and before - size > np.log(apart):
-                cuts[groups] = j
-                groups += 1
+                coupling = 0.0
                 for row in range(j, n):
                     for column in range(j):
-                        moved = max(moved, abs(turned[row, column]))
+                        coupling = max(coupling, abs(turned[row, column]))
+                moved = max(moved, coupling)
+                if coupling < coupled:
+                    cuts[groups] = j
+                    groups += 1
             before = size
         cuts[groups] = n
         if moved < settled:

@@ -9,25 +9,27 @@ import numpy as np
 from scipy.optimize import brentq
 
 
-def at_distance(point, ahead, distance):
-    """Return the point of a branch at a distance from `point`, or None if Newton's method fails.
+def at_distance(origin, point, ahead, distance):
+    """Return the point of a branch at a distance from `origin`, or None if Newton's method fails.
 
     Parameters
     ----------
-    point, ahead : continuation.Point
-        Two points with the same `Problem`, on both sides of the one that is sought.
+    origin, point, ahead : continuation.Point
+        Points with the same `Problem`. The one that is sought lies between `point` and `ahead`.
     distance : float
-        Distance from `point` in the direction of its tangent, in the metric of the problem.
+        Distance from `origin` in the direction of its tangent, in the metric of the problem.
     """
-    fraction = distance / ((point.problem.metric * point.tangent) @ (ahead.x - point.x))
-    return point.problem.near(_cubic(point, ahead, fraction), point.tangent, distance)
+    row = origin.problem.metric * origin.tangent
+    first, last = (row @ (end.x - origin.x) for end in (point, ahead))
+    x = _cubic(point, ahead, (distance - first) / (last - first))
+    x += (distance - row @ (x - origin.x)) / (last - first) * (ahead.x - point.x)
+    return origin.problem.near(x, origin.tangent, distance)
 
 
 def at_value(point, ahead, value):
     """Return the point of a branch at a value of the parameter between those of two points.
 
-    The arguments `point` and `ahead` are those of `at_distance`. The result is None if Newton's
-    method fails.
+    Both points have the same problem. The result is None if Newton's method fails.
     """
     problem, chord = point.problem, ahead.x - point.x
 

@@ -21,6 +21,8 @@ FINE = 1e-3
 PLACE = 1e-12
 # A multiplier is complex if its imaginary part exceeds COMPLEX.
 COMPLEX = 1e-6
+# Stability can change at a bifurcation only if no multiplier there exceeds 1 by more than this.
+NEAR_CIRCLE = 1e-3
 # A flight between two contacts is about to vanish if it is shorter than MERGED forcing cycles.
 MERGED = 1e-3
 # Largest number of changes of contact that are located on one step.
@@ -141,12 +143,11 @@ def bifurcations_between(point_at, start, end, first, last):
 
             place = brentq(value, first, last, xtol=tolerance)
             point = known[place]
-            if start.orbit.stable != end.orbit.stable and not point.orbit.stable:
-                # The point is moved to the stable side of the bifurcation.
-                aside = place + np.copysign(
-                    2 * tolerance, (first if start.orbit.stable else last) - place
-                )
-                point = point_at(aside) if (aside - first) * (aside - last) < 0 else point
+            if not point.orbit.stable and abs(point.orbit.multipliers[0]) < 1 + NEAR_CIRCLE:
+                # The point is moved to the stable side of the bifurcation, if one side is stable.
+                sides = (place - 2 * tolerance, place + 2 * tolerance)
+                beside = [point_at(side) for side in sides if (side - first) * (side - last) < 0]
+                point = next((each for each in beside if each.orbit.stable), point)
         except (ArithmeticError, ValueError):
             lost += 1
             continue
@@ -174,11 +175,17 @@ def events_between(start, end, length):
         Number of events that were not located.
     """
 
+    known = {0.0: start, length: end}
+
     def point_at(distance):
-        point = between.at_distance(start, end, distance)
-        if point is None:
-            raise ArithmeticError
-        return point
+        if distance not in known:
+            low = max(place for place in known if place < distance)
+            high = min(place for place in known if place > distance)
+            found = between.at_distance(start, known[low], known[high], distance)
+            if found is None:
+                raise ArithmeticError
+            known[distance] = found
+        return known[distance]
 
     located, lost = bifurcations_between(point_at, start, end, 0, length)
     try:

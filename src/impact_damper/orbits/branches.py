@@ -13,10 +13,13 @@ from impact_damper.orbits.continuation import (
     LONGEST,
     LONGEST_UNSTABLE,
     SHORTEST_STEP,
+    SMALLEST,
     Point,
     Problem,
 )
+from impact_damper.orbits.cutting import holds_still, recut
 from impact_damper.orbits.grazing import through_grazing
+from impact_damper.orbits.steps import folds_twice, next_point, passes_unseen, with_bend
 
 # Largest number of orbits in one direction.
 MOST_POINTS = 10_000
@@ -29,13 +32,6 @@ NEARBY = 0.02
 # If the branch is lost where the fastest contact is slower than WEAK, the branch has reached a
 # motion without contacts.
 WEAK = 0.02
-# A step is accepted if the tangents at its ends differ by at most the angle TURNED, and if its
-# chord differs from the mean of the tangents by at most SKEW times its length. A larger difference
-# would indicate that the step led to another branch nearby.
-TURNED, SKEW = 0.35, 0.02
-# The length of the next step is chosen to turn by AIM times the largest turn. It is at most GROWTH
-# times the length before and, after a failure, at least SHRINKAGE times this length.
-AIM, GROWTH, SHRINKAGE = 0.8, 1.5, 0.3
 # A branch meets another one at a fold where its deviation from the other one is less than VANISHED
 # times the deviation before.
 VANISHED = 0.5
@@ -94,11 +90,19 @@ class Branch:
         closeness = np.abs(size[:-1] - orbit.record["maximum_displacement"])
         crossing = (away[:-1] * away[1:] <= 0) & (closeness <= NEARBY + np.abs(np.diff(size)))
         for k in np.flatnonzero(crossing):
-            point = self.points[k if abs(away[k]) <= abs(away[k + 1]) else k + 1]
-            near = point.problem.at_value(point, value)
-            if near is not None and near.orbit.is_same(orbit, SAME):
-                return True
+            step = self.points[k], self.points[k + 1]
+            for start, other in (step, step[::-1]):
+                near = _at_value(start, other, value)
+                if near is not None and near.orbit.is_same(orbit, SAME):
+                    return True
         return False
+
+
+def _at_value(point, ahead, value):
+    """Return the point at a value of the parameter on the step between two points, or None."""
+    if np.array_equal(point.problem.phases, ahead.problem.phases):
+        return between.at_value(point, ahead, value)
+    return point.problem.at_value(point, value)
 
 
 def follow_branch(family, orbit, value, span, most=MOST_POINTS, *, stable=False) -> Branch:
@@ -159,12 +163,12 @@ def _walk(problem, first, span, most, stable=False) -> Branch:
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
         outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0
         end = "range_ends" if outward else ""
-    if not problem.holds_still(first):
-        points[0] = first = problem.recut(first)
+    if not holds_still(first):
+        points[0] = first = recut(first)
     length, tried = FIRST_STEP, None
     while not end and len(points) < most:
         point = points[-1]
-        ahead, factor = _next(point, span, length)
+        ahead, factor = next_point(point, span, length)
         changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
         pieces = []
         close = ahead is None and length < CLOSE_STEP and problem.damped
@@ -177,9 +181,12 @@ def _walk(problem, first, span, most, stable=False) -> Branch:
                 if length < SHORTEST_STEP:
                     end = _loss(point)
                 continue
+            if length > CLEAR_STEP and folds_twice(point, ahead):
+                length /= 2
+                continue
             along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
             pieces = [(point, ahead, *events_between(point, ahead, along))]
-            if length > CLEAR_STEP and (pieces[0][3] or _passes_unseen(*pieces[0][:3])):
+            if length > CLEAR_STEP and (pieces[0][3] or passes_unseen(*pieces[0][:3])):
                 length /= 2
                 continue
         for start, ahead, located, missed in pieces:
@@ -211,24 +218,14 @@ def _walk(problem, first, span, most, stable=False) -> Branch:
         if not end:
             last, ahead = pieces[-1][:2]
             coarse = not (problem.symmetric or ahead.orbit.stable)
-            longest = ahead.problem.length(ahead.x) * (LONGEST_UNSTABLE if coarse else LONGEST)
+            size = max(ahead.problem.length(ahead.x), SMALLEST)
+            longest = size * (LONGEST_UNSTABLE if coarse else LONGEST)
             length = min(factor * ahead.problem.length(ahead.x - last.x), longest)
-            if not ahead.problem.holds_still(ahead):
-                points[-1] = ahead.problem.recut(ahead)
+            if not holds_still(ahead):
+                points[-1] = recut(ahead)
             elif len(pieces) == 1:
-                bend = (ahead.tangent - last.tangent) / ahead.problem.length(ahead.x - last.x)
-                points[-1] = ahead._replace(bend=bend)
+                points[-1] = with_bend(last, ahead)
     return Branch(problem.family, points, events, ("", end or "point_limit"), lost)
-
-
-def _passes_unseen(point, ahead, located):
-    """Return whether a step crosses a branch of orbits of more symmetry without a located fold.
-
-    Where the two branches meet, the parameter has an extremum along the branch, so the events of
-    the step should include a fold. Without it the step may have led to the other branch.
-    """
-    folds = any(event.kind == "fold" for event in located)
-    return not folds and point.orbit.deviation @ ahead.orbit.deviation < 0
 
 
 def _through_grazing(point, reach):
@@ -264,31 +261,6 @@ def _meeting(events, orbit):
         if np.max(np.abs(events[k].point.orbit.deviation)) < least:
             return k
     return None if folds else len(events)
-
-
-def _next(point, span, length):
-    """Return the next point, and the factor for the length of the step after it.
-
-    If the step would leave the range, the point lies at the end of the range. The point is None if
-    Newton's method fails, if the branch turns by too much, or if the point seems to lie on another
-    branch.
-    """
-    problem = point.problem
-    ahead = problem.step(point, length)
-    if ahead is not None and np.clip(ahead.value, *span) != ahead.value:
-        ahead = between.at_value(point, ahead, float(np.clip(ahead.value, *span)))
-    if ahead is None:
-        return None, 0.5
-    chord = ahead.x - point.x
-    mean = (point.tangent + ahead.tangent) / 2
-    straight = problem.length(mean)
-    turned = 2 * np.arccos(min(straight, 1.0)) / TURNED
-    chord /= problem.length(chord) or 1.0
-    skew = problem.length(chord - mean / straight) / SKEW
-    ease = AIM / max(turned, skew**0.5, AIM / GROWTH)
-    if max(turned, skew) > 1:
-        return None, max(min(ease, AIM), SHRINKAGE)
-    return ahead, ease
 
 
 def _loss(last):

@@ -11,43 +11,49 @@ within the difference, a finer difference is taken.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from impact_damper.motions.segment_newton import (
+    NUDGE,
+    correction,
+    slopes_of_ends,
+)
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit
-from impact_damper.orbits.shooting import AMPLIFYING, orbit_of, shoot
+from impact_damper.orbits.shooting import orbit_of
 from impact_damper.system.packed import CLEARANCE
 
-# Change of the parameter in the central difference. If the forward and the backward difference
-# differ by more than the share BENT, a contact appears between them, and FINE_NUDGE is taken.
-NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
-# Avoids a division by zero.
-TINY = 1e-300
 # Newton's method. NEWTON: largest number of corrections. LARGEST: largest size of a correction. The
 # method has converged once a correction is below CLOSE, or below ROUNDING and more than half the
 # correction before.
 NEWTON = 10
 LARGEST = 0.5
 CLOSE, ROUNDING = 1e-10, 1e-4
-# Singular values below SINGULAR times the largest singular value are set to zero.
+# A converged orbit is also accepted after a correction below SURE. The method has failed if a
+# correction exceeds SHRINKING times the one before.
+SURE, SHRINKING = 1e-6, 0.7
+# The derivative by the parameter is taken again after a correction below REFINED, if the
+# corrections since it was taken add up to more than UNMOVED.
+REFINED, UNMOVED = 1e-4, 5e-6
+# If a solution exceeds the right side by the factor SINGULAR^-0.5, singular values below SINGULAR
+# times the largest one are set to zero.
 SINGULAR = 1e-8
 # An orbit is symmetric if its asymmetry is below SYMMETRIC.
 SYMMETRIC = 1e-6
 # First and shortest step, in branch length.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# Longest step divided by the length of the unknowns: on symmetric or stable orbits, and on other
-# orbits.
-LONGEST, LONGEST_UNSTABLE = 0.02, 0.06
+# Longest step divided by the length of the unknowns, or by SMALLEST if they are shorter: on
+# symmetric or stable orbits, and on other orbits.
+LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
 # Largest distance of a first guess along the tangent, in `Problem.at_value`.
 FARTHEST_GUESS = 0.08
-# A correction that exceeds ASIDE times the step may have led to another branch.
-ASIDE = 0.2
-# An orbit is cut into new segments if a contact comes closer to a section than NEAR_SECTION
-# (radian), or if a segment amplifies ROUGHER times more than when it was cut. It becomes one
-# segment again if it amplifies less than MILD times AMPLIFYING.
-NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
+# A correction that exceeds ASIDE times the step may have led to another branch. If the first
+# correction is FAILING times larger, the method is stopped.
+ASIDE, FAILING = 0.2, 2.0
 
 
 class Point(NamedTuple):
@@ -65,8 +71,9 @@ class Point(NamedTuple):
         Unit tangent of the branch, in the metric of the problem.
     problem : Problem
         The equations that the unknowns solve.
-    bend : numpy.ndarray, shape (m n + 1,), or float
-        Estimate of the derivative of the tangent by the branch length, for the next first guess.
+    bend, twist : numpy.ndarray, shape (m n + 1,), or float
+        Estimates of the first and second derivative of the tangent by the branch length, for the
+        next first guess.
     """
 
     value: float
@@ -75,6 +82,7 @@ class Point(NamedTuple):
     tangent: np.ndarray
     problem: "Problem"
     bend: np.ndarray | float = 0.0
+    twist: np.ndarray | float = 0.0
 
 
 @dataclass(frozen=True)
@@ -135,7 +143,7 @@ class Problem:
         """Phase over which orbits are integrated, radian."""
         return self.phases[-1] - self.phases[0]
 
-    @property
+    @cached_property
     def metric(self):
         """Weights of the squared unknowns in a squared distance, shape (m n + 1,)."""
         m = len(self.phases) - 1
@@ -150,25 +158,33 @@ class Problem:
         size = 4 if self.damped else 2
         return np.append([orbit.at(phase)[:size] for phase in self.phases[:-1]], value)
 
-    def _states(self, x):
+    def states(self, x):
         """Return the states at the beginning of the segments, shape (m, 4)."""
         if self.damped:
             return x[:-1].reshape(-1, 4)
         return np.concatenate([x[:2], x[:2] + self.loose])[None]
+
+    def flow(self, x):
+        """Return the `segments.Chain` at the unknowns x, of one segment or of several."""
+        sign = -1 if self.symmetric else 1
+        return segments.chain_of(self.family(x[-1]), self.phases, self.states(x), sign)
+
+    def orbit_of(self, chain):
+        """Return the `Orbit` of a chain; it holds the chain only if this has several segments."""
+        orbit = orbit_of(chain, self.periods)
+        return orbit if len(chain.states) > 1 else replace(orbit, chain=None)
 
     def shoot(self, x):
         """Return the `Orbit` at the unknowns x, without iteration, and its defect, shape (m n,).
 
         The defect is the state after each segment minus the state at which the next segment begins.
         """
-        p, states = self.family(x[-1]), self._states(x)
-        if len(states) == 1:
-            phase, symmetric = self.phases[0], self.symmetric
-            orbit, end = shoot(p, states[0], self.periods, phase, symmetric=symmetric)
-            return orbit, (end - states[0])[: len(x) - 1]
-        sign = -1 if self.symmetric else 1
-        orbit = orbit_of(segments.chain_of(p, self.phases, states, sign), self.periods)
-        return orbit, orbit.chain.defects.ravel()
+        chain = self.flow(x)
+        return self.orbit_of(chain), self._defect(chain)
+
+    def _defect(self, chain):
+        """Return the defects of a chain in the components that are unknown, shape (m n,)."""
+        return chain.defects[:, : 4 if self.damped else 2].ravel()
 
     def rate(self, value):
         """Return the derivative of the packed parameters by the parameter, shape (COUNT,)."""
@@ -191,74 +207,87 @@ class Problem:
         known : (int, array), optional
             A segment, and the derivative of its end by the parameter, shape (4,), if it is known.
         """
-        n = 4 if self.damped else 2
-        states = self._states(x)
         rate = self.rate(x[-1]) if rate is None else rate
-        chain = orbit.chain
-        ends = segments.ends_of(orbit.p, self.phases, states) if chain is None else chain.ends
-        by_parameter, bent = self._slopes(orbit.p, states, ends, self.phases, rate, NUDGE)
-        for k in np.flatnonzero(bent > BENT) if self.damped else ():
-            if known is None or k != known[0]:
-                here = orbit.p, states[k : k + 1], ends[k : k + 1], self.phases[k : k + 2]
-                by_parameter[k] = self._slopes(*here, rate, FINE_NUDGE)[0][0]
-        if known is not None:
-            by_parameter[known[0]] = known[1]
-        by_parameter[-1] *= -1 if self.symmetric else 1
-        return np.column_stack([segments.cyclic(orbit.factors[:, :n, :n]), by_parameter.ravel()])
-
-    def _slopes(self, p, states, ends, phases, rate, nudge):
-        """Return the derivatives of the ends of segments by the parameter, as differences.
-
-        Returns
-        -------
-        slopes : numpy.ndarray, shape (m, n)
-        bent : numpy.ndarray, shape (m,)
-            By how much the difference ahead and the one behind differ, as a share of their sum.
-        """
-        n = 4 if self.damped else 2
-        ahead, behind = (
-            segments.ends_of(p + change, phases, states)[:, :n]
-            for change in (nudge * rate, -nudge * rate)
+        states, n = self.states(x), 4 if self.damped else 2
+        chain, sign = orbit.chain or self.flow(x), -1 if self.symmetric else 1
+        slopes = np.empty((len(states), n))
+        slopes_of_ends(
+            orbit.p, rate, self.phases, states, chain.ends, sign, POLISH_TOLERANCE, slopes
         )
-        whole, bend = ahead - behind, ahead + behind - 2 * ends[:, :n]
-        bent = np.abs(bend).max(axis=1) / (np.abs(whole).max(axis=1) + TINY)
-        return whole / (2 * nudge), bent
+        if known is not None:
+            last = known[0] == len(states) - 1
+            slopes[known[0]] = known[1] * (sign if last else 1)
+        return self._matrix(orbit.factors, slopes)
 
-    def correct(self, x, border):
+    def _matrix(self, factors, slopes):
+        """Return the derivative of the defect from derivatives of the ends of the segments."""
+        n = 4 if self.damped else 2
+        return np.column_stack([segments.cyclic(factors[:, :n, :n]), slopes.ravel()])
+
+    def correct(self, x, border, most=np.inf):
         """Return the point that Newton's method reaches from x, or None.
 
-        The corrections are orthogonal to `border`. Where branches cross the matrix is singular, and
-        its smallest singular value is set to zero. The last corrections are then rounding errors,
-        which no longer shrink, so the residual decides whether the method has converged.
+        None is also returned if the first correction is longer than `most`, or if a correction does
+        not shrink although the orbit has not converged: across a grazing the method does not
+        converge. The corrections are orthogonal to `border`. Where branches cross the matrix is
+        singular, and its smallest singular value is set to zero. The last corrections are then
+        rounding errors, which no longer shrink, so the residual decides whether the method has
+        converged.
+
+        After a correction below SURE the next one would be below CLOSE, since Newton's method
+        doubles the number of digits. A converged orbit is then accepted. The derivative by the
+        parameter, the most expensive part, is taken for the first guess, and once close to the
+        orbit.
         """
-        x, last, row = x.copy(), np.inf, self.metric * border
-        rate = self.rate(x[-1])
-        for _ in range(NEWTON):
+        x, size, moved, row = x.copy(), np.inf, 0.0, self.metric * border
+        rate, m, sign = self.rate(x[-1]), len(self.phases) - 1, -1 if self.symmetric else 1
+        slopes, out = np.empty((m, 4 if self.damped else 2)), np.empty((len(x), 2))
+        for number in range(NEWTON):
+            fresh = number == 0 or (size < REFINED and moved > UNMOVED)
+            moved = 0.0 if fresh else moved
+            ends, tangents, states = np.empty((m, 4)), np.empty((m, 4, 4)), self.states(x)
             try:
-                orbit, defect = self.shoot(x)
-                rows = self.rows(x, orbit, rate)
-                matrix = np.vstack([rows, row])
-                change = _solved(matrix, -np.append(defect, 0.0))
+                p = self.family(x[-1])
+                touching, residual = correction(
+                    *(p, rate, self.phases, states, sign, row, fresh, POLISH_TOLERANCE),
+                    *(ends, tangents, slopes, out),
+                )
+                factors = tangents.transpose(0, 2, 1)
+                factors[-1] *= sign
+                chain = segments.Chain(p, self.phases, states, sign, ends, factors, touching)
+                largest = np.max(np.abs(out), axis=0)
+                if not np.all(largest < np.array([residual, 1.0]) / SINGULAR**0.5):
+                    out = self._least(chain, slopes, row)
             except (np.linalg.LinAlgError, ValueError):
                 return None
+            change = out[:, 0]
             if not border[:-1].any():
                 change[-1] = 0.0  # the parameter must keep its value exactly
-            size = np.max(np.abs(change))
-            if not size < LARGEST:
+            last, size = size, np.max(np.abs(change))
+            if not size < LARGEST or (number == 0 and self.length(change) > most):
                 return None
-            if orbit.converged and (size < CLOSE or last / 2 < size < ROUNDING):
-                return self.point(x, orbit, rows, row)
-            x, last = x + change, size
+            settled = fresh and (size < CLOSE or last / 2 < size < ROUNDING)
+            if (last < SURE or settled) and chain.converged:
+                return self._point(x, chain, out[:, 1])
+            if size > max(SHRINKING * last, SURE) and not chain.converged:
+                return None
+            x, moved = x + change, moved + size
         return None
 
-    def point(self, x, orbit, rows, row):
-        """Return the point at converged unknowns; its tangent has a positive product with `row`."""
-        tangent = _solved(np.vstack([rows, row]), np.eye(len(x))[-1])
-        return Point(x[-1], orbit, x, tangent / self.length(tangent), self)
+    def _least(self, chain, slopes, row):
+        """Return the `out` of `correction` with very small singular values set to zero."""
+        matrix = np.vstack([self._matrix(chain.factors, slopes), row])
+        right = np.zeros((len(row), 2))
+        right[:-1, 0], right[-1, 1] = -self._defect(chain), 1.0
+        return np.linalg.lstsq(matrix, right, SINGULAR)[0]
+
+    def _point(self, x, chain, tangent):
+        """Return the point at converged unknowns, from a vector along the branch."""
+        return Point(x[-1], self.orbit_of(chain), x, tangent / self.length(tangent), self)
 
     def step(self, point, length):
         """Return the point at a distance `length` along the branch from a point, or None."""
-        bent = length**2 / 2 * point.bend
+        bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
         return self.near(point.x + length * point.tangent + bent, point.tangent, length)
 
     def near(self, x, border, length):
@@ -266,8 +295,8 @@ class Problem:
 
         None is also returned if the correction exceeds ASIDE times the length.
         """
-        point = self.correct(x, border)
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
+        point = self.correct(x, border, FAILING * aside)
         return None if point is None or self.length(point.x - x) > aside else point
 
     def at_value(self, point, value):
@@ -293,55 +322,3 @@ class Problem:
         """
         x = self.unknowns(orbit, value)
         return self.correct(x, direction * np.eye(len(x))[-1])
-
-    def holds_still(self, point):
-        """Return whether the segments of a point can be kept (see NEAR_SECTION)."""
-        orbit = point.orbit
-        if not self.damped:
-            return True
-        if len(self.phases) == 2 and self.rough == 0:
-            return orbit.amplification <= AMPLIFYING and orbit.flight_phase() == orbit.phase
-        norms = np.linalg.norm(orbit.factors, 2, axis=(1, 2))
-        near = min(orbit.margin(phase) for phase in self.phases[:-1])
-        mild = orbit.amplification < MILD * AMPLIFYING
-        return not mild and near > NEAR_SECTION and np.max(norms) < ROUGHER * self.rough
-
-    def recut(self, point, between=()):
-        """Return a point with new segments, or the same point if Newton's method fails with them.
-
-        To keep the direction of the tangent, a point displaced along the tangent is integrated to
-        the new sections too. `between` is the argument of `segments.cut`.
-        """
-        orbit = point.orbit
-        phases, rough = segments.cut(orbit, self.cycle, between), 1.0
-        if not between and orbit.amplification <= AMPLIFYING:
-            phases, rough = orbit.flight_phase() + np.array([0.0, self.cycle]), 0.0
-        problem = replace(self, phases=phases - phases[0] + phases[0] % TURN, rough=rough)
-        x = np.append([orbit.at(phase) for phase in phases[:-1]], point.x[-1])
-        nudged = point.x + FINE_NUDGE * point.tangent
-        p, states = self.family(nudged[-1]), self._states(nudged)
-        if orbit.chain is None:
-            displaced = replace(orbit, p=p, state=states[0])
-        else:
-            displaced = replace(orbit.chain, p=p, states=states)
-        ahead = np.append([displaced.at(phase) for phase in phases[:-1]], nudged[-1])
-        border = (ahead - x) / problem.length(ahead - x)
-        moved = problem.correct(x, border)
-        if moved is None:
-            return point
-        norms = np.linalg.norm(moved.orbit.factors, 2, axis=(1, 2))
-        problem = replace(problem, rough=np.max(norms) if rough else 0.0)
-        return moved._replace(problem=problem)
-
-
-def _solved(matrix, right):
-    """Return the solution of linear equations, with very small singular values set to zero.
-
-    The equations of several segments are solved by elimination, which is faster, unless the
-    solution is so large that the matrix must be nearly singular.
-    """
-    if len(right) > 5:
-        solution = np.linalg.solve(matrix, right)
-        if np.max(np.abs(solution)) < np.max(np.abs(right)) / SINGULAR**0.5:
-            return solution
-    return np.linalg.lstsq(matrix, right, SINGULAR)[0]

@@ -18,10 +18,8 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.orbits.continuation import NEWTON, Point
-from impact_damper.orbits.paths import POINTS
-from impact_damper.orbits.sensitivity import path_of
-from impact_damper.orbits.variations import Variations
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
+from impact_damper.orbits.cutting import recut
+from impact_damper.orbits.turns import moved, nearest, next_grazing, turns_of
 
 # On the side with more contacts the heights of successive points are LEAST, RATIO * LEAST, ... up
 # to MOST in modulus.
@@ -39,84 +37,10 @@ BESIDE = 1e-9, 2e-5
 # LARGEST: largest size of a correction.
 # CLOSE, ROUNDING: largest relative and absolute error of the height.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
-# Largest change of the phase (radian) of an extremum between two heights.
-MOVED = 0.1
 
 
-class Turn(NamedTuple):
-    """An extremum of Z2.
-
-    Attributes
-    ----------
-    segment : int
-        Index of the segment of the orbit.
-    phase : float
-        W T, radian.
-    outer : bool
-        True if |Z2| has a maximum, False if it has a minimum.
-    height : float
-        |Z2| - d0.
-    gradient : numpy.ndarray, shape (4 m + 1,)
-        Derivative of the height by the unknowns: the states at the beginnings of the m segments,
-        and the parameter.
-    by_parameter : numpy.ndarray, shape (4,)
-        Derivative of the end of the segment by the parameter. The change of sign at the end of a
-        symmetric orbit's half period is not included.
-    """
-
-    segment: int
-    phase: float
-    outer: bool
-    height: float
-    gradient: np.ndarray
-    by_parameter: np.ndarray
-
-
-def turns_of(problem, x, orbit, segment=None):
-    """Return a list of every `Turn` of an orbit, or of one segment, whose gradient is known.
-
-    `problem` is the `continuation.Problem` of the branch, and x are the unknowns of the orbit.
-    """
-    rate = problem.rate(x[-1])
-    turns = []
-    for k in range(len(problem.phases) - 1) if segment is None else [segment]:
-        path = path_of(orbit) if orbit.chain is None else orbit.chain.path(k)
-        steps, sizes, weights, times = path.turns(1)
-        if not len(steps):
-            continue
-        variations = Variations(path, rate[:, None])
-        try:
-            change = variations.changes(np.zeros((4, 1)), np.eye(1))[2, 0]
-        except np.linalg.LinAlgError:
-            # After many inelastic contacts the derivative by the first state is singular up to
-            # rounding errors, so that the gradient is not known.
-            continue
-        by_parameter = variations.slopes()[:, 0]
-        for step, size, weight, time in zip(steps, sizes, weights, times, strict=True):
-            wall, part = np.sign(size), slice(step * POINTS, (step + 1) * POINTS)
-            gradient = np.zeros(len(x))
-            gradient[4 * k : 4 * k + 4] = wall * (path.tangents[2, :, part] @ weight)
-            gradient[-1] = wall * (change[part] @ weight) - rate[CLEARANCE]
-            before = path.times[part] < time
-            speed = wall * path.states[3, part]
-            outer = (speed[before][-1] if before.any() else -speed[~before][0]) > 0
-            height = wall * size - orbit.p[CLEARANCE]
-            phase = orbit.p[FREQUENCY] * time
-            turns.append(Turn(k, phase, bool(outer), height, gradient, by_parameter))
-    return turns
-
-
-def nearest(turns, turn):
-    """Return the turn closest in phase to a given turn, preferably of the same `outer`, or None."""
-    near = [each for each in turns if abs(each.phase - turn.phase) < MOVED]
-    near = [each for each in near if each.outer == turn.outer] or near
-    return min(near, key=lambda each: abs(each.phase - turn.phase), default=None)
-
-
-def at_height(problem, x, turn, height, direction):
+def at_height(problem, x, turn, height, direction, exact=True):
     """Return the point of a branch at which an extremum has a given height, and its `Turn`.
-
-    Return None if Newton's method fails.
 
     Parameters
     ----------
@@ -124,22 +48,30 @@ def at_height(problem, x, turn, height, direction):
     x : array, shape (4 m + 1,)
         First guess of the unknowns.
     turn : Turn
-        The extremum at the guess.
+        The extremum near the guess.
     height : float
     direction : int
         1 if the height increases along the tangent of the point, -1 if it decreases.
+    exact : bool
+        Whether the derivatives of the extremum are computed, which is expensive. Otherwise those of
+        `turn` are kept. Newton's method then converges from close guesses only, and the tangent of
+        the point is approximate.
     """
     x = x.copy()
     for _ in range(NEWTON):
         orbit, defect = problem.shoot(x)
-        turn = nearest(turns_of(problem, x, orbit, turn.segment), turn)
-        if turn is None:
+        if exact:
+            reached = nearest(turns_of(problem, x, orbit, turn.segment), turn)
+        else:
+            reached = moved(problem, x, orbit, turn)
+        if reached is None:
             return None
+        turn, missing = reached, height - reached.height
+        settled = orbit.converged and abs(missing) < CLOSE * abs(height) + ROUNDING
         rows = problem.rows(x, orbit, known=(turn.segment, turn.by_parameter))
         matrix, last = np.vstack([rows, turn.gradient]), np.eye(len(x))[-1]
-        missing = height - turn.height
         try:
-            if orbit.converged and abs(missing) < CLOSE * abs(height) + ROUNDING:
+            if settled:
                 tangent = direction * np.linalg.solve(matrix, last)
                 tangent /= problem.length(tangent)
                 return Point(x[-1], orbit, x, tangent, problem), turn
@@ -185,7 +117,8 @@ class Passage(NamedTuple):
         def point_at(height, halvings=HALVINGS_BETWEEN):
             near, start, turn = min(known, key=lambda each: abs(each[0] - height))
             x = guess(start, turn, height)
-            found = at_height(start.problem, x, turn, height, direction)
+            where = start.problem, x, turn, height, direction
+            found = at_height(*where, exact=False) or at_height(*where)
             if found is None and halvings == 0:
                 raise ArithmeticError
             if found is None:
@@ -203,23 +136,6 @@ def guess(point, turn, height):
     The height is extrapolated linearly.
     """
     return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
-
-
-def next_grazing(point, reach):
-    """Return the extremum that first reaches its wall along the tangent of a point, or None.
-
-    Parameters
-    ----------
-    point : Point
-    reach : float
-        Largest distance along the tangent.
-    """
-    candidates = []
-    for turn in turns_of(point.problem, point.x, point.orbit):
-        rate = turn.gradient @ point.tangent
-        if rate and 0 < -turn.height / rate < reach:
-            candidates.append((-turn.height / rate, turn))
-    return min(candidates, key=lambda pair: pair[0], default=(0.0, None))[1]
 
 
 def through_grazing(point, reach):
@@ -240,7 +156,7 @@ def through_grazing(point, reach):
     turn = next_grazing(point, reach)
     if turn is None:
         return None
-    point = point.problem.recut(point, between=(turn.phase,))
+    point = recut(point, between=(turn.phase,))
     turn = next_grazing(point, 2 * reach)
     if turn is None:
         return None

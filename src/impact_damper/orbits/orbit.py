@@ -149,7 +149,7 @@ class Orbit:
             If there are more than CONTACTS contacts in a forcing cycle.
         """
         if self.chain is not None:
-            log = self.chain.log()
+            log = self.chain.surveyed[0]
             if self.root is None:
                 return log
             shift = self.cycle / self.p[FREQUENCY]
@@ -239,16 +239,15 @@ class Orbit:
     def _record_of_chain(self):
         """Return the `record` from the segments."""
         record = np.zeros(1, records.MOTION)[0]
-        record["maximum_displacement"] = self.chain.largest()
+        _, largest, harmonics = self.chain.surveyed
+        record["maximum_displacement"] = largest
         record["contacts"] = len(self.contacts) / self.periods
         begin = self.phase + (STROBE - self.phase) % TURN
         sums = self.at(begin) + self.at(begin + self.periods * TURN / 2)
         record["asymmetry"] = np.max(np.abs(sums)) if self.periods % 2 else np.nan
         # The first harmonic is a mean over the period. A symmetric orbit has the same mean over
         # half the period.
-        phases, states = self.chain.samples(STROBE, TURN / records.SAMPLES)
-        first, _, second, _ = 2 / len(states) * (np.exp(-1j * phases) @ states)
-        record["harmonic_displacement"], record["harmonic_relative"] = first, second
+        record["harmonic_displacement"], record["harmonic_relative"] = harmonics
         return record
 
     def is_same(self, other, tolerance=1e-6):
@@ -265,13 +264,14 @@ class Orbit:
         shift = np.max(np.abs(self.strobe_states - self.strobe_states[0]), axis=1)
         return any(shift[k] < tolerance for k in range(1, self.periods) if self.periods % k == 0)
 
-    def margin(self, phase):
-        """Return the distance of a phase from the nearest contact, radian; -1 during a contact."""
+    def margin(self, phases):
+        """Return the distances of phases from the nearest contact, radian; -1 during a contact."""
         begins, ends = (self.p[FREQUENCY] * self.contacts[:, k] for k in (1, 2))
-        cycle = self.periods * TURN
-        ahead, behind = (begins - phase) % cycle, (phase - ends) % cycle
-        inside = (phase - begins) % cycle < (ends - begins)
-        return -1.0 if inside.any() else np.min([ahead, behind], initial=np.inf)
+        cycle, phases = self.periods * TURN, np.asarray(phases)[..., None]
+        ahead, behind = (begins - phases) % cycle, (phases - ends) % cycle
+        inside = (phases - begins) % cycle < (ends - begins)
+        distances = np.where(inside, -1.0, np.minimum(ahead, behind))
+        return np.min(distances, axis=-1, initial=np.inf)
 
     def flight_phase(self):
         """Return a phase (radian) far from contacts, less than a period after the orbit's phase.

@@ -20,8 +20,7 @@ import numpy as np
 
 from impact_damper.kernel.single import side_of, workspace
 from impact_damper.kernel.tangents import advance
-from impact_damper.motions import traces
-from impact_damper.motions.segment_runs import flow_all, largest_displacement, separate
+from impact_damper.motions.segment_runs import flow_all, list_turns, separate, survey
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.paths import follow_path
 from impact_damper.system.packed import FREQUENCY
@@ -30,14 +29,17 @@ from impact_damper.system.packed import FREQUENCY
 # iteration. Multipliers of similar moduli are eigenvalues of products of small blocks.
 # SWEEPS: largest number of iterations.
 # SETTLED: the iteration ends if its basis changes by less than this.
+# COUPLED: multipliers are not separated if the basis still changes by more than this at the end.
 APART = 30.0
-SWEEPS, SETTLED = 14, 1e-15
+SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # A segment ends before the norm of its derivative exceeds AMPLIFIED.
 AMPLIFIED = 30.0
 # Smallest distance of a section from contacts, radian.
 CLEAR = 0.05
-# Largest number of contacts in a segment that can be listed.
-CONTACTS = 512
+# Largest residual of a converged orbit, relative to its states.
+RESIDUAL = 1e-12
+# Largest mean number of contacts, and of extrema of Z2, in a segment that can be listed.
+CONTACTS, TURNS = 64, 256
 
 
 @dataclass(frozen=True)
@@ -84,6 +86,16 @@ class Chain:
         defects[-1] = self.sign * self.ends[-1] - self.states[0]
         return defects
 
+    @cached_property
+    def residual(self):
+        """Largest defect."""
+        return float(np.abs(self.defects).max())
+
+    @property
+    def converged(self):
+        """Whether the residual is at most RESIDUAL, relative to states larger than 1."""
+        return bool(self.residual <= RESIDUAL * max(1.0, np.abs(self.states).max()))
+
     def at(self, phase):
         """Return the state, shape (4,), at a phase (radian) not before the first phase."""
         turns = int((phase - self.phases[0]) // self.cycle)
@@ -93,60 +105,38 @@ class Chain:
         _advance(self.p, state, np.empty((0, 4)), self.phases[k], max(local, self.phases[k]))
         return self.sign**turns * state
 
-    def log(self):
-        """Return the contacts in the order of time, shape (k, 5).
+    @cached_property
+    def surveyed(self):
+        """Contacts in order of time, largest |Z1|, and first harmonics.
 
-        A row holds the wall (-1 or 1), the times of beginning and end, and Z2' at both.
-
-        Raises
-        ------
-        ArithmeticError
-            If a segment has more than CONTACTS contacts.
+        Contacts are an array of shape (k, 5), as `Orbit.contacts`. Harmonics are the complex
+        amplitudes of Z1 and Z2, from the samples of `records.MOTION`.
         """
-        logs = []
-        for k, state in enumerate(self.states):
-            begin, end = self.phases[k : k + 2] / self.p[FREQUENCY]
-            log, last = np.empty((CONTACTS, 5)), np.empty((1, 4))
-            count = traces.trace(
-                self.p, state.copy(), begin, np.array([end]), POLISH_TOLERANCE, last, log
-            )
-            if count > CONTACTS:
-                raise ArithmeticError(f"{count} contacts in a segment: more than {CONTACTS}")
-            logs.append(log[:count])
-        return np.concatenate(logs)
+        log, sums = np.empty((CONTACTS * len(self.states), 5)), np.empty((2, 2))
+        states = self.states.copy()
+        count, largest = survey(self.p, states, self.phases, POLISH_TOLERANCE, log, sums)
+        if count > len(log):
+            raise ArithmeticError(f"{count} contacts in a cycle: more than {len(log)}")
+        return log[:count].copy(), largest, sums @ [1, 1j]
 
-    def samples(self, first, spacing):
-        """Return equally spaced phases over the chain, shape (n,), and the states, shape (n, 4).
+    def turns(self, segment=None):
+        """Return a row for each extremum of Z2, or for each in one segment, shape (n, 4).
 
-        Parameters
-        ----------
-        first, spacing : float
-            Spacing of the phases, and a phase from which they are counted, radian. The latter need
-            not lie on the chain.
+        A row holds the segment, the phase (radian), 1 for a maximum of |Z2| or 0 for a minimum, and
+        the height |Z2| - d0.
         """
-        begin = self.phases[0] + (first - self.phases[0]) % spacing
-        count = round(self.cycle / spacing)
-        places = begin + spacing * np.arange(count)
-        states = np.empty((count, 4))
-        for k, state in enumerate(self.states):
-            chosen = (places >= self.phases[k]) & (places < self.phases[k + 1])
-            times = places[chosen] / self.p[FREQUENCY]
-            part, begin = np.empty((len(times), 4)), self.phases[k] / self.p[FREQUENCY]
-            traces.trace(
-                self.p, state.copy(), begin, times, POLISH_TOLERANCE, part, np.empty((0, 5))
-            )
-            states[chosen] = part
-        return places, states
+        first = 0 if segment is None else segment
+        states = (self.states if segment is None else self.states[first : first + 1]).copy()
+        turns = np.empty((TURNS * len(states), 4))
+        count = list_turns(self.p, states, self.phases[first:], POLISH_TOLERANCE, turns)
+        if count > len(turns):
+            raise ArithmeticError(f"{count} extrema of Z2 in a cycle: more than {len(turns)}")
+        return turns[:count] + [first, 0.0, 0.0, 0.0]
 
     def path(self, k):
         """Return the `paths.Path` of segment k."""
         begin, end = self.phases[k : k + 2] / self.p[FREQUENCY]
         return follow_path(self.p, self.states[k], begin, end)
-
-    def largest(self):
-        """Return the largest |Z1|."""
-        times = self.phases / self.p[FREQUENCY]
-        return largest_displacement(self.p, self.states.copy(), times, POLISH_TOLERANCE)
 
 
 def _advance(p, state, tangents, begin, end):
@@ -167,13 +157,6 @@ def chain_of(p, phases, states, sign) -> Chain:
     factors = tangents.transpose(0, 2, 1).copy()
     factors[-1] *= sign
     return Chain(p, phases, np.array(states, float), sign, ends, factors, touching)
-
-
-def ends_of(p, phases, states):
-    """Return the ends of the segments of a chain, shape (m, 4), without derivatives."""
-    ends, none = np.array(states, float), np.empty((len(states), 0, 4))
-    flow_all(p, ends, none, phases / p[FREQUENCY], POLISH_TOLERANCE)
-    return ends
 
 
 def cyclic(factors):
@@ -208,7 +191,7 @@ def multipliers(factors):
     if m == 1:
         return np.linalg.eigvals(factors[0]).astype(complex)
     blocks, cuts = np.empty((n, n)), np.zeros(n + 1, int)
-    groups = separate(np.ascontiguousarray(factors), APART, SWEEPS, SETTLED, blocks, cuts)
+    groups = separate(np.ascontiguousarray(factors), APART, SWEEPS, SETTLED, COUPLED, blocks, cuts)
     values = np.diagonal(blocks).astype(complex)
     for begin, end in zip(cuts[:groups], cuts[1:], strict=False):
         if end > begin + 1:

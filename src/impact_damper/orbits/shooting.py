@@ -20,10 +20,8 @@ from impact_damper.orbits.orbit import STROBE, TURN, Orbit
 from impact_damper.system.packed import FREQUENCY
 
 # Newton's method.
-# RESIDUAL: largest residual of a converged orbit, relative to its state.
 # ITERATIONS: largest number of corrections.
 # FAR: largest size of a correction.
-RESIDUAL = 1e-12
 ITERATIONS = 20
 FAR = 10.0
 # If the residual is below NEAR, the state of an orbit can be integrated to another phase.
@@ -64,7 +62,7 @@ def shoot(p, state, periods, phase, *, symmetric=False):
     end, matrix, touching = flow_map(p, state, begin, whole, symmetric, POLISH_TOLERANCE)
     end, matrix = sign * end, sign * matrix
     residual = float(np.max(np.abs(end - state)))
-    converged = residual <= RESIDUAL * max(1.0, np.max(np.abs(state)))
+    converged = residual <= segments.RESIDUAL * max(1.0, np.max(np.abs(state)))
     if symmetric:
         results = matrix @ matrix, matrix, residual, 2 * touching, converged
     else:
@@ -143,8 +141,6 @@ def orbit_of(chain, periods):
         Period n of the orbit in forcing cycles, odd if the chain is half of the orbit.
     """
     product = reduce(lambda product, factor: factor @ product, chain.factors)
-    residual = float(np.abs(chain.defects).max())
-    converged = bool(residual <= RESIDUAL * max(1.0, np.abs(chain.states).max()))
     half = chain.sign < 0
     matrices = (product @ product, product) if half else (product, None)
     touching = (1 + half) * chain.touching
@@ -154,9 +150,9 @@ def orbit_of(chain, periods):
         chain.phases[0],
         chain.states[0],
         *matrices,
-        residual,
+        chain.residual,
         touching,
-        converged,
+        chain.converged,
         chain=chain,
     )
 

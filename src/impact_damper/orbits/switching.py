@@ -20,9 +20,10 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.orbits import segments
-from impact_damper.orbits.continuation import SYMMETRIC, TINY, Point, Problem
-from impact_damper.orbits.grazing import at_height, through_grazing, turns_of
+from impact_damper.orbits.continuation import SYMMETRIC, Point, Problem
+from impact_damper.orbits.grazing import at_height, through_grazing
 from impact_damper.orbits.shooting import shoot
+from impact_damper.orbits.turns import turns_of
 
 # DISTANCES: distances from the bifurcation at which an orbit of the other branch is searched for,
 # one after the other. CLOSE: the same where the orbit closest to the bifurcation is wanted. ASIDE:
@@ -199,7 +200,7 @@ def _at_heights(leaving):
     turn = min(turns, key=lambda turn: abs(turn.height))
     for share in SHARES:
         change = share * turn.height
-        away = change / (turn.gradient @ direction or TINY)
+        away = change / (turn.gradient @ direction or np.finfo(float).tiny)
         if abs(away) > REACH:
             continue
         found = at_height(

@@ -69,11 +69,15 @@ def warm_up_orbits() -> None:
     follow_path(on, np.zeros(4), 0.0, 0.01)
 
     from impact_damper.orbits import segments
+    from impact_damper.orbits.continuation import Problem
+    from impact_damper.orbits.shooting import orbit_of
 
     chain = segments.chain_of(on, np.array([0.0, 0.01, 0.02]), np.zeros((2, 4)), 1)
-    segments.ends_of(on, chain.phases, chain.states)
     segments.multipliers(chain.factors)
-    chain.largest()
+    chain.turns()
+    orbit = orbit_of(chain, 1)
+    problem = Problem.of(lambda value: np.append(value, on[1:]), orbit, symmetric=False)
+    problem.correct(np.append(orbit.state, on[0]), np.eye(5)[-1])
 
     from impact_damper.migration import legs
     from impact_damper.motions import following
