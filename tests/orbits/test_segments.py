@@ -18,7 +18,7 @@ from references import extended
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import find_orbit, orbit_of, polish, shoot
-from impact_damper.system.packed import FREQUENCY, pack
+from impact_damper.system.packed import CLEARANCE, FREQUENCY, pack
 
 # A state of a chaotic motion at W = 1.55 that nearly repeats after 12 forcing cycles.
 RETURNING = (0.8012827850447051, -2.722120432592939, -0.22602951074616787, -3.910829733843885)
@@ -169,3 +169,28 @@ def test_mirrored_chain_is_a_chain():
     mirrored = segments.chain_of(chain.p, chain.phases + math.pi, -chain.states, 1)
     assert orbit_of(mirrored, 12).converged
     assert_allclose(mirrored.factors, chain.factors, atol=1e-8)
+
+
+@pytest.mark.parametrize("angle", np.linspace(0.05, 3.0, 12))
+def test_a_complex_pair_is_never_taken_for_two_real_multipliers(angle):
+    """In a sheared basis the two columns of the pair grow by very different factors."""
+    rng, shear = np.random.default_rng(1), 100.0
+    cosine, sine = 0.24 * math.cos(angle), 0.24 * math.sin(angle)
+    product = np.diag([1250.0, cosine, cosine, 7e-4])
+    product[1, 2], product[2, 1] = -shear * sine, sine / shear
+    basis = np.linalg.qr(rng.normal(size=(4, 4)))[0]
+    first, second = rng.normal(size=(2, 4, 4))
+    last = basis @ product @ basis.T @ np.linalg.inv(second @ first)
+    found = segments.multipliers(np.array([first, second, last]))
+    expected = [1250.0, complex(cosine, sine), complex(cosine, -sine), 7e-4]
+    assert_allclose(np.sort_complex(found), np.sort_complex(expected), rtol=1e-6, atol=1e-8)
+
+
+def test_turns_are_those_of_the_taylor_series(saddle):
+    """Each zero of Z2' between points of the series of a segment is listed, with its height."""
+    chain, found = saddle.chain, saddle.chain.turns()
+    for k in range(len(chain.states)):
+        _, sizes, _, times = chain.path(k).turns(1)
+        own = found[found[:, 0] == k]
+        assert_allclose(own[:, 1], chain.p[FREQUENCY] * times, rtol=0, atol=1e-9)
+        assert_allclose(own[:, 3], np.abs(sizes) - chain.p[CLEARANCE], rtol=0, atol=1e-11)
