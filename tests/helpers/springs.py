@@ -1,5 +1,6 @@
 """Oscillators with springs and forces of every kind, and conversion of a system to other units."""
 
+import math
 from dataclasses import replace
 
 from impact_damper.system.parameters import Oscillator
@@ -13,6 +14,18 @@ SPRINGS = {
     "on a shaker": Oscillator(0.1, 1.2, cubic=0.0, force=0.1, unbalance=0.05, shaker=0.4),
     "hard": Oscillator(0.3, 0.0, cubic=20.0, force=5.0),
 }
+
+
+def has_closed_forms(oscillator):
+    """Return whether the closed forms for one harmonic accept the spring."""
+    try:
+        return math.isfinite(oscillator.hardening)
+    except ValueError:
+        return False
+
+
+# Springs that the closed forms for one harmonic know.
+KNOWN = {name: each for name, each in SPRINGS.items() if has_closed_forms(each)}
 
 
 def in_other_units(oscillator, damper, frequency, length, time):

@@ -10,6 +10,7 @@ import pytest
 from helpers.known_orbits import DESIGN, PAPER, polished_orbit
 from helpers.symmetric import CENTRAL, converged, linear_orbit
 from numpy.testing import assert_allclose
+from references import equation
 
 from impact_damper.orbits.orbit import TURN
 from impact_damper.orbits.paths import follow_path
@@ -19,11 +20,11 @@ from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import (
     CLEARANCE,
     COUNT,
-    CUBIC,
     DAMPING,
     DASHPOT,
     FREQUENCY,
     INVERSE_MASS_RATIO,
+    STIFFNESS,
     design_slopes,
     pack,
 )
@@ -79,7 +80,11 @@ def differences(orbit, direction):
 def steps(orbit):
     """Return pairs of the index of a parameter that has an effect, and its step in differences."""
     sizes = np.maximum(np.abs(orbit.p), 0.1)
-    sizes[CUBIC] = min(orbit.record["maximum_displacement"] ** -2, 10.0)
+    farthest = orbit.record["maximum_displacement"]
+    for index in range(COUNT):
+        force = equation.spring(np.eye(COUNT)[index], farthest)
+        if index != STIFFNESS and force != 0:
+            sizes[index] = min(farthest / force, 10.0)
     count = COUNT if orbit.touching > 0 else CLEARANCE
     return list(enumerate(4e-4 * sizes[:count]))
 

@@ -5,7 +5,7 @@ Symbols are as in `system.parameters`. Numbers in brackets are equations of the 
 
 import numpy as np
 import pytest
-from helpers.springs import SPRINGS
+from helpers.springs import KNOWN, SPRINGS
 from numpy.testing import assert_allclose
 from references import equation
 from scipy.integrate import solve_ivp
@@ -39,7 +39,7 @@ from impact_damper.theory.slow_flow import fixed_points, growth_rate, jacobian, 
 LINEAR, SOFTENING = SPRINGS["linear"], SPRINGS["softening"]
 
 
-@pytest.fixture(params=list(SPRINGS))
+@pytest.fixture(params=KNOWN)
 def oscillator(request):
     return SPRINGS[request.param]
 
@@ -307,6 +307,7 @@ def test_many_harmonics_are_the_motion_that_scipy_integrates(name, frequency):
 
 
 @pytest.mark.parametrize("restitution", [1.0, 0.8])
+@pytest.mark.parametrize("oscillator", SPRINGS.values(), ids=SPRINGS)
 def test_balance_with_contacts_in_other_springs(oscillator, restitution):
     """The Jacobian against differences of the residual, and a single harmonic against (7)."""
     damper = Damper(0.2, 1.0, restitution, 300.0)
@@ -327,7 +328,7 @@ def test_balance_with_contacts_in_other_springs(oscillator, restitution):
     ]
     matrix = many.operator(series, many.contacts(series))
     assert_allclose(matrix, np.transpose(differences), atol=1e-6 * np.max(np.abs(matrix)))
-    if restitution == 1:
+    if restitution == 1 and oscillator in KNOWN.values():
         one = Balance(oscillator, damper, 1.7, 1)
         for a, b, phase in zip(*impacting_solutions(oscillator, damper, 1.7), strict=True):
             term = np.array([[a], [b]]) * np.exp(1j * phase) / 2

@@ -1,6 +1,7 @@
 """Random starts and parameters for the comparison of the kernels with the 80-bit reference."""
 
 import math
+from dataclasses import fields
 from typing import NamedTuple
 
 import numpy as np
@@ -50,6 +51,11 @@ KINDS = {
     "other forces": {"cubic": (0.1, 10.0), "force": (0.1, 10.0), "unbalance": (0.1, 3.0)},
     "no force": {"linear_frequency": (0.0, 2.0), "force": (0.0, 0.0)},
     "on a shaker": {"linear_frequency": (0.3, 2.0), "cubic": (0.0, 0.0), "shaker": (0.1, 3.0)},
+}
+# Other parameters of the oscillator are drawn one at a time.
+_DRAWN = set(USUAL).union(*KINDS.values())
+KINDS |= {
+    each.name: {each.name: (0.1, 3.0)} for each in fields(Oscillator) if each.name not in _DRAWN
 }
 
 
