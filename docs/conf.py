@@ -30,8 +30,7 @@ myst_heading_anchors = 3
 # Signatures name public classes, such as `Oscillator`, without their modules.
 autodoc_typehints = "none"
 # Docstrings write absolute values as |Z1|, which docutils takes for the name of a substitution.
-# Both
-# names are therefore defined as substitutions.
+# Both names are therefore defined as substitutions.
 rst_prolog = "".join(f".. |{name}| replace:: abs {name}\n" for name in ("Z1", "a"))
 add_module_names = False
 numpydoc_show_class_members = False

@@ -24,8 +24,7 @@ def job_of(stage, name):
 
 
 def jobs(config) -> dict:
-    """Return the jobs of a configuration with `chunks: 1`, by names such as
-    "response/figure_08"."""
+    """Return the jobs of a configuration with `chunks: 1`, by names like "response/figure_08"."""
     config = json.loads(json.dumps(config, sort_keys=True))
     found = {}
     for stage, record in STAGES.items():

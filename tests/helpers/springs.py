@@ -32,7 +32,8 @@ def in_other_units(oscillator, damper, frequency, length, time):
     """Return oscillator, damper and frequency in other units: the motion Z/length over T/time.
 
     The equation Z1'' + h Z1' + omega_l^2 Z1 + k3 Z1^3 = (F + U W^2 + V/W^2) cos(W T) keeps its
-    form. If both units are powers of two, the conversion is exact.
+    form. F, U and V are the fields `force`, `unbalance` and `shaker` of `Oscillator`. If both units
+    are powers of two, the conversion is exact.
     """
     acceleration = length / time**2
     other = replace(

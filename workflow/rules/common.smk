@@ -68,8 +68,7 @@ def local(path):
 
 @cache
 def code(script, *modules):
-    """Return the source files of a job: script, modules, and all modules of the package they
-    import.
+    """Return the source files of a job: script, modules, and the package's modules they import.
 
     The lock file stands for the versions of all other packages.
     """

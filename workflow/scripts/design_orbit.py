@@ -1,6 +1,7 @@
-"""Exact quiet orbits of all curves at their peak frequencies, followed in damping (figure 3).
+"""Exact quiet orbits of all curves at their peak frequencies, followed in damping.
 
-A quiet orbit is the small periodic motion for which a damper is designed.
+The data are those of the paper's figure 3. A quiet orbit is the small periodic motion for which a
+damper is designed.
 """
 
 from impact_damper.workflow.job import Job

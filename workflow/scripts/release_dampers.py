@@ -1,5 +1,7 @@
-"""Dampers compared for migration control and for suppression, by mass, clearance and
-restitution."""
+"""Dampers of several masses, clearances and restitutions, for migration and for suppression.
+
+Migration leaves the resonance by switching the damper on and off; suppression leaves it on.
+"""
 
 from impact_damper.workflow.job import Job
 from impact_damper.stages.release_dampers import release_dampers

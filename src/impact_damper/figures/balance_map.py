@@ -2,8 +2,9 @@
 
 A cell is a pair of forcing frequency and another parameter. In each cell a verdict, stored as a
 flag (an integer for each meaning), says whether harmonic balance is right about the quiet motion,
-which is small, and about the violent motion, which is as large as the motion without damper. The
-numbers in the caption are equations of the paper: (7) harmonic balance, (17) its slow flow.
+which is small, and about the violent motion, which is at least half as large as the resonance
+without damper. The numbers in the caption are equations of the paper: (7) harmonic balance, (17)
+its slow flow.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Responses by harmonic balance, with and without a damper: figure 3.
+"""Responses by harmonic balance, with and without a damper (paper: figure 3).
 
 Figure kind `harmonic_balance`. (7) is the paper's system of equations for solutions with contact.
 """

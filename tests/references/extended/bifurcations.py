@@ -64,12 +64,13 @@ def _test(kind, run, wall_phase, p):
 
 
 def located(kind, family, value, state, phase):
-    """Return the parameter of an event, and the error of the orbit there.
+    """Return the parameter of an event, and the error of the orbit at this parameter.
 
     Parameters
     ----------
     kind : str
-        Kind of the event: "fold", "symmetry_breaking", "neimark_sacker", "grazing" or "merging".
+        Kind of the event: "fold", "symmetry_breaking", "neimark_sacker", "grazing", or "merging" of
+        two contacts with a wall.
     family : callable
         Maps the parameter to packed parameters.
     value, state, phase

@@ -1,4 +1,8 @@
-"""Random starts and parameters for the comparison of the kernels with the 80-bit reference."""
+"""Random starts and parameters for the comparison of the kernels with the 80-bit reference.
+
+The kernels are the package's compiled integrators. A start is an initial state. The array of packed
+parameters has the layout of `system.packed`, with COUNT entries.
+"""
 
 import math
 from dataclasses import fields

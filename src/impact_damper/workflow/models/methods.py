@@ -104,7 +104,7 @@ class Accuracy(Section):
     """The accuracy required on a scene: a quantity, and its largest acceptable error."""
 
     quantity: choice("quantity whose error is judged", *ERRORS, *STATISTICS)
-    within: number("largest error accepted; 0 for a number of contacts", least=0, most=1)
+    within: number("largest error accepted, 0 for a number of contacts", least=0, most=1)
 
 
 class Scene(MaybeWithDamper):
