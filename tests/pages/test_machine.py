@@ -153,7 +153,7 @@ class Links(HTMLParser):
 
 
 def test_the_files_are_complete_and_need_no_others(tmp_path):
-    """With a sheet that holds its name in place of each figure."""
+    """The test writes the page with small drawings, each of its own name, in place of figures."""
 
     def sheet(name):
         blank = Figure(figsize=(1, 1))

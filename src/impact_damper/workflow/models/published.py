@@ -18,7 +18,7 @@ GAP = number("full gap in static deflections", above=0, most=1000)
 FORCE = number("force, with unit stiffnesses", above=0, most=0.05)
 SPRING = number("cubic coefficient, negative for softening", least=-1, most=1)
 SPEED = number("speed before the impact, m/s", above=0, most=10)
-FALLING = "falling; orders of convergence are observed between neighbouring values"
+FALLING = "falling; each pair of neighbours gives an order of convergence"
 
 
 class RigidWalls(Section):
@@ -49,7 +49,7 @@ class Falling(Section):
 
 
 class VibroImpact(Falling):
-    """Thresholds and optimum of the vibro-impact absorber."""
+    """Thresholds and optimum of the vibro-impact absorber, a loose mass between rigid walls."""
 
     restitution: RESTITUTION
     damping_share: number("damping ratio over mass ratio", above=0, most=10)
