@@ -4,6 +4,7 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
+from helpers.springs import has_closed_forms
 from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
@@ -87,7 +88,7 @@ def test_a_motion_at_an_extreme_has_an_outcome(extreme):
 @pytest.mark.parametrize("extreme", EXTREMES, ids=named)
 def test_harmonic_balance_at_an_extreme_has_a_status(extreme):
     oscillator, damper, frequency = system(extreme)
-    if damper.restitution == 1:
+    if damper.restitution == 1 and has_closed_forms(oscillator):
         found = idm.harmonic_balance_response(oscillator, damper, [frequency])
         solved, unresolved = flag("balance_status", "solved"), flag("balance_status", "unresolved")
         assert found["balance_status"].item() in (solved, unresolved)
@@ -96,6 +97,8 @@ def test_harmonic_balance_at_an_extreme_has_a_status(extreme):
 @pytest.mark.parametrize("extreme", EXTREMES, ids=named)
 def test_a_response_at_an_extreme_has_outcomes(extreme):
     oscillator, damper, frequency = system(extreme)
+    if not has_closed_forms(oscillator):
+        pytest.skip("starts come from closed forms")
     found = idm.frequency_response(
         oscillator,
         damper,
