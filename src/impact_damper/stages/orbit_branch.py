@@ -3,7 +3,8 @@
 A branch is the curve of the periodic orbits over a parameter. Orbits may be stable or not, of any
 period, and touch the walls in any sequence.
 
-Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass and W T
+the phase of the forcing.
 """
 
 import warnings
