@@ -21,7 +21,8 @@ FINE = 1e-3
 PLACE = 1e-12
 # A multiplier is complex if its imaginary part exceeds COMPLEX.
 COMPLEX = 1e-6
-# Stability can change at a bifurcation only if no multiplier there exceeds 1 by more than this.
+# If the modulus of a multiplier exceeds 1 + NEAR_CIRCLE at a bifurcation, the orbits on both sides
+# are unstable.
 NEAR_CIRCLE = 1e-3
 # A flight between two contacts is about to vanish if it is shorter than MERGED forcing cycles.
 MERGED = 1e-3

@@ -1,4 +1,13 @@
-"""Follow a branch of periodic orbits from one orbit in both directions of a parameter."""
+"""Follow a branch of periodic orbits from one orbit in both directions of a parameter.
+
+A branch is the curve of the orbits over the parameter. Along it events are located: folds, at which
+the branch turns back, other bifurcations, and grazings, at which a contact appears or vanishes with
+zero speed. A branch may end at a branch of more symmetry, whose orbits are symmetric or have half
+the period. The deviation of an orbit is the difference between its state and the image of the state
+half a period later (`Orbit.deviation`). It is zero for an orbit of more symmetry.
+
+Z1 is the displacement of the primary mass and W T the phase of the forcing.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -26,19 +35,19 @@ MOST_POINTS = 10_000
 # Two orbits at the same parameter are the same if their states at W T = pi/2 differ by less than
 # SAME.
 SAME = 1e-5
-# `Branch.holds` compares an orbit with the orbits of a step only if max |Z1| on the step comes
+# `Branch.holds` compares an orbit with a step of the branch only if max |Z1| on the step comes
 # within NEARBY of max |Z1| of the orbit.
 NEARBY = 0.02
-# If the branch is lost where the fastest contact is slower than WEAK, the branch has reached a
-# motion without contacts.
+# If a branch cannot be followed further and all speeds at the beginnings of contacts are below
+# WEAK, it has reached a motion without contacts.
 WEAK = 0.02
-# A branch meets another one at a fold where its deviation from the other one is less than VANISHED
-# times the deviation before.
+# A branch meets a branch of more symmetry at a fold if the largest deviation at the fold is less
+# than VANISHED times that of the point before.
 VANISHED = 0.5
 # If a step shorter than CLOSE_STEP fails, a grazing is searched for within REACH times its length.
 CLOSE_STEP, REACH = 2e-3, 8.0
-# A step on which an event is not located, or that crosses another branch, is halved, down to
-# CLEAR_STEP, until the event or the crossing is located.
+# A step is halved, down to CLEAR_STEP, if an event on it is not located or if another branch may
+# cross it unseen.
 CLEAR_STEP = 1e-4
 
 
@@ -55,8 +64,11 @@ class Branch:
     events : list of (int, Event)
         Events, each with the index of its point.
     ends : tuple of str
-        Reasons why the branch ends before the first and after the last point: range_ends, closed,
-        symmetry_breaking, period_doubling, contact_lost, lost, point_limit or unstable.
+        Reasons why the branch ends before the first and after the last point. "range_ends": at an
+        end of the range of the parameter. "closed": the branch is a closed curve.
+        "symmetry_breaking", "period_doubling": at a branch of more symmetry. "contact_lost": at a
+        motion without contacts. "lost": Newton's method fails. "point_limit": after the largest
+        number of orbits. "unstable": only stable orbits were wanted.
     lost : int
         Number of events that could not be located.
     """
@@ -80,8 +92,8 @@ class Branch:
     def holds(self, orbit, value) -> bool:
         """Return whether an orbit at a value of the parameter lies on the branch.
 
-        The orbit is compared with the orbit of the branch at this value on each step that crosses
-        the value and on which max |Z1| comes close to max |Z1| of the orbit.
+        On each step across this value the branch has an orbit at the value. The given orbit is
+        compared with it if max |Z1| on the step is close to max |Z1| of the given orbit.
         """
         if orbit.periods != self.points[0].orbit.periods:
             return False
@@ -99,7 +111,10 @@ class Branch:
 
 
 def _at_value(point, ahead, value):
-    """Return the point at a value of the parameter on the step between two points, or None."""
+    """Return the point at a value of the parameter on the step between two points.
+
+    The result is None if Newton's method fails.
+    """
     if np.array_equal(point.problem.phases, ahead.problem.phases):
         return between.at_value(point, ahead, value)
     return point.problem.at_value(point, value)
@@ -130,7 +145,7 @@ def follow_branch(family, orbit, value, span, most=MOST_POINTS, *, stable=False)
     Raises
     ------
     ArithmeticError
-        If the orbit is not an orbit of the family at this value.
+        If Newton's method finds no orbit of the family at this value close to the given one.
     """
     problem = Problem.of(family, orbit)
     walks = []
@@ -150,14 +165,15 @@ def follow_branch(family, orbit, value, span, most=MOST_POINTS, *, stable=False)
 
 
 def _reversed(event):
-    """Return the event with `before` and `after` exchanged, as seen in the other direction."""
+    """Return an event with `before` and `after` exchanged, for the other direction of a branch."""
     return event._replace(before=event.after, after=event.before)
 
 
 def _walk(problem, first, span, most, stable=False) -> Branch:
-    """Follow a branch from a point along its tangent.
+    """Follow a branch from the point `first` along its tangent.
 
-    In the attribute `ends` of the result the reason before the first point is "".
+    The other arguments are those of `follow_branch`. In the attribute `ends` of the result the
+    reason before the first point is "".
     """
     points, events, lost, end = [first], [], 0, ""
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
@@ -229,10 +245,11 @@ def _walk(problem, first, span, most, stable=False) -> Branch:
 
 
 def _through_grazing(point, reach):
-    """Return the pieces of a branch through a grazing within reach, or [] if there is no grazing.
+    """Return a list of the pieces of a branch through a grazing; empty if there is no grazing.
 
-    Each piece consists of a point, the next point, the events between them, and the number of
-    events that were not located.
+    The grazing is searched for within the distance `reach` along the tangent of the point. Each
+    piece consists of a point, the next point, the events between them, and the number of events
+    that were not located.
     """
     passage = through_grazing(point, reach)
     if passage is None:
@@ -250,10 +267,12 @@ def _through_grazing(point, reach):
 
 
 def _meeting(events, orbit):
-    """Return the index of the fold at which a branch meets one of more symmetry, or None.
+    """Return the index of the event at which a branch meets a branch of more symmetry, or None.
 
-    There the deviation vanishes; `orbit` is the one before the events. The deviation may also turn,
-    so that its sign changes without a meeting. Without any fold the number of events is returned.
+    The deviation vanishes at a meeting, which is a fold of the branch. `orbit` is the orbit before
+    the events. Between this orbit and the next one the deviation has changed its sign, but it may
+    also have turned as a vector, without a meeting. If there is no fold among the events, the
+    meeting was not located, and the number of events is returned.
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))
@@ -264,7 +283,7 @@ def _meeting(events, orbit):
 
 
 def _loss(last):
-    """Return the reason why a branch ends at a point after which Newton's method finds no point."""
+    """Return the reason why a branch ends at its last point, if no next point is found."""
     orbit = last.orbit
     if orbit.touching and np.max(np.abs(orbit.contacts[:, 3])) < WEAK:
         return "contact_lost"
@@ -272,9 +291,10 @@ def _loss(last):
 
 
 def _passes(point, ahead, first):
-    """Return the first point of a branch if the step between two points passes it again, or None.
+    """Return the first point of a branch as found again on the step between two points, or None.
 
-    At this place the parameter must change in the same direction as at the beginning.
+    It is found on the step if the branch is closed. The parameter must change on the step in the
+    same direction as at the beginning of the branch.
     """
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
@@ -284,6 +304,6 @@ def _passes(point, ahead, first):
 
 
 def _is_between(start, point, ahead):
-    """Return whether a point of the step that begins at `start` lies before the point `ahead`."""
+    """Return whether `point` lies before `ahead` on the step that begins at `start`."""
     row = start.problem.metric * start.tangent
     return bool(row @ (point.x - start.x) < row @ (ahead.x - start.x))

@@ -1,12 +1,18 @@
 """Pseudo-arclength continuation of periodic orbits in one parameter.
 
-The unknowns are the parameter and the states at the beginnings of an orbit's segments, at phases of
-the forcing at which the loose mass is in flight. Most orbits have one segment (single shooting). An
-orbit that strongly amplifies disturbances is cut into several segments (`segments`). A step goes
-along the tangent of the branch and is corrected by Newton's method orthogonally to the tangent, so
-that the continuation passes folds. The derivative with respect to the parameter is a central
-difference. Its error changes the direction of a step, but not the orbits. Where a contact appears
-within the difference, a finer difference is taken.
+A branch is the curve of the periodic orbits over the parameter. The unknowns of a point of a branch
+are the parameter and the states at the beginnings of the orbit's segments, at phases of the forcing
+at which the loose mass is in flight. Most orbits have one segment (single shooting). An orbit that
+strongly amplifies disturbances is cut into several segments (`segments`), together called a chain.
+
+A step goes along the tangent of the branch. Newton's method then corrects it orthogonally to the
+tangent, so that the continuation passes folds, at which the branch turns back. The derivative with
+respect to the parameter is a central difference. Its error changes the direction of a step, but not
+the orbits. Where a contact appears within the difference, a finer difference is taken.
+
+In shapes, m is the number of segments and n the number of unknowns of a state: 4 with a damper, or
+2 without. Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose
+mass and W T the phase of the forcing.
 """
 
 from collections.abc import Callable
@@ -27,32 +33,40 @@ from impact_damper.orbits.orbit import TURN, Orbit
 from impact_damper.orbits.shooting import orbit_of
 from impact_damper.system.packed import CLEARANCE
 
-# Newton's method. NEWTON: largest number of corrections. LARGEST: largest size of a correction. The
-# method has converged once a correction is below CLOSE, or below ROUNDING and more than half the
-# correction before.
+# Newton's method. The size of a correction is the largest change of an unknown.
+# NEWTON: largest number of corrections.
+# LARGEST: largest size of a correction.
 NEWTON = 10
 LARGEST = 0.5
+# Newton's method has converged in one of three cases. In each of them the residual of the orbit
+# must be small too.
+# CLOSE: the size of the last correction is below CLOSE.
+# ROUNDING: it is below ROUNDING and more than half that of the correction before. The corrections
+#   are then rounding errors, which no longer shrink.
+# SURE: the size of the correction before the last is below SURE.
 CLOSE, ROUNDING = 1e-10, 1e-4
-# A converged orbit is also accepted after a correction below SURE. The method has failed if a
-# correction exceeds SHRINKING times the one before.
+# SHRINKING: Newton's method has failed if a correction exceeds SHRINKING times the one before,
+# unless it is smaller than SURE.
 SURE, SHRINKING = 1e-6, 0.7
-# The derivative by the parameter is taken again after a correction below REFINED, if the
-# corrections since it was taken add up to more than UNMOVED.
+# The derivative by the parameter is expensive. It is computed again only after a correction below
+# REFINED, if the corrections since its last computation add up to more than UNMOVED.
 REFINED, UNMOVED = 1e-4, 5e-6
-# If a solution exceeds the right side by the factor SINGULAR^-0.5, singular values below SINGULAR
-# times the largest one are set to zero.
+# A linear system is nearly singular if its solution exceeds the right side by the factor
+# SINGULAR^-0.5. Then singular values below SINGULAR times the largest one are set to zero.
 SINGULAR = 1e-8
-# An orbit is symmetric if its asymmetry is below SYMMETRIC.
+# An orbit is symmetric if its asymmetry, the entry of `records.MOTION`, is below SYMMETRIC.
 SYMMETRIC = 1e-6
-# First and shortest step, in branch length.
+# First and shortest step along a branch, as a distance in the metric of `Problem`.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# Longest step divided by the length of the unknowns, or by SMALLEST if they are shorter: on
-# symmetric or stable orbits, and on other orbits.
+# Longest step, divided by the length of the vector of unknowns.
+# LONGEST: if the orbits are symmetric or stable.
+# LONGEST_UNSTABLE: if they are neither.
+# SMALLEST: the length of the vector counts as SMALLEST if it is shorter.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
 # Largest distance of a first guess along the tangent, in `Problem.at_value`.
 FARTHEST_GUESS = 0.08
-# A correction that exceeds ASIDE times the step may have led to another branch. If the first
-# correction is FAILING times larger, the method is stopped.
+# ASIDE: corrections that add up to more than ASIDE times the step may have led to another branch.
+# FAILING: Newton's method is stopped if the first correction exceeds FAILING times this limit.
 ASIDE, FAILING = 0.2, 2.0
 
 
@@ -65,15 +79,15 @@ class Point(NamedTuple):
         The parameter.
     orbit : Orbit
     x : numpy.ndarray, shape (m n + 1,)
-        The unknowns: Z1, Z1' and, with a damper, Z2, Z2' for each of m segments; then the
-        parameter.
+        The unknowns: Z1, Z1' and, with a damper, Z2, Z2' at the beginning of each segment; then
+        the parameter.
     tangent : numpy.ndarray, shape (m n + 1,)
-        Unit tangent of the branch, in the metric of the problem.
+        Tangent of the branch, of length 1 in the metric of the problem.
     problem : Problem
         The equations that the unknowns solve.
     bend, twist : numpy.ndarray, shape (m n + 1,), or float
-        Estimates of the first and second derivative of the tangent by the branch length, for the
-        next first guess.
+        Estimates of the first and second derivative of the tangent with respect to the length of
+        the branch. They improve the first guess of the next point.
     """
 
     value: float
@@ -89,8 +103,9 @@ class Point(NamedTuple):
 class Problem:
     """The equations that the orbits of a branch solve.
 
-    The square of the distance of two points is the mean over the segments of the squared distance
-    of their states, plus the squared difference of the parameter.
+    By them each segment ends where the next begins. The metric of the problem defines the distance
+    of two points: its square is the mean over the segments of the squared distance of their states,
+    plus the squared difference of the parameter.
 
     Attributes
     ----------
@@ -121,9 +136,10 @@ class Problem:
 
     @classmethod
     def of(cls, family, orbit, *, symmetric=None):
-        """Return the problem that an orbit of a family solves.
+        """Return the problem that an orbit solves.
 
-        By default the attribute `symmetric` is True if the orbit is symmetric.
+        `family` and `symmetric` are attributes of the problem. By default `symmetric` is True if
+        the orbit is symmetric.
         """
         if symmetric is None:
             symmetric = bool(orbit.record["asymmetry"] < SYMMETRIC)
@@ -140,21 +156,21 @@ class Problem:
 
     @property
     def cycle(self):
-        """Phase over which orbits are integrated, radian."""
+        """Length of the chain, radian: the period or, for symmetric orbits, half the period."""
         return self.phases[-1] - self.phases[0]
 
     @cached_property
     def metric(self):
-        """Weights of the squared unknowns in a squared distance, shape (m n + 1,)."""
+        """Weights of squared differences of unknowns in a squared distance, shape (m n + 1,)."""
         m = len(self.phases) - 1
         return np.append(np.full(m * (4 if self.damped else 2), 1 / m), 1.0)
 
     def length(self, vector):
-        """Return the length of a difference of unknowns."""
+        """Return the length of a vector of differences of unknowns, in the metric."""
         return float(np.sqrt(self.metric @ vector**2))
 
     def unknowns(self, orbit, value):
-        """Return the unknowns of an orbit at a value of the parameter."""
+        """Return the unknowns, shape (m n + 1,), of an orbit at a value of the parameter."""
         size = 4 if self.damped else 2
         return np.append([orbit.at(phase)[:size] for phase in self.phases[:-1]], value)
 
@@ -170,20 +186,21 @@ class Problem:
         return segments.chain_of(self.family(x[-1]), self.phases, self.states(x), sign)
 
     def orbit_of(self, chain):
-        """Return the `Orbit` of a chain; it holds the chain only if this has several segments."""
+        """Return the `Orbit` of a chain. It holds the chain only if there are several segments."""
         orbit = orbit_of(chain, self.periods)
         return orbit if len(chain.states) > 1 else replace(orbit, chain=None)
 
     def shoot(self, x):
         """Return the `Orbit` at the unknowns x, without iteration, and its defect, shape (m n,).
 
-        The defect is the state after each segment minus the state at which the next segment begins.
+        The defect holds for each segment the state at its end minus the state at which the next
+        segment begins. It is zero for a periodic orbit.
         """
         chain = self.flow(x)
         return self.orbit_of(chain), self._defect(chain)
 
     def _defect(self, chain):
-        """Return the defects of a chain in the components that are unknown, shape (m n,)."""
+        """Return the defects of a chain, shape (m n,), in the components that are unknown."""
         return chain.defects[:, : 4 if self.damped else 2].ravel()
 
     def rate(self, value):
@@ -205,7 +222,8 @@ class Problem:
         rate : array, shape (COUNT,), optional
             Result of `rate` at a parameter nearby, if it is known.
         known : (int, array), optional
-            A segment, and the derivative of its end by the parameter, shape (4,), if it is known.
+            The index of a segment, and the derivative of the state at its end by the parameter,
+            shape (4,), if this derivative is known.
         """
         rate = self.rate(x[-1]) if rate is None else rate
         states, n = self.states(x), 4 if self.damped else 2
@@ -220,24 +238,26 @@ class Problem:
         return self._matrix(orbit.factors, slopes)
 
     def _matrix(self, factors, slopes):
-        """Return the derivative of the defect from derivatives of the ends of the segments."""
+        """Return the derivative of the defect by the unknowns, shape (m n, m n + 1).
+
+        It is put together from the derivatives of the states at the ends of the segments: `factors`
+        by the states at the beginnings, `slopes` by the parameter.
+        """
         n = 4 if self.damped else 2
         return np.column_stack([segments.cyclic(factors[:, :n, :n]), slopes.ravel()])
 
     def correct(self, x, border, most=np.inf):
-        """Return the point that Newton's method reaches from x, or None.
+        """Return the point that Newton's method reaches from the unknowns x, or None if it fails.
 
-        None is also returned if the first correction is longer than `most`, or if a correction does
-        not shrink although the orbit has not converged: across a grazing the method does not
-        converge. The corrections are orthogonal to `border`. Where branches cross the matrix is
-        singular, and its smallest singular value is set to zero. The last corrections are then
-        rounding errors, which no longer shrink, so the residual decides whether the method has
-        converged.
+        The corrections are orthogonal to `border`, a vector of the shape of x. The method fails if
+        the first correction is longer than `most`. It also fails if the corrections do not shrink
+        although the residual is not small, as happens when a contact appears or vanishes on the
+        way. Where branches cross, the matrix of the linear system is singular, and its smallest
+        singular value is set to zero.
 
-        After a correction below SURE the next one would be below CLOSE, since Newton's method
-        doubles the number of digits. A converged orbit is then accepted. The derivative by the
-        parameter, the most expensive part, is taken for the first guess, and once close to the
-        orbit.
+        After a correction below SURE the next one would be below CLOSE, because Newton's method
+        doubles the number of correct digits in each step. The derivative by the parameter, the most
+        expensive part, is computed for the first guess and once close to the orbit.
         """
         x, size, moved, row = x.copy(), np.inf, 0.0, self.metric * border
         rate, m, sign = self.rate(x[-1]), len(self.phases) - 1, -1 if self.symmetric else 1
@@ -275,25 +295,29 @@ class Problem:
         return None
 
     def _least(self, chain, slopes, row):
-        """Return the `out` of `correction` with very small singular values set to zero."""
+        """Return the array `out` of `correction`, computed with very small singular values as zero.
+
+        Its first column is the correction, its second column a vector along the branch.
+        """
         matrix = np.vstack([self._matrix(chain.factors, slopes), row])
         right = np.zeros((len(row), 2))
         right[:-1, 0], right[-1, 1] = -self._defect(chain), 1.0
         return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
     def _point(self, x, chain, tangent):
-        """Return the point at converged unknowns, from a vector along the branch."""
+        """Return the `Point` at converged unknowns x; `tangent` is a vector along the branch."""
         return Point(x[-1], self.orbit_of(chain), x, tangent / self.length(tangent), self)
 
     def step(self, point, length):
-        """Return the point at a distance `length` along the branch from a point, or None."""
+        """Return the next point of the branch, at the distance `length`; None if a step fails."""
         bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
         return self.near(point.x + length * point.tangent + bent, point.tangent, length)
 
     def near(self, x, border, length):
-        """Return the point that Newton's method finds from a guess x, or None.
+        """Return the point that Newton's method finds close to a guess x of the unknowns, or None.
 
-        None is also returned if the correction exceeds ASIDE times the length.
+        The distance of the point from the guess must be at most about ASIDE times `length`, the
+        length of the step. The corrections are orthogonal to `border`.
         """
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
         point = self.correct(x, border, FAILING * aside)
@@ -316,9 +340,9 @@ class Problem:
         return near._replace(tangent=near.tangent * turned)
 
     def begin(self, orbit, value, direction):
-        """Return the point of an orbit at a value of the parameter, or None.
+        """Return the point of an orbit at a value of the parameter; None if Newton's method fails.
 
-        Along the tangent of the point the parameter decreases (direction -1) or increases (1).
+        `direction` is the sign of the parameter's change along the tangent of the point, -1 or 1.
         """
         x = self.unknowns(orbit, value)
         return self.correct(x, direction * np.eye(len(x))[-1])

@@ -1,7 +1,9 @@
 """Cut the orbits of a branch into new segments where the old ones no longer fit.
 
-Along a branch contacts move and segments amplify more. A section must stay clear of contacts, and a
-segment must amplify little, so that the residual can become small.
+A branch is the curve of the periodic orbits over a parameter. In multiple shooting an orbit is cut
+into segments at phases called sections. Along a branch contacts move, and segments amplify
+disturbances more. A section must stay clear of contacts, and a segment must amplify little, so that
+the residual of the orbit can become small.
 """
 
 from dataclasses import replace
@@ -13,9 +15,11 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN
 from impact_damper.orbits.shooting import AMPLIFYING
 
-# An orbit is cut into new segments if a contact comes closer to a section than NEAR_SECTION
-# (radian), or if a segment amplifies ROUGHER times more than when it was cut. It becomes one
-# segment again if it amplifies less than MILD times AMPLIFYING.
+# An orbit is cut into new segments in three cases.
+# NEAR_SECTION: a contact is closer to a section than this (radian).
+# ROUGHER: a segment amplifies more than this factor times the largest amplification of a segment
+#   when the orbit was cut.
+# MILD: the whole orbit amplifies less than MILD * AMPLIFYING. It then becomes a single segment.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
@@ -34,8 +38,9 @@ def holds_still(point):
 def recut(point, between=()):
     """Return a point with new segments, or the same point if Newton's method fails with them.
 
-    To keep the direction of the tangent, a point displaced along the tangent is integrated to
-    the new sections too. `between` is the argument of `segments.cut`.
+    The new unknowns are the states at the new sections. Their tangent points to the states there
+    of a motion that begins at a point displaced along the old tangent. `between` is the argument of
+    `segments.cut`.
     """
     before, orbit = point.problem, point.orbit
     phases, rough = segments.cut(orbit, before.cycle, between), 1.0
@@ -59,5 +64,5 @@ def recut(point, between=()):
 
 
 def _norms(orbit):
-    """Return the Frobenius norms of the derivatives of the segments, shape (m,)."""
+    """Return the Frobenius norms of the derivatives of the m segments of an orbit, shape (m,)."""
     return np.sqrt(np.sum(orbit.factors**2, axis=(1, 2)))

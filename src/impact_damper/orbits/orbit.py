@@ -52,7 +52,7 @@ class Orbit:
     touching : float
         Time in contact during a period.
     converged : bool
-        Whether the residual is at most `shooting.RESIDUAL` times the largest component of the
+        Whether the residual is at most `segments.RESIDUAL` times the largest component of the
         state, or times 1 if all components are smaller. If not, the state is the best state that
         Newton's method found.
     maps : int

@@ -93,7 +93,10 @@ class Chain:
 
     @property
     def converged(self):
-        """Whether the residual is at most RESIDUAL, relative to states larger than 1."""
+        """Whether the residual is at most RESIDUAL times the largest component of the states.
+
+        If all components are below 1, the residual must be at most RESIDUAL.
+        """
         return bool(self.residual <= RESIDUAL * max(1.0, np.abs(self.states).max()))
 
     def at(self, phase):
@@ -107,10 +110,10 @@ class Chain:
 
     @cached_property
     def surveyed(self):
-        """Contacts in order of time, largest |Z1|, and first harmonics.
+        """Contacts in the order of time, largest |Z1|, and first harmonics.
 
-        Contacts are an array of shape (k, 5), as `Orbit.contacts`. Harmonics are the complex
-        amplitudes of Z1 and Z2, from the samples of `records.MOTION`.
+        Contacts are an array of shape (k, 5) with the columns of `Orbit.contacts`. The first
+        harmonics are the complex amplitudes of Z1 and Z2, from equally spaced samples.
         """
         log, sums = np.empty((CONTACTS * len(self.states), 5)), np.empty((2, 2))
         states = self.states.copy()
@@ -122,8 +125,8 @@ class Chain:
     def turns(self, segment=None):
         """Return a row for each extremum of Z2, or for each in one segment, shape (n, 4).
 
-        A row holds the segment, the phase (radian), 1 for a maximum of |Z2| or 0 for a minimum, and
-        the height |Z2| - d0.
+        A row holds the index of the segment, the phase (radian), 1 for a maximum of |Z2| or 0 for a
+        minimum, and the height |Z2| - d0, with the clearance d0.
         """
         first = 0 if segment is None else segment
         states = (self.states if segment is None else self.states[first : first + 1]).copy()

@@ -1,24 +1,31 @@
-"""One step along a branch: its length, whether it is accepted, and what it may have passed."""
+"""One step along a branch: its length, whether it is accepted, and what it may have passed.
+
+A branch is the curve of the periodic orbits over a parameter. A fold is a point at which it turns
+back. A step leads from one point of the branch to the next. Its chord is the straight line between
+the two points, and its cubic the curve through both points with their tangents.
+"""
 
 import numpy as np
 
 from impact_damper.orbits import between
 
-# A step is accepted if the tangents at its ends differ by at most the angle TURNED, and if its
-# chord differs from the mean of the tangents by at most SKEW times its length. A larger difference
-# would indicate that the step led to another branch nearby.
+# A step is accepted if both bounds hold. Otherwise it may have led to another branch nearby.
+# TURNED: largest angle between the tangents at its ends, radian.
+# SKEW: largest difference between the directions of the chord and of the mean tangent.
 TURNED, SKEW = 0.5, 0.03
-# The length of the next step is chosen to turn by AIM times the largest turn. It is at most GROWTH
-# times the length before and, after a failure, at least SHRINKAGE times this length.
+# Length of the next step.
+# AIM: the step is chosen to use about this share of the bounds TURNED and SKEW.
+# GROWTH: largest ratio of its length to the length before.
+# SHRINKAGE: least ratio after a step that was not accepted.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
-    """Return the next point, and the factor for the length of the step after it.
+    """Return the next point of a branch, and the factor for the length of the following step.
 
-    If the step would leave the range, the point lies at the end of the range. The point is None if
-    Newton's method fails, if the branch turns by too much, or if the point seems to lie on another
-    branch.
+    If the step would leave the range `span` of the parameter, the point lies at the end of the
+    range. The point is None if Newton's method fails, or if the step is not accepted (TURNED,
+    SKEW).
     """
     problem = point.problem
     ahead = problem.step(point, length)
@@ -39,7 +46,7 @@ def next_point(point, span, length):
 
 
 def with_bend(point, ahead):
-    """Return the next point with the bend and twist of the cubic from the point before to it."""
+    """Return the point `ahead` with `bend` and `twist` (`Point`) from the cubic of the step."""
     length = ahead.problem.length(ahead.x - point.x)
     chord = (ahead.x - point.x) / length
     bend = (2 * point.tangent + 4 * ahead.tangent - 6 * chord) / length
@@ -48,11 +55,11 @@ def with_bend(point, ahead):
 
 
 def folds_twice(point, ahead):
-    """Return whether the parameter, on the cubic through two points, has two folds between them."""
+    """Return whether the cubic of the step between two points has two folds."""
     length = point.problem.length(ahead.x - point.x)
     first, last = length * point.tangent[-1], length * ahead.tangent[-1]
     chord = ahead.value - point.value
-    # The derivative of the cubic is first + middle u + bend u^2 for u from 0 to 1.
+    # On the cubic the parameter has the derivative first + middle u + bend u^2, for u from 0 to 1.
     bend, middle = 3 * (first + last) - 6 * chord, 6 * chord - 4 * first - 2 * last
     if first * last <= 0 or not 0 < -middle * bend < 2 * bend**2:
         return False
@@ -60,10 +67,11 @@ def folds_twice(point, ahead):
 
 
 def passes_unseen(point, ahead, located):
-    """Return whether a step crosses a branch of orbits of more symmetry without a located fold.
+    """Return whether a step crosses a branch of more symmetry without a located fold.
 
-    Where the two branches meet, the parameter has an extremum along the branch, so the events of
-    the step should include a fold. Without it the step may have led to the other branch.
+    The orbits of that branch are symmetric or have half the period. Where the two branches meet,
+    the parameter has an extremum along the branch, so the events `located` on the step should
+    include a fold. Without a fold the step may have led past the meeting.
     """
     folds = any(event.kind == "fold" for event in located)
     return not folds and point.orbit.deviation @ ahead.orbit.deviation < 0

@@ -1,16 +1,23 @@
 """Switch to the branch that leaves where an orbit loses its symmetry or doubles its period.
 
-The orbits of the other branch are not symmetric, or have twice the period. In both cases their
-states in the second half of a cycle deviate from the pattern of the first branch: after a cycle the
-deviation returns with the opposite sign. At the point where the branches meet, a multiplier of the
-cycle is -1, and the other branch begins in the direction of its eigenvector. The parameter changes
-with the square of the distance from the point. Newton's method orthogonal to the direction finds an
-orbit of the other branch, because all orbits of the first branch lie at distance zero.
+A branch is the curve of the periodic orbits over a parameter. At such a bifurcation the first
+branch and the other branch meet. The orbits of the other branch have less symmetry: they are not
+symmetric, or have twice the period.
 
-Close to a grazing the other branch turns sharply: two contacts have just appeared, and the orbits
-of the other branch soon lose one of them. There an orbit is found at a given height of an extremum
-(`grazing`), and the branch is followed past the grazing until its orbits differ clearly from the
-orbits of more symmetry.
+A cycle of the first branch is the period or, for symmetric orbits, half the period with a change of
+sign. The deviation of an orbit of the other branch from the first branch changes its sign in each
+such cycle. At the bifurcation one multiplier (eigenvalue of the derivative over a cycle) is -1, and
+the other branch begins in the direction of its eigenvector. The parameter changes with the square
+of the distance from the bifurcation. The corrections of Newton's method are orthogonal to the
+direction. The method therefore stays away from the first branch, whose orbits have the distance
+zero in this direction, and finds an orbit of the other branch.
+
+At a grazing the loose mass reaches a wall with zero speed. Close to a grazing the other branch
+turns sharply: two contacts have just appeared, and the orbits of the other branch soon lose one of
+them. An orbit close to a grazing is found at a given height |Z2| - d0 of an extremum of Z2
+(`grazing`). The branch is then followed past the grazing until its orbits differ clearly from
+orbits of more symmetry. Z2 is the displacement of the primary mass relative to the loose mass, and
+d0 the clearance.
 """
 
 from dataclasses import replace
@@ -25,18 +32,22 @@ from impact_damper.orbits.grazing import at_height, through_grazing
 from impact_damper.orbits.shooting import shoot
 from impact_damper.orbits.turns import turns_of
 
-# DISTANCES: distances from the bifurcation at which an orbit of the other branch is searched for,
-# one after the other. CLOSE: the same where the orbit closest to the bifurcation is wanted. ASIDE:
-# largest distance between the first guess and the orbit found by Newton's method, divided by the
-# distance from the bifurcation.
+# Search for an orbit of the other branch at a distance from the bifurcation.
+# DISTANCES: distances that are tried, one after the other, for an orbit of clearly less symmetry.
+# CLOSE: the same for an orbit as close as possible to the bifurcation.
+# ASIDE: largest distance of the orbit found from the first guess, divided by its distance from the
+#   bifurcation.
 DISTANCES, CLOSE, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4), (1e-4, 1e-5, 1e-6), 0.5
-# Close to a grazing. SHARES: changes of the height at which an orbit is searched for, one after the
-# other, as shares of the height. MISSED: largest relative error of its distance from the
-# bifurcation. REACH: largest such distance, within which also the other contact must vanish.
-# PASSAGES: number of orbits from which a way past the grazing is tried.
+# Search for an orbit of the other branch close to a grazing.
+# SHARES: changes of the height, divided by the height at the bifurcation, that are tried.
+# MISSED: largest relative error of the predicted distance of the orbit from the bifurcation.
+# REACH: largest such distance, and largest distance within which the grazing must follow.
+# PASSAGES: number of orbits from which the branch is followed past the grazing, until one succeeds.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
+# Kinds of events at which another branch leaves.
 LEAVING = ("symmetry_breaking", "period_doubling")
-# Largest distance of the orbit at which a branch ends from that of the branch that it meets there.
+# A branch meets another one at its end if the last orbit and the orbit of the other branch are at
+# most MEETING apart.
 MEETING = 1e-3
 
 
@@ -48,10 +59,10 @@ class Departure(NamedTuple):
     point : Point
         The orbit found closest to the bifurcation.
     side : str
-        supercritical: the orbit has as many unstable multipliers as the orbits of the first branch
-        on their more stable side. subcritical: one more. beside_grazing: the orbit is so close to a
-        grazing that its multipliers change by more than this difference. undecided: it has another
-        number of them.
+        Compares the number of unstable multipliers (modulus above 1) of the orbit with that of the
+        first branch on the more stable side of the bifurcation. "supercritical": both numbers are
+        equal. "subcritical": the orbit has one more. "undecided": any other difference.
+        "beside_grazing": not compared, because multipliers change too fast close to a grazing.
     """
 
     point: Point
@@ -59,7 +70,17 @@ class Departure(NamedTuple):
 
 
 class _Leaving(NamedTuple):
-    """Equations of the other branch, the unknowns at the bifurcation, and the direction there."""
+    """The beginning of the other branch.
+
+    Attributes
+    ----------
+    problem : Problem
+        Equations of the other branch.
+    x : numpy.ndarray
+        Unknowns of the problem at the bifurcation.
+    direction : numpy.ndarray
+        Direction in which the other branch begins.
+    """
 
     problem: Problem
     x: np.ndarray
@@ -106,8 +127,8 @@ def other_branch(event) -> Point | None:
     Returns
     -------
     Point or None
-        None if Newton's method finds no orbit that is clearly of less symmetry or of twice the
-        period.
+        None if Newton's method finds no orbit that is clearly not symmetric or clearly has twice
+        the period.
 
     Raises
     ------
@@ -127,19 +148,20 @@ def other_branch(event) -> Point | None:
 
 
 def met_branch(point, kind) -> Point | None:
-    """Return the point of the branch at which another one ends.
+    """Return the point of the branch of more symmetry at which another branch ends.
 
     Parameters
     ----------
     point : Point
         The last point of the branch that ends.
     kind : str
-        symmetry_breaking or period_doubling.
+        Kind of the bifurcation: "symmetry_breaking" or "period_doubling".
 
     Returns
     -------
     Point or None
-        A symmetric orbit, or one of half the period; None if Newton's method finds none there.
+        Its orbit is symmetric, or has half the period. None if Newton's method finds no such orbit
+        close to the last point.
     """
     orbit, symmetric = point.orbit, kind == "symmetry_breaking"
     periods = orbit.periods // (1 if symmetric else 2)
@@ -151,12 +173,12 @@ def met_branch(point, kind) -> Point | None:
 
 
 def _leaving(event):
-    """Return the `_Leaving` of an event."""
+    """Return the beginning of the other branch at an event, a `_Leaving`."""
     if event.kind not in LEAVING:
         raise ValueError(f"event = {event.kind!r}: must be one of {', '.join(LEAVING)}")
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
-    # the deviation returns with the opposite sign of the states
+    # Over a cycle the deviation changes its sign relative to the state.
     sign, size = (1 if doubled else -1), 4 if problem.damped else 2
     factors = point.orbit.factors[:, :size, :size].copy()
     factors[-1] *= -1
@@ -214,5 +236,5 @@ def _at_heights(leaving):
 
 
 def _is_other(orbit, doubled):
-    """Return whether an orbit clearly has the longer period, or is clearly not symmetric."""
+    """Return whether an orbit clearly has twice the period or, if not `doubled`, is asymmetric."""
     return not orbit.repeats_sooner() if doubled else orbit.record["asymmetry"] > SYMMETRIC

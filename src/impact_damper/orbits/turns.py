@@ -1,6 +1,9 @@
 """The extrema of Z2 on an orbit, with their derivatives, and the next one that reaches its wall.
 
-A grazing lies where an extremum of Z2 just reaches a wall.
+Z2 is the displacement of the primary mass relative to the loose mass, d0 the clearance and W T the
+phase of the forcing. The height of an extremum is |Z2| - d0, which is positive in contact. A branch
+is the curve of the periodic orbits over a parameter. A grazing is a point of a branch at which an
+extremum has the height 0.
 """
 
 from typing import NamedTuple
@@ -12,9 +15,9 @@ from impact_damper.orbits.sensitivity import path_of
 from impact_damper.orbits.variations import Variations
 from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
-# Distance along the tangent over which the rate of a height is estimated.
+# Distance along the tangent of a branch over which the change of a height is estimated.
 SHIFT = 1e-10
-# Largest change of the phase (radian) of an extremum between two heights.
+# An extremum on another orbit counts as the same if its phase differs by less than MOVED (radian).
 MOVED = 0.1
 
 
@@ -44,8 +47,8 @@ class Turn(NamedTuple):
         Derivative of the height by the unknowns: the states at the beginnings of the m segments,
         and the parameter.
     by_parameter : numpy.ndarray, shape (4,)
-        Derivative of the end of the segment by the parameter. The change of sign at the end of a
-        symmetric orbit's half period is not included.
+        Derivative of the state at the end of the segment by the parameter, without the change of
+        sign at the end of a symmetric orbit's half period.
     """
 
     segment: int
@@ -57,9 +60,10 @@ class Turn(NamedTuple):
 
 
 def turns_of(problem, x, orbit, segment=None):
-    """Return a list of every `Turn` of an orbit, or of one segment, whose gradient is known.
+    """Return a list of all extrema of an orbit, or of one segment, whose gradients are known.
 
-    `problem` is the `continuation.Problem` of the branch, and x are the unknowns of the orbit.
+    `problem` is the `continuation.Problem` of the branch, and x are the unknowns of the orbit. The
+    entries are `Turn`.
     """
     rate = problem.rate(x[-1])
     turns = []
@@ -72,8 +76,8 @@ def turns_of(problem, x, orbit, segment=None):
         try:
             change = variations.changes(np.zeros((4, 1)), np.eye(1))[2, 0]
         except np.linalg.LinAlgError:
-            # After many inelastic contacts the derivative by the first state is singular up to
-            # rounding errors, so that the gradient is not known.
+            # After many inelastic contacts the derivative of the motion by its first state is
+            # singular up to rounding errors. The gradients of the segment are then not known.
             continue
         by_parameter = variations.slopes()[:, 0]
         for step, size, weight, time in zip(steps, sizes, weights, times, strict=True):
@@ -91,14 +95,21 @@ def turns_of(problem, x, orbit, segment=None):
 
 
 def nearest(turns, turn):
-    """Return the turn closest in phase to a given turn, preferably of the same `outer`, or None."""
+    """Return the extremum that corresponds to a given one, or None.
+
+    It is the closest in phase, at a distance of less than MOVED. A maximum of |Z2| is preferred for
+    a maximum, a minimum for a minimum.
+    """
     near = [each for each in turns if abs(each.phase - turn.phase) < MOVED]
     near = [each for each in near if each.outer == turn.outer] or near
     return min(near, key=lambda each: abs(each.phase - turn.phase), default=None)
 
 
 def moved(problem, x, orbit, turn):
-    """Return a turn with its phase and height on another orbit nearby, or None."""
+    """Return an extremum with its phase and height on another orbit nearby, or None.
+
+    x are the unknowns of the other orbit. The derivatives of the extremum are kept.
+    """
     chain = orbit.chain or problem.flow(x)
     found = nearest([Found(*row) for row in chain.turns(turn.segment)], turn)
     return found and turn._replace(phase=found.phase, outer=bool(found.outer), height=found.height)
