@@ -165,6 +165,7 @@ def test_a_design_shows_its_gap_and_the_starts_that_end_quiet(results):
     np.testing.assert_array_equal(candidates.lines[0].get_ydata(), expected)
 
 
+@pytest.mark.thorough
 def test_the_package_starts_without_matplotlib():
     code = "import sys, impact_damper as idm; idm.Oscillator, idm.simulate; 'plot' in dir(idm)"
     code += "; assert 'matplotlib' not in sys.modules"

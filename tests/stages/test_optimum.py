@@ -91,6 +91,7 @@ def test_quiet_motion_is_no_larger_than_the_largest_reached(sweeps):
         assert np.all(sweep.quiet_displacement >= sweep.optimum_displacement)
 
 
+@pytest.mark.thorough
 def test_analytical_optimum_has_no_amplitude_and_tends_to_the_rule():
     """By harmonic balance Z1 has the amplitude 0 at the optimum.
 

@@ -85,12 +85,14 @@ def assert_energy_balance(motion, frequency):
     assert_allclose(work, loss, rtol=1e-4)
 
 
+@pytest.mark.thorough
 def test_free_subharmonic_is_absent_at_low_frequencies(damped):
     """With the paper's damping of 0.215 the subharmonic begins above W = 1.7."""
     lower, upper = damped.free_subharmonic_frequency.values
     assert 1.7 < lower < 1.72 and 2.07 < upper < 2.08
 
 
+@pytest.mark.thorough
 def test_damped_subharmonic_is_a_motion_of_period_3(damped):
     row = damped.sel(frequency=1.85, method="nearest")
     assert row.suppression == flag("suppression", "reduced")
@@ -104,6 +106,7 @@ def test_damped_subharmonic_is_a_motion_of_period_3(damped):
     assert_energy_balance(motion, frequency)
 
 
+@pytest.mark.thorough
 def test_damped_branch_ends_where_long_runs_leave_it(damped):
     """The upper end of the branch is a fold, beyond which a run leads to the quiet motion."""
     branch = int(np.flatnonzero(damped.subharmonic_period.values == 3)[0])
@@ -134,6 +137,7 @@ def test_switching_on_keeps_the_primary_on_the_subharmonic_until_a_contact(free)
     assert len(set(away.argmin(axis=1))) == 3
 
 
+@pytest.mark.thorough
 def test_shares_of_switching_on(damped):
     shares = damped.switched_share.sum("switched_motion", skipna=False)
     present = np.isfinite(damped.free_subharmonic)
