@@ -22,8 +22,8 @@ from impact_damper.orbits.switching import LEAVING, Departure, departure, met_br
 #   are stable.
 ALWAYS, BESIDE_STABLE, STABLE = 3, 4, 9
 # Two branches meet at an event if the parameter and max |Z1| at the event and at the end of the
-# other branch agree within these tolerances.
-SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
+# other branch agree within these tolerances. The end is a fold, located to 1e-7 in branch length.
+SAME_VALUE, SAME_SIZE = 1e-6, 1e-4
 # Two bifurcations of one kind are the same if their parameters differ by less than NEAR.
 NEAR = 1e-9
 
@@ -196,5 +196,6 @@ def _passes(branch, kind, point):
     periods = point.orbit.periods
     there = [each.point for _, each in branch.events if each.kind == kind]
     near = any(abs(each.value - point.value) < NEAR for each in there)
-    same = branch.points[0].orbit.periods == periods
+    first = branch.points[0]
+    same = first.orbit.periods == periods and first.problem.symmetric == point.problem.symmetric
     return same and (near or branch.holds(point.orbit, point.value))

@@ -207,7 +207,7 @@ def _at_distance(leaving, distances):
 
 
 def _at_heights(leaving):
-    """Yield points of the other branch at heights of the extremum that is closest to a wall.
+    """Yield points of the other branch at heights of the extremum that first reaches its wall.
 
     At the bifurcation the extremum occurs twice. On the other branch one of both rises and the
     other one falls.
@@ -219,7 +219,7 @@ def _at_heights(leaving):
     turns = [turn for k in range(half) for turn in turns_of(problem, x, orbit, k)]
     if not turns:
         return
-    turn = min(turns, key=lambda turn: abs(turn.height))
+    turn = min(turns, key=lambda turn: abs(turn.height / (turn.gradient @ direction or TINY)))
     for share in SHARES:
         change = share * turn.height
         away = change / (turn.gradient @ direction or np.finfo(float).tiny)
