@@ -219,7 +219,7 @@ def _at_heights(leaving):
     turns = [turn for k in range(half) for turn in turns_of(problem, x, orbit, k)]
     if not turns:
         return
-    turn = min(turns, key=lambda turn: abs(turn.height / (turn.gradient @ direction or TINY)))
+    turn = max(turns, key=lambda turn: abs(turn.gradient @ direction / turn.height))
     for share in SHARES:
         change = share * turn.height
         away = change / (turn.gradient @ direction or np.finfo(float).tiny)
