@@ -29,7 +29,7 @@ def test_residual_and_phase(orbit):
 
 
 def test_liouville(orbit):
-    """Elastic contact conserves volume; the dashpot contracts it at a known rate."""
+    """The determinant of the map's derivative is known from the damping and the time in contact."""
     assert orbit.liouville_error < 1e-11
 
 

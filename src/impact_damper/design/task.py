@@ -149,7 +149,9 @@ class Task:
                 "machine: force = 0 N: must be greater than 0 N (without excitation nothing is to "
                 "be damped)"
             )
-        self.machine.oscillator()  # raises for a moving base whose force cannot be swept
+        # With a moving base this raises ValueError if one oscillator cannot describe the force at
+        # all frequencies.
+        self.machine.oscillator()
 
     def _check_deviations(self):
         """Raise ValueError if a damper within the tolerances is not allowed."""

@@ -10,7 +10,8 @@ orbits are smooth except for the term of power 3/2, so Newton's method at fixed 
 Derivatives by the parameter are integrated (`variations`), because difference quotients would reach
 across the grazing.
 
-Multipliers are Floquet multipliers.
+Multipliers are Floquet multipliers. A branch may meet a branch of more symmetry, whose orbits are
+symmetric or have half the period. In shapes, m is the number of segments of an orbit.
 """
 
 from typing import NamedTuple
@@ -28,8 +29,8 @@ RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 # HALVINGS: largest number of such divisions on the way through a grazing.
 # HALVINGS_BETWEEN: the same between two points found before.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# `Orbit.deviation` is 0 for an orbit of more symmetry. An orbit counts as such if its deviation is
-# FALLEN times that of the orbit before.
+# `Orbit.deviation` is 0 for an orbit of more symmetry. The branch was left for a branch of more
+# symmetry if the deviation of an orbit is less than FALLEN times that of the orbit before.
 FALLEN = 0.01
 # Heights of the points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
@@ -40,7 +41,7 @@ LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction, exact=True):
-    """Return the point of a branch at which an extremum has a given height, and its `Turn`.
+    """Return the point of a branch at which an extremum has a given height, and the extremum.
 
     Parameters
     ----------

@@ -3,7 +3,7 @@
 Z2 is the displacement of the primary mass relative to the loose mass, d0 the clearance and W T the
 phase of the forcing. The height of an extremum is |Z2| - d0, which is positive in contact. A branch
 is the curve of the periodic orbits over a parameter. A grazing is a point of a branch at which an
-extremum has the height 0.
+extremum has the height 0. Strongly unstable orbits are cut into segments (`segments`).
 """
 
 from typing import NamedTuple

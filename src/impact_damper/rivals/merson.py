@@ -134,7 +134,7 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
         Length for the next step.
     steps : int
         Number of accepted steps. It is -1 if the tolerance could not be met, if more than
-        MOST_STEPS steps were needed, or if the run diverged (`BEYOND`).
+        MOST_STEPS steps were needed, or if the run diverged.
     contacts : int
         Number of contacts begun. Without `locate`, a contact that begins and ends within one step
         is not counted.
