@@ -78,6 +78,15 @@ def test_stable_parts_of_a_closed_branch_do_not_depend_on_its_first_orbit(start)
     assert table.loc[0, "stable W"] == "1 to 1.1, 1.2 to 1.2"
 
 
+def test_an_end_that_is_left_open_has_its_reason():
+    made = orbit_columns(np.array([1.0, 1.1]), np.array([True, True]))
+    ends = [[flag("branch_end", "unstable"), flag("branch_end", "range_ends")]]
+    left = made.assign(branch_end=made["branch_end"].copy(data=ends))
+    table = table_branches.orbits({"branches": {"closed": made, "left": left}}).set_index("data")
+    assert table["one end"]["closed"] == "closed" and table["other end"]["left"] == "range ends"
+    assert table["one end"]["left"].startswith("left where it becomes unstable, since")
+
+
 def orbit_columns(frequency, stable):
     """Return the dataset of one closed branch, as `tables.branches.orbits` reads it."""
     frequency, stable = np.append(frequency, frequency[0]), np.append(stable, stable[0])

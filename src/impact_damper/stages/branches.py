@@ -26,11 +26,12 @@ from impact_damper.system.checks import check_frequency, check_span
 from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.system.parameters import describe
 
-# Branches of long periods wind through chaos without end. Therefore their lengths are limited.
+# Branches of long periods wind through chaos, some for more than 20000 orbits. Therefore their
+# lengths are limited.
 # MOST_POINTS: largest number of orbits of a branch in one direction.
 # MOST_LONG: the same for periods of more than LONG forcing cycles.
 # LONGEST: branches of longer periods are followed only as far as they are stable.
-MOST_POINTS, MOST_LONG, LONG, LONGEST = 4000, 2000, 7, 9
+MOST_POINTS, MOST_LONG, LONG, LONGEST = 8000, 4400, 8, 15
 
 
 def complete_branches(oscillator, damper, frequencies, motions, *, progress=None):

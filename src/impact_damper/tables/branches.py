@@ -50,6 +50,12 @@ SHOWN = {
 # Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
 # In columns without a function, underscores become spaces.
 CELLS = {"event": lambda cell: cell.replace("neimark sacker", "Neimark-Sacker")}
+# End at which a branch is left although its orbits go on -> words with the reason.
+LEFT = {
+    "unstable": "left where it becomes unstable, since it winds through chaos there",
+    "point limit": "left after the largest number of orbits, since it winds through chaos",
+    "lost": "left because Newton's method finds no further orbit",
+}
 # Outcome of the search for the branch that leaves, and side on which it begins -> words.
 OUTCOMES = {
     "followed": "followed",
@@ -105,6 +111,7 @@ def _ends_of(data, branch):
     """Return why a branch ends, at both ends, with the number of the branch that it meets there."""
     ends, met = (data[name].values[branch] for name in ("branch_end", "branch_met"))
     names = [extract.meaning("branch_end", end) for end in ends]
+    names = [LEFT.get(name, name) for name in names]
     return [
         name if other < 0 else f"{name} of branch {other + 1}"
         for name, other in zip(names, met, strict=True)
