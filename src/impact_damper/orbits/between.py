@@ -36,7 +36,11 @@ def at_value(point, ahead, value):
     def beyond(fraction):
         return _cubic(point, ahead, fraction)[-1] - value
 
-    x = _cubic(point, ahead, brentq(beyond, 0.0, 1.0))
+    # At an end of the step the value may lie beyond it by a rounding error.
+    ends = beyond(0.0), beyond(1.0)
+    inside = ends[0] * ends[1] < 0
+    fraction = brentq(beyond, 0.0, 1.0) if inside else float(np.argmin(np.abs(ends)))
+    x = _cubic(point, ahead, fraction)
     x[-1] = value
     near = problem.near(x, np.eye(len(x))[-1], problem.length(chord))
     if near is None:

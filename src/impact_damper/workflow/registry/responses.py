@@ -123,12 +123,11 @@ TABLES = (
         "begins at a settled motion, at a stable orbit that Newton's method found in one of 360 "
         "searches from random states, or at a point of another branch: where an orbit loses its "
         "symmetry or doubles its period (table `other_branches`), or where the other branch ends. "
-        "Point limit: the branch was followed no further after 4000 orbits in one direction (2000 "
-        "for periods 8 and 9), among chaotic motions. Unstable: a branch of a period above 9, or "
-        "one above 3 that begins at such a point, is followed only as far as it is stable. Lost: "
-        "Newton's method found no next orbit, since several contacts appear at almost the same "
-        "frequency. The column `not located` of the CSV counts events that lie between two orbits "
-        "but were not located.",
+        "The largest number of orbits is 8000 in one direction, 4400 for periods above 8. Left "
+        "where it becomes unstable is a branch of a period above 15, or one above 3 that begins at "
+        "such a point. Newton's method finds no next orbit where several contacts appear at almost "
+        "the same frequency. The column `not located` of the CSV counts events that lie between "
+        "two orbits but were not located.",
     ),
     Table(
         "bifurcations",
