@@ -207,13 +207,14 @@ def _at_distance(leaving, distances):
 
 
 def _at_heights(leaving):
-    """Yield points of the other branch at heights of the extremum that first reaches its wall.
+    """Yield points of the other branch at several heights of an extremum of Z2.
 
-    At the bifurcation the extremum occurs twice. On the other branch one of both rises and the
-    other one falls.
+    Of all extrema it is the one that first reaches its wall along the other branch. At the
+    bifurcation the motion has this extremum twice, once in each cycle of the first branch. On the
+    other branch one of both rises and the other one falls.
     """
     problem, x, direction = leaving
-    # the second half of the segments has the same extrema as the first
+    # Only the first half of the segments is searched, because the second half has the same extrema.
     half = (len(problem.phases) - 1) // 2 if problem.damped else 0
     orbit = problem.shoot(x)[0]
     turns = [turn for k in range(half) for turn in turns_of(problem, x, orbit, k)]
