@@ -152,11 +152,11 @@ def test_each_bifurcation_has_an_outcome_and_the_table_counts_them():
 
     span = (1.55, 1.8)
 
-    def follow(orbit, value, stable):
-        return follow_branch(family, orbit, value, span, 60, stable=stable)
+    def follow(orbit, value):
+        return follow_branch(family, orbit, value, span, 60)
 
     orbit = find_orbit(family(1.7), polished_orbit("large").state)
-    branches = [follow(orbit, 1.7, stable=False)]
+    branches = [follow(orbit, 1.7)]
     found = follow_others(branches, follow)
     assert [len(others) for others in found] == [len(branch.events) for branch in branches]
     for branch, others in zip(branches, found, strict=True):

@@ -18,8 +18,7 @@ from impact_damper.orbits.switching import LEAVING, Departure, departure, met_br
 # Longest period, in forcing cycles, of the branches that are followed.
 # ALWAYS: of any branch.
 # BESIDE_STABLE: of a branch that leaves beside a stable orbit.
-# STABLE: of a branch whose orbits are stable where it begins. It is followed only as far as they
-#   are stable.
+# STABLE: of a branch whose orbits are stable where it begins.
 ALWAYS, BESIDE_STABLE, STABLE = 3, 4, 9
 # Two branches meet at an event if the parameter and max |Z1| at the event and at the end of the
 # other branch agree within these tolerances. The end is a fold, located to 1e-7 in branch length.
@@ -60,8 +59,8 @@ def follow_others(branches, follow):
     ----------
     branches : list of Branch
     follow : callable
-        Function that returns the `Branch` of an orbit. Its arguments are the orbit, the value of
-        the parameter, and whether to follow the branch only as far as it is stable.
+        Function that returns the `Branch` of an orbit. Its arguments are the orbit and the value of
+        the parameter.
 
     Returns
     -------
@@ -103,7 +102,7 @@ def _follow_ends(branches, branch, follow):
         if kind in LEAVING and branch.points[0].orbit.periods <= BESIDE_STABLE:
             met = met_branch(branch.points[edge], kind)
             if met and not any(_passes(each, kind, met) for each in branches):
-                branches.append(follow(met.orbit, met.value, False))
+                branches.append(follow(met.orbit, met.value))
 
 
 def _follow_at(branches, branch, place, event, follow):
@@ -137,7 +136,7 @@ def _follow_at(branches, branch, place, event, follow):
     for number, each in enumerate(branches):
         if each is not branch and each.holds(start.orbit, start.value):
             return Other("followed", begun, number)
-    branches.append(follow(start.orbit, start.value, not whole))
+    branches.append(follow(start.orbit, start.value))
     return Other("followed", begun, len(branches) - 1)
 
 

@@ -41,9 +41,9 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
 
     At each loss of symmetry and each period doubling another branch leaves, and an orbit of this
     other branch is searched for. The other branch is followed if its period is at most 3 forcing
-    cycles, or at most 4 if it leaves beside a stable orbit. With a period of up to 9 it is followed
-    only if its orbits are stable where it begins, and only as far as they are. If a branch of a
-    period of at most 4 ends at another branch, this one is followed too.
+    cycles, or at most 4 if it leaves beside a stable orbit, or at most 9 if its orbits are stable
+    where it begins. If a branch of a period of at most 4 ends at another branch, this one is
+    followed too. Branches are followed to their ends, as far as their lengths are not limited.
 
     Parameters
     ----------
@@ -100,9 +100,9 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
         p[FREQUENCY] = check_frequency(value)
         return p
 
-    def follow(orbit, value, stable=False):
+    def follow(orbit, value):
         most = MOST_POINTS if orbit.periods <= LONG else MOST_LONG
-        stable = stable or orbit.periods > LONGEST
+        stable = orbit.periods > LONGEST
         return follow_branch(family, orbit, value, frequencies, most, stable=stable)
 
     branches, lost = [], 0

@@ -124,9 +124,9 @@ TABLES = (
         "searches from random states, or at a point of another branch: where an orbit loses its "
         "symmetry or doubles its period (table `other_branches`), or where the other branch ends. "
         "The largest number of orbits is 8000 in one direction, 4400 for periods above 8. Left "
-        "where it becomes unstable is a branch of a period above 15, or one above 3 that begins at "
-        "such a point. Newton's method finds no next orbit where several contacts appear at almost "
-        "the same frequency. The column `not located` of the CSV counts events that lie between "
+        "where it becomes unstable is a branch of a period above 15. Newton's method finds no next "
+        "orbit where several contacts appear at almost the same frequency. The column `not "
+        "located` of the CSV counts events that lie between "
         "two orbits but were not located.",
     ),
     Table(
