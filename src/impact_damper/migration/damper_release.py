@@ -7,7 +7,8 @@ resonance motion, at a phase of the forcing that is drawn uniformly. At this tim
 at rest relative to the primary mass, at a place in the gap that is drawn uniformly, as if a clamp
 had held it. Then the motion can be irregular for many cycles before it settles to a periodic orbit.
 This irregular part is the violent motion, and its length is the lifetime. A strobe is the time in
-each forcing cycle at which the forcing has the phase W T = pi/2.
+each forcing cycle at which the forcing has the phase W T = pi/2. Z1 is the displacement of the
+primary mass.
 """
 
 from dataclasses import replace
@@ -168,8 +169,8 @@ def _watch_one(case, draws, lifetime, settling, path, records, entry, stop):
     The lifetime ends when an orbit captures the run, which means that the run stays close to the
     orbit from then on (`legs.CAPTURE`). `draws` are four numbers between 0 and 1: the phase at
     which the damper is switched on, the place of the loose mass, the strobe of the release, and the
-    phase after this strobe. The strobe of the release lies between strobe LEAD, before which the
-    run still depends on its start, and the capture. A run that is captured before strobe LEAD is
+    phase after this strobe. The strobe of the release lies between strobe LEAD (`bounds`), before
+    which the run still depends on its start, and the capture. A run that is captured before strobe LEAD is
     not released.
     """
     legs.leg(
