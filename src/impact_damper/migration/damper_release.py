@@ -170,8 +170,8 @@ def _watch_one(case, draws, lifetime, settling, path, records, entry, stop):
     orbit from then on (`legs.CAPTURE`). `draws` are four numbers between 0 and 1: the phase at
     which the damper is switched on, the place of the loose mass, the strobe of the release, and the
     phase after this strobe. The strobe of the release lies between strobe LEAD (`bounds`), before
-    which the run still depends on its start, and the capture. A run that is captured before strobe LEAD is
-    not released.
+    which the run still depends on its start, and the capture. A run that is captured before strobe
+    LEAD is not released.
     """
     legs.leg(
         case.off,
