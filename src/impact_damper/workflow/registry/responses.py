@@ -141,8 +141,8 @@ TABLES = (
         ("branches",),
         "What became of the branches that leave where an orbit loses its symmetry or doubles its "
         "period. An orbit of every such branch is searched for close to the event. A branch is "
-        "followed up to period 3, beside stable orbits up to period 4, and, as far as it is "
-        "stable, up to period 9 if its orbits are stable where it begins; others are left, since "
+        "followed up to period 3, beside stable orbits up to period 4, and up to period 9 if its "
+        "orbits are stable where it begins; others are left, since "
         "doublings form infinite cascades and unstable orbits of long periods wind through chaos. "
         "Supercritical: it exists where the first orbit is the more unstable one; subcritical: "
         "where this is the more stable one. Beside a grazing the side is not told, since the "
