@@ -140,7 +140,7 @@ def test_shares_of_releases(runs):
 
 @pytest.mark.parametrize("frequency", [1.31, 1.7, 2.014])
 def test_scene(frequency):
-    """Both free motions are found up to their folds, close to the folds by harmonic balance."""
+    """Both free motions are found also near the folds where they end, as by harmonic balance."""
     known = release_case(CUBIC, PAPER, frequency, Settling()).known
     free = free_solutions(CUBIC, min(frequency, 2.0))
     assert_allclose(known, free.amplitude[[0, -1]], rtol=0.08)

@@ -41,9 +41,11 @@ COARSE, FINE = 25, 45
 # With MARGIN times the machine's force the largest displacement should be at most MOST_RISE times
 # the largest displacement with the machine's force. If it is larger, a branch of large motions that
 # is detached from the resonance curve begins at a force near the machine's force. Harmonic balance
-# predicts this force with an error of some per cent, so the larger displacement is then minimised.
+# predicts this force with an error of some per cent. The search then minimises the displacement
+# with MARGIN times the force instead.
 MARGIN, MOST_RISE = 1.1, 1.3
-# Number of points of each grid that are refined, and tolerance of the logarithms of the unknowns.
+# REFINED    number of points of each grid that are refined
+# TOLERANCE  tolerance of the refinement, in the logarithms of the unknowns and of the displacement
 REFINED = 2
 TOLERANCE = 2e-3
 

@@ -8,13 +8,16 @@ import numpy as np
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.motions.matching import SIMILAR, size_ratio
 
-# Motions of equal period and contacts are the same if max |Z1| differs relatively by less than
-# SAME. A motion is symmetric if its asymmetry is below SAME.
+# Records of equal outcome, period and contacts per cycle are one motion if max |Z1| differs
+# relatively by less than SAME. Records of equal outcome and period that are not settled are one
+# motion too if their sizes are similar (`matching.SIMILAR`). A motion is symmetric if its asymmetry
+# is below SAME.
 SAME = 1e-6
-# Differences of max |Z1| below ROUNDING are rounding errors; they matter for motions near rest.
+# A difference of max |Z1| below ROUNDING never separates two motions: for motions near rest,
+# rounding errors exceed SAME times max |Z1|.
 ROUNDING = 1e-11
-# Two motions with the same one of these outcomes count as the same motion, because the displacement
-# is infinite or 0.
+# Two records of equal period are one motion if both have the same of these outcomes, in which the
+# displacement is infinite or 0.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 
 
@@ -36,7 +39,7 @@ class Catalogue:
         Numbers of the motions, unique over the sweep.
     origins : list of int
         Flags of `origin`, which state whether each motion was first found from a random start, from
-        a placed start, or by Newton's method.
+        a placed start (`start_states`), or by Newton's method.
     starts : list of int
         For each motion the number of random starts that lead to it.
     """
@@ -63,7 +66,7 @@ class Catalogue:
     def add(self, record, origin):
         """Return the index of a motion, and enter it if it is new.
 
-        Of two records of the same motion the one with the larger displacement is kept.
+        A new record of a known motion replaces the old record if max |Z1| is larger by SAME.
         """
         i = self.find(record)
         if i is None:

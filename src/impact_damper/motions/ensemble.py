@@ -75,8 +75,8 @@ def settle(
         First states Z1, Z1', Z2, Z2'.
     settling : Settling, optional
     start : float
-        Time T of all states. It must lie in the forcing cycle that ends with the strobe, at which
-        the forcing has the phase W T = pi/2.
+        Time T of all states. It must lie in the forcing cycle that ends at the first strobe, the
+        time T = pi/(2 W).
     from_strobe : bool
         If True, the states are states at the strobe, and `start` is not used.
     workers : int

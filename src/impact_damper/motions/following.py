@@ -21,8 +21,10 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which a step grows after success.
 GROWTH = 1.5
-# Largest corrections of a stable orbit (`follow_stable`): REACH of a predicted state, NUDGE of the
-# first state. A larger correction could lead to another orbit.
+# Largest corrections by Newton's method in `follow_stable`. A larger correction could lead to
+# another orbit.
+# REACH  of a predicted state
+# NUDGE  of the first state
 REACH, NUDGE = 0.03, 1e-3
 # Accuracy, in units of the parameter, to which the end of a branch of stable orbits is located.
 RESOLUTION = 1e-8

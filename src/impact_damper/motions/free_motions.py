@@ -29,7 +29,8 @@ class FreeMotions(NamedTuple):
     Attributes
     ----------
     states : numpy.ndarray, shape (k, 2)
-        Z1, Z1' of each motion, once a forcing cycle until the motion repeats.
+        Z1, Z1' of each motion at W T = 0, once in each forcing cycle until the motion repeats, but
+        at most MOST_STATES times.
     displacement, speed : float
         Largest |Z1| and |Z1'| of all these motions.
     """

@@ -40,9 +40,10 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return the mean growth of a batch, its standard error, and whether the growth continues.
+    """Return the mean growth in a batch, its standard error, and whether the growth continues.
 
-    The growth continues if the average over the last RECENT batches exceeds half the mean.
+    The growth is a natural logarithm. It continues if its average over the last RECENT batches
+    exceeds half its mean over all batches.
     """
     count = growth.periods // BLOCK
     recent = 0.0

@@ -3,8 +3,8 @@
 A settled motion is identified by following its orbit with Newton's method (`motions.sweep`).
 Chaotic motions, quasi-periodic motions and motions without contact are matched in pairs if they
 have the same outcome and period and similar sizes; pairs with the closest sizes are matched first.
-A chaotic motion may be small during its measurement. Therefore its reach, the largest distance from
-the origin in the second half of its run, is compared too.
+A chaotic motion may be small during its measurement. Therefore the field `reach` of its record is
+compared too, the largest distance from the origin at the strobe during the long run before.
 
 Z1 is the displacement of the primary mass.
 """

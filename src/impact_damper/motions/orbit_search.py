@@ -1,4 +1,4 @@
-"""Find stable orbits by Newton's method, beside the motions that starts lead to.
+"""Find stable orbits by Newton's method, in addition to the motions found by runs from starts.
 
 Some stable orbits attract so few states that hardly any random start leads to them. On most of
 these orbits the primary mass moves nearly as in another motion of the same system, while the loose
@@ -16,9 +16,9 @@ from impact_damper.system.packed import CLEARANCE
 
 # Longest period of an orbit, in forcing cycles.
 LONGEST = 5
-# Largest distance of an orbit from its start, divided by the largest displacement or speed of the
-# primary mass in the known motions, or by the clearance if the clearance is larger. With twice this
-# distance Newton's method takes four times as long and finds hardly more orbits.
+# Largest distance of an orbit from its start, divided by the largest |Z1| or |Z1'| of the known
+# motions at the strobe, or by the clearance if the clearance is larger. With twice this distance
+# Newton's method takes four times as long and finds hardly more orbits.
 REACH = 1.0
 # Two orbits are the same if their states differ by less than SAME.
 SAME = 1e-6

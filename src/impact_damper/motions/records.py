@@ -44,9 +44,10 @@ NEVER = np.zeros(1, bool)
 # periods_run      forcing cycles until the outcome was known
 # multiplier       dominant Floquet multiplier of the orbit
 # residual         largest difference between the state and the state a period later
-# first_frequency, second_frequency, frequency_error: of a quasi-periodic motion
+# first_frequency, second_frequency: the two frequencies of a quasi-periodic motion
+# frequency_error  error of second_frequency
 # state            last state at the strobe (W T = pi/2), of a settled motion the state on the orbit
-# reach            largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe in the second half of the run
+# reach            largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
 MOTION = np.dtype(
     [
         ("outcome", "i1"),

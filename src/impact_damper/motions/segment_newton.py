@@ -11,8 +11,10 @@ from impact_damper.kernel.single import assign, side_of, workspace
 from impact_damper.kernel.tangents import advance
 from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY
 
-# Change of the parameter in the central difference. If the forward and the backward difference
-# differ by more than the share BENT, a contact appears between them, and FINE_NUDGE is taken.
+# NUDGE       change of the parameter forward and backward in the central difference
+# BENT        largest difference of the forward and the backward difference, divided by their sum.
+#             If it is larger, a contact has appeared or vanished within the change.
+# FINE_NUDGE  change of the parameter in this case
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 
@@ -75,8 +77,8 @@ def correction(p, rate, phases, states, sign, row, fresh, tolerance, ends, tange
     tangents : array, shape (m, 4, 4)
         Receives the transposed derivatives of the ends by the states.
     out : array, shape (m n + 1, 2)
-        Receives the correction, and a vector along the branch with the product 1 with `row`; NaN if
-        the matrix is singular.
+        Receives the correction, and a vector along the branch whose scalar product with `row` is 1.
+        Both are NaN or infinite if the matrix is singular.
 
     Returns
     -------

@@ -39,16 +39,16 @@ def survey(p, states, phases, tolerance, log, sums):
     p : array, shape (packed.COUNT,)
         Packed parameters.
     states : array, shape (m, 4)
-        States at the beginnings of the segments; replaced by those at the ends.
+        States at the beginnings of the segments, replaced by the states at their ends.
     phases : array, shape (m + 1,)
         Phases W T at which the segments begin, and at which the last one ends, radian.
     tolerance : float
-        Local error allowed.
+        Largest local error of a step.
     log : array, shape (n, 5)
-        Receives a row for each of the first n contacts, as from `records.trace`.
+        Receives a row for each of the first n contacts, as from `traces.trace`.
     sums : array, shape (2, 2)
-        Receives real and imaginary part of the mean of 2 exp(-i W T) Z1 and of the same with Z2,
-        over SAMPLES phases a cycle of the forcing.
+        Receives real and imaginary part of the mean of 2 exp(-i W T) Z1 (row 0) and of
+        2 exp(-i W T) Z2 (row 1), from SAMPLES samples in a forcing cycle.
 
     Returns
     -------
@@ -103,7 +103,7 @@ def list_turns(p, states, phases, tolerance, turns):
         As in `survey`.
     turns : array, shape (n, 4)
         Receives a row for each of the first n extrema: segment, phase W T, 1 for a maximum of |Z2|
-        or 0 for a minimum, and |Z2| - d0.
+        or 0 for a minimum, and |Z2| minus the clearance.
     """
     work, start = workspace(), np.empty(4)
     c = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
@@ -224,15 +224,17 @@ def separate(factors, apart, sweeps, settled, coupled, blocks, cuts):
         Factors of the product, the rightmost factor first.
     apart : float
         Two neighbouring moduli belong to different groups if their ratio exceeds this number, and
-        if the subspaces of the groups turn by less than the root of `settled` in the last
+        if the subspaces of the groups turn by less than the square root of `settled` in the last
         iteration.
     sweeps : int
         Largest number of iterations.
     settled : float
-        The iteration ends once the subspaces of the groups turn by less than this (radian).
+        The iteration stops once the subspaces of the groups turn by less than this angle (radian)
+        in an iteration.
     coupled : float
-        Groups whose subspaces still turn by more are not separated. Within a complex pair the
-        moduli of the iterates may differ by any factor, but the subspaces keep turning.
+        While the subspaces of two groups turn by more than this angle (radian) in an iteration, the
+        groups count as one. The two vectors of a complex pair keep turning, even if the ratio of
+        their lengths exceeds `apart`.
     blocks : array, shape (n, n)
         Receives the diagonal blocks.
     cuts : array of int, shape (n + 1,)
@@ -272,7 +274,8 @@ def separate(factors, apart, sweeps, settled, coupled, blocks, cuts):
         cuts[groups] = n
         if moved < settled:
             break
-    # A complex pair turns in its plane for ever, and the lengths of its two axes may seem apart.
+    # The two vectors of a complex pair never stop turning in their plane. If they were separated
+    # because the ratio of their lengths exceeds `apart`, they are joined again.
     kept = 1
     for group in range(1, groups):
         j, moved = cuts[group], 0.0

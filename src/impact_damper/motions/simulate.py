@@ -110,7 +110,7 @@ def start_of(state, start, frequency) -> float:
     if phase is not None and abs(math.remainder(frequency * start - phase, 2 * np.pi)) > 1e-6:
         raise ValueError(
             f"start = {start:.9g}: must be at the phase W T = {phase:.6g} that the state carries, "
-            "or be left out; state.values carries none"
+            "or be left out; state.values has no phase"
         )
     return start
 

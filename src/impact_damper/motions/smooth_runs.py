@@ -89,9 +89,9 @@ def run(p, states, numbers, periods, slopes, largest):
 
 @kernel_only
 def step(p, i, y, force, h, rates, here):
-    """Replace a state and its disturbances, the rows of y, by their values after a step.
+    """Replace a state (row 0 of y) and its tangents (other rows) by their values after a step.
 
-    `rates` and `here` are working memory.
+    A tangent is a solution of the variational equations. `rates` and `here` are working memory.
     """
     for stage in range(STAGES + 1):
         for row in range(len(y)):
@@ -115,7 +115,7 @@ def step(p, i, y, force, h, rates, here):
 
 @kernel_only
 def write_rate(p, i, y, force, rate):
-    """Write to `rate` the derivatives of a state (row 0) and of its disturbances (other rows)."""
+    """Write to `rate` the time derivatives of a state (row 0) and of its tangents (other rows)."""
     x, u, factor = y[0, 0], y[0, 2], 1.0
     for row in range(len(y)):
         spring = p[i, STIFFNESS] + factor * p[i, CUBIC] * x * x
@@ -131,7 +131,7 @@ def write_rate(p, i, y, force, rate):
 
 @kernel_only
 def note_largest(p, i, y, force, h, rates, ends, largest):
-    """Update the largest moduli by those within a step and at its end.
+    """Update the largest moduli by the moduli at the end of a step and at extrema within the step.
 
     Within the step a displacement is represented by the polynomial of degree 5 that agrees with
     displacement, velocity and acceleration at both ends of the step.

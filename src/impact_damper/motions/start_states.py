@@ -14,8 +14,8 @@ starts of a search are of two kinds:
   system. On a ramp a motion stays on its branch. Therefore ramps find the violent motions of weakly
   damped machines, whose basins are so small that hardly any random start lies in them.
 
-In a search without a given radius, Newton's method then finds stable orbits beside these motions
-(`orbit_search`), from random states of the loose mass.
+In a search without a given radius, Newton's method then searches for further stable orbits, from
+the motions found and random states of the loose mass (`orbit_search`).
 
 With a given radius all starts are random and uniform in a ball, as in the paper (section 3, iii).
 
@@ -45,12 +45,14 @@ SMALLEST = 0.01
 # Placed starts:
 # PLACES      Z2 divided by the clearance
 # VELOCITIES  Z2' divided by the larger of two speeds: the largest speed of the free motions, and
-#             the speed that crosses the gap in half a forcing cycle
+#             the speed that crosses the gap in half a forcing cycle. With the primary mass at rest
+#             it is divided by the second speed.
 PLACES = (-2 / 3, 0.0, 2 / 3)
 VELOCITIES = (-1.0, 0.0, 1.0)
 # Search for orbits by Newton's method:
 # LOOSE_STATES  number of states of the loose mass from which the search begins
-# LOOSE_SPEED   largest |Z2'| of these states, divided by the same speed as in VELOCITIES
+# LOOSE_SPEED   largest speed |Z1' - Z2'| of the loose mass in these states, divided by the larger
+#               of the two speeds of VELOCITIES
 LOOSE_STATES = 240
 LOOSE_SPEED = 2.0
 # With a softening spring a random start has at most WITHIN times the displacement of the barrier

@@ -112,8 +112,8 @@ def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=
             raise ArithmeticError(f"{name}: the motion leads to no orbit; simulate shows it")
     if not is_settled(steady):
         raise ArithmeticError(
-            f"settling.limit = {settling.limit}: the motion has not settled by then; with a larger "
-            "limit it runs longer, and steady_motion returns its outcome"
+            f"settling.limit = {settling.limit}: the motion has not settled within this number of "
+            "forcing cycles; a larger limit lets it run longer; steady_motion returns its outcome"
         )
     return simulate(
         oscillator,

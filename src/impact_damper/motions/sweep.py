@@ -1,10 +1,10 @@
 """Find the motions along a sweep of one parameter, by runs from start states and by following.
 
 At each value of the parameter motions are run from the starts of a search, and Newton's method
-searches for stable orbits beside these motions. Each settled motion is then followed by Newton's
-method to the next value, upward and downward, so that motions with small basins of attraction are
-found too. A branch ends where its motion cannot be followed. Motions that have not settled are
-matched between neighbouring values by `motions.matching`.
+searches for further stable orbits. Each settled motion is then followed by Newton's method to the
+next value, upward and downward, so that motions with small basins of attraction are found too. A
+branch ends where its motion cannot be followed. Motions that have not settled are matched between
+neighbouring values by `motions.matching`.
 
 Z1 is the displacement of the primary mass.
 """

@@ -34,9 +34,9 @@ from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # Largest number of forcing cycles of the first block.
 FIRST = 1500
-# Smallest growth of the tangent of a chaotic motion in a block, as a natural logarithm. A motion
-# that leaves an unstable orbit grows too, but only from a rounding error of 1e-16 to a size of
-# order 1, by ln(1e16) = 37.
+# Smallest growth of the tangent of a chaotic motion in a block, as a natural logarithm. The tangent
+# also grows while a motion leaves an unstable orbit. The distance from the orbit then grows from a
+# rounding error of 1e-16 to a size of order 1, and the tangent grows as much, by ln(1e16) = 37.
 GROWN = 40.0
 # Number of batches of a block, from which the standard error of the exponent is computed.
 BATCHES = 30
@@ -192,9 +192,9 @@ def _is_known(record, known, states):
 
 
 def _exponent(growth):
-    """Return the mean growth in a cycle and its standard error, from BATCHES long batches.
+    """Return the mean growth (logarithm) in a cycle and its standard error, from BATCHES batches.
 
-    On a closed curve growth and decay alternate and cancel only over long batches.
+    On a closed curve growth and decay alternate, and cancel only in long batches.
     """
     length = len(growth) // BATCHES
     batches = growth[-BATCHES * length :].reshape(BATCHES, length).mean(axis=1)
@@ -202,7 +202,10 @@ def _exponent(growth):
 
 
 def _grows(growth, mean, error):
-    """Return whether a tangent certainly grows, and still grows in the last quarter."""
+    """Return whether a tangent certainly grows in a block, and still grows in its last quarter.
+
+    In the last quarter the growth in a cycle must exceed half the mean growth of the block.
+    """
     lasting = np.mean(growth[-len(growth) // 4 :]) > mean / 2
     return lasting and mean > CONFIDENCE * error and np.sum(growth) > GROWN
 
@@ -218,7 +221,7 @@ def _on_orbit(p, record, states, contacts, limit):
     for n in np.flatnonzero(near) + 1:
         y, n = last.copy(), int(n)
         found, residual, multiplier = polish(p, y, n, REACH, POLISH_TOLERANCE)
-        # n rises, so an orbit with a shorter period was found before.
+        # n rises, so the first orbit found has the shortest period; divisors need no check.
         if not found or abs(multiplier) >= 1:
             continue
         duration = n * 2 * math.pi / p[FREQUENCY]
@@ -235,9 +238,10 @@ def _on_orbit(p, record, states, contacts, limit):
 def _quasi_periodic(p, record, states, mean, error):
     """Return QUASI_PERIODIC if the states move along closed curves, otherwise UNRESOLVED.
 
-    `find_rotation` is tried on each of the curves, because a curve on which contacts begin or end
-    at the strobe has corners. It is tried in the plane of (Z1, Z1') and in the plane of (Z2, Z2'),
-    because in one of them the curve may be so bent that it does not go around its centre.
+    For each number of curves up to LONGEST_PERIOD, `find_rotation` is tried on every curve, because
+    it can fail on a curve with corners. A curve has corners if contacts begin or end at the strobe.
+    It is tried in the plane of (Z1, Z1') and in the plane of (Z2, Z2'), because in one of these
+    planes the curve may be so bent that it does not go around its centre.
     """
     if abs(mean) > NEUTRAL * error:
         return UNRESOLVED

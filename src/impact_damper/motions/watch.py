@@ -58,9 +58,9 @@ REST = 1e-9
 # untouched  number of successive forcing cycles without contact
 # near       distance from an orbit at which Newton's method is tried next
 # energy     without forcing, the energy at the first strobe
-# The other fields describe the growth of a small change of the state (`growth`):
-# periods    number of cycles
-# batch      logarithm of the growth in the present batch
+# The other fields describe the growth of a tangent, a small change of the state (`growth`):
+# periods    number of cycles over which the growth has been followed
+# batch      logarithm of the growth in the present batch of cycles
 # mean, squares, recent: mean, sum of squares and last values of complete batches
 SEEN = np.dtype(
     [
@@ -137,8 +137,8 @@ def leave_transient(p, out):
 def stays_without_contact(p, y, ring, k, out):
     """Move the primary mass of a motion without contacts onto the orbit near it, if there is one.
 
-    Z2 - Z1 and Z2' - Z1' are not changed. Return whether there is a stable orbit of the primary
-    mass with a period of at most LONGEST_PERIOD.
+    The loose mass keeps its place and its velocity. Return whether there is a stable orbit of the
+    primary mass with a period of at most LONGEST_PERIOD.
     """
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
@@ -182,26 +182,27 @@ def watch_free(p, y, seen, out):
 def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
     """Judge a motion at a strobe; return whether the motion is stopped.
 
-    A motion is stopped
+    `patience` and `limit` are numbers of forcing cycles. A motion is stopped
 
-    - when it has settled, diverged or escaped, or at `limit`;
+    - when it has settled, diverged or escaped, or after `limit` cycles;
     - with the outcome at_rest if there is no forcing and its energy, which cannot grow, is below
       REST times the energy at the first strobe. An unforced motion is stopped only for this reason,
-      after an escape or divergence, or at `limit`;
+      after an escape or divergence, or after `limit` cycles;
     - with the outcome non_colliding if it has settled without contacts, or if the primary mass is
       on an orbit, the loose mass has touched no wall for `patience` cycles, and the loose mass
-      would drift by less than 1 % of the clearance until `limit`;
-    - with the outcome drifting at `limit` if the primary mass is on an orbit, the loose mass has
-      touched no wall for `patience` cycles, and it drifts farther;
+      would drift by less than 1 % of the clearance in `limit` cycles;
+    - with the outcome drifting after `limit` cycles if the primary mass is on an orbit, the loose
+      mass has touched no wall for `patience` cycles, and the loose mass drifts faster;
     - with the outcome chaotic after `patience` cycles if the largest Lyapunov exponent exceeds
-      CONFIDENCE standard errors and the growth continues in the last batches. (Otherwise a chaotic
-      transient may just have ended.) With an exponent below WEAK the motion is stopped only at
-      `limit`, because a slow spiral can look like weak chaos for some time.
+      CONFIDENCE standard errors and the tangent still grows in the last batches. (Otherwise a
+      chaotic transient may just have ended.) With an exponent below WEAK the motion is stopped only
+      in the last BLOCK cycles before `limit`, because a slow spiral can look like weak chaos for
+      some time.
 
-    The exponent is computed from the growth of one tangent after `patience`/2 cycles. In the same
-    cycles `reach` is computed, the largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe. For a motion on an
-    orbit the exponent is computed from the dominant multiplier, because the run before is a
-    transient.
+    The exponent is computed from the growth of one tangent, which is followed from cycle
+    `patience`/2 on. From this cycle on `reach` is updated too, the largest
+    (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe. For a motion on an orbit the exponent is computed from the
+    dominant multiplier instead, because the motion before is a transient.
 
     Outcome, period, residual, dominant multiplier, periods_run, reach and the exponent per unit of
     time are written to the record `out`. y is moved onto the orbit if there is one.
