@@ -2,7 +2,7 @@
 
 At a grazing the loose mass reaches a wall with zero speed. The damper is that of figure 10. Its
 branches of period 2 and of asymmetric orbits of period 3 begin on other branches, at frequencies
-that differ from that of a grazing by less than 1e-9.
+that differ from the frequency of a grazing by less than 1e-9.
 
 W is the forcing frequency and W T the phase of the forcing.
 """

@@ -80,9 +80,9 @@ def test_fold_and_loss_of_symmetry_beside_a_grazing(quiet):
 
 @pytest.mark.thorough
 def test_ends_of_all_branches_of_a_damper():
-    """Each branch ends at the range or at another branch, or it is closed.
+    """Each branch ends at the range or at another branch, or it is closed, or left if unstable.
 
-    Longer ones that leave at a bifurcation are followed only as far as they are stable.
+    Only branches of periods above 4 cycles may be left where they become unstable (the end 7).
     """
     response = frequency_response(PAPER, INELASTIC, [1.15, 1.2], starts=12)
     branches = complete_branches(PAPER, INELASTIC, (1.1, 1.4), [response])

@@ -229,7 +229,7 @@ def test_averages_agree_between_methods_and_have_errors_that_fall():
 
 
 def loosest_tolerance(data):
-    """Return the loosest tolerance at which the Taylor series, as at all tighter ones, is accurate.
+    """Return the largest tolerance such that the Taylor series is accurate with it and below it.
 
     Accurate means that the error is within the accuracy that the scene requires.
     """

@@ -125,7 +125,8 @@ def test_the_earliest_arrival_is_that_of_all_moments(free):
 def test_no_policy_beats_the_clairvoyant_bound(free, damper):
     """In the same trials hardly any policy arrives earlier than the clairvoyant controller.
 
-    In a few trials another motion than the resonance, from which a hold begins, may be better.
+    The bound is not strict. The clairvoyant controller does not choose the free motion from which
+    its next hold begins, so that in a few trials a policy begins from a better one.
     """
     on = pack(CUBIC, damper, W)
     bound = clairvoyant(on, free, 40, 350.0, 6)

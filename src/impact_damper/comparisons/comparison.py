@@ -1,4 +1,4 @@
-"""A published number beside the number computed by this package.
+"""A published number and the number computed by this package.
 
 A start is an initial state.
 """
@@ -9,7 +9,7 @@ import numpy as np
 
 
 class Comparison(NamedTuple):
-    """A published number, or a value of a published closed form, beside this package's number.
+    """A published number, or a value of a published closed form, and this package's number.
 
     Attributes
     ----------

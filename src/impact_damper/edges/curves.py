@@ -93,7 +93,7 @@ class Edge:
 
 
 def follow_edge(family, kind, orbit, values, spans) -> Edge | None:
-    """Return the edge near an orbit, followed in both directions from its point nearest to it.
+    """Return the edge near an orbit, followed both ways from the point nearest to the orbit.
 
     Parameters
     ----------

@@ -134,7 +134,7 @@ class EdgeGrid(Grid):
         return followed
 
     def ends(self):
-        """Return a list, in the form of `crossings`, of the pairs between which the orbit ends."""
+        """Return the pairs of cells between which the orbit ends, in the form of `crossings`."""
         return [
             (kind, last, self.points[target])
             for kind, _, target, last in self.failed

@@ -1,4 +1,4 @@
-"""The branches that leave other branches at bifurcations: found, and followed if that can end.
+"""The branches that leave other branches at bifurcations: all searched for, and some followed.
 
 A branch is the curve of the periodic orbits over a parameter. At every loss of symmetry and every
 period doubling another branch leaves. The orbits of this other branch have less symmetry: they are

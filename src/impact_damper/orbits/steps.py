@@ -14,7 +14,7 @@ from impact_damper.orbits import between
 # SKEW: largest difference between the directions of the chord and of the mean tangent.
 TURNED, SKEW = 0.5, 0.03
 # Length of the next step.
-# AIM: the step is chosen to use about this share of the bounds TURNED and SKEW.
+# AIM: the step is chosen to use about this fraction of the bounds TURNED and SKEW.
 # GROWTH: largest ratio of its length to the length before.
 # SHRINKAGE: least ratio after a step that was not accepted.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3

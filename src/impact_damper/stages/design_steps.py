@@ -186,7 +186,7 @@ class DesignSteps(NamedTuple):
         )
 
     def masses(self, gap, limit):
-        """Return dampers of other masses beside this one."""
+        """Return this damper and dampers of other masses, judged by the same tests."""
         running = self.running("Other masses")
         found = [judge(self.task, gap, limit, **running)]
         return labelled.masses_dataset(found + alternatives(self.task, limit, **running))

@@ -71,12 +71,12 @@ def clearance_sweep(
         starts lead, and the amplitude |a| of the smallest stable solution of the harmonic balance
         (7). Scalars: the optimum and the kind of minimum, both for the quiet motion and for (7);
         the clearances of rules (18) and (19), NaN for (19) if the response without the damper has
-        no peak; rm W^2 d0/f at the optimum, with the forcing amplitude f; and the fractions of its
-        excess over 1 that two corrections of (18) explain. The first replaces the 1 by pi^2/8, from
-        the first harmonic of a loose mass that flies at constant speed. The second is the theory of
-        this straight flight between walls of finite stiffness. For each `edge` an end of the range
-        of clearances in which max |Z1| is within 10 % of its minimum. The attribute `optimum` is a
-        sentence on the optimum, or says that there is no quiet motion.
+        no peak; rm W^2 d0/f at the optimum, with the forcing amplitude f; and the fractions of
+        the excess of this ratio over 1 that two corrections of (18) explain. The first replaces the
+        1 by pi^2/8, from the first harmonic of a loose mass that flies at constant speed. The
+        second is the theory of this straight flight between walls of finite stiffness. For each
+        `edge` an end of the range of clearances in which max |Z1| is within 10 % of its minimum.
+        The attribute `optimum` is a sentence on the optimum, or says that there is no quiet motion.
 
     Raises
     ------

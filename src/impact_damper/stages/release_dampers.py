@@ -26,8 +26,8 @@ from impact_damper.system.parameters import Damper, describe
 from impact_damper.system.settling import check_settling
 
 # The policy by state switches the damper off once a release would lead to the goal. If no such
-# state comes within a number of cycles, it switches the damper off and on again. Two numbers are
-# tried, few and infinitely many, and the better one counts.
+# state comes within a largest number of cycles, it switches the damper off and on again. Two such
+# limits are tried, 5 cycles and no limit, and the better one counts.
 WAITS = [Policy(STATE, 5.0), Policy(STATE, math.inf)]
 POLICIES = ["settled", "state"]
 # A motion is quiet if its largest displacement is below QUIET times that of the resonance motion
@@ -163,7 +163,7 @@ class _Judge:
     def _migration(self, damper):
         """Return the success of each policy and the median of its cycles, shape (2, 3) each.
 
-        A row holds the number and the ends of its 95 % confidence interval.
+        A row holds a value and the ends of its 95 % confidence interval.
         """
         on, limit = pack(self.oscillator, damper, self.frequency), float(PAPER_CYCLES)
         chosen = best_policy(on, self.free, WAITS, self.trials, limit, [self.seed, 1])

@@ -37,7 +37,7 @@ def _scan_records(response):
 
 
 def _padded(values, length):
-    """Return `values` with its first axis extended to a length by NaN, or by -1 for integers."""
+    """Return an array, extended along its first axis to a length by NaN, or by -1 for integers."""
     missing = np.full(
         (length - len(values), *values.shape[1:]),
         np.nan if values.dtype.kind == "f" else -1,

@@ -43,7 +43,7 @@ def frequency_response(
 ):
     """Find all motions at each frequency, from many starts and from neighbouring frequencies.
 
-    Without a radius, Newton's method also looks for stable orbits beside the motions found. Each
+    Without a radius, Newton's method also looks for further stable orbits. Each
     motion found is followed to the other frequencies of its branch.
 
     Parameters

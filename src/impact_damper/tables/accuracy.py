@@ -37,7 +37,7 @@ SHOWN = {
         "method": "method",
         "setting": "tolerance or highest harmonic",
         "operations": "work [floating-point operations]",
-        "meets it": "meets it",
+        "meets it": "meets the required accuracy",
         "choice": "choice",
         "of max |Z1|": "error of max |Z1|",
         "contacts a period": "contacts a cycle",
@@ -48,7 +48,7 @@ SHOWN = {
         "model": "model",
         "by the model": "value by the model",
         "by the motions": "value by the exact motions",
-        "or up to": "upper end, if uncertain",
+        "or up to": "upper end, if only a range is known",
         "relative error": "relative error",
     },
 }

@@ -50,7 +50,8 @@ TRUTHS = {
     "low": "small",
     "low chaotic": "small and chaotic",
     "other low": "another small motion",
-    "far": "further off",
+    "near": "violent, max |Z1| within 20 % of |a|",
+    "far": "violent, max |Z1| more than 20 % from |a|",
 }
 # Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
 # In columns without a function, underscores become spaces.

@@ -191,7 +191,7 @@ def other_branches(datasets) -> pd.DataFrame:
                 at = (kinds == kind) & (outcomes == outcome)
                 if not at.any():
                     continue
-                # where a branch ends, the other one is the branch of more symmetry
+                # If the branch of the event ends there, the other branch has more symmetry.
                 periods = period[at] // factor if outcome == "ended" else period[at] * factor
                 row = {"data": name} | parameters | {"event": kind.replace("_", " ")}
                 row |= {"other branch": words, "events": int(at.sum())}

@@ -38,7 +38,7 @@ SHOWN = {
     "stable_steps": {
         "data": "data",
         "method": "method",
-        "within": "allowed error",
+        "within": "allowed relative error of max |Z1|",
         "r1": "contact stiffness r1",
         "h": "largest step h",
         "steps a period": "steps a cycle",
@@ -61,7 +61,8 @@ def missed_contacts(datasets) -> pd.DataFrame:
     """Return the contacts that each method finds and misses near grazing, summed over all depths.
 
     The depth of a contact is the distance by which the motion would pass the wall if there were no
-    wall. "Unseen" contacts were stepped over; "spurious" ones do not exist in truth.
+    wall. "Unseen" contacts were stepped over. "Not reached" means that the computed motion, because
+    of its error, turns back before the wall. "Spurious" contacts do not exist in truth.
     """
     rows = []
     for name, data in datasets.get("missed_contacts", {}).items():

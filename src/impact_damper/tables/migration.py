@@ -92,7 +92,8 @@ def migration(datasets) -> pd.DataFrame:
 def release_scan(datasets) -> pd.DataFrame:
     """Return the frequencies at which releases from each damped motion lead to each free motion.
 
-    The table has one row for each set of free motions that occurs at one frequency.
+    The table has one row for each scan, damped motion and set of free motions. The row lists the
+    frequencies at which releases lead to each free motion of the set and to no other.
     """
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():

@@ -28,7 +28,8 @@ MATCHED = ("response", "optimum")
 LISTED = 0.05
 # Rare outcomes, counted together in the column `other`.
 OTHERS = ("diverged", "escaped", "at_rest")
-# Flag of a torus that splits off an orbit with a further multiplier outside the unit circle.
+# Kind of a torus around an orbit with a multiplier outside the unit circle, in addition to the pair
+# of multipliers on the circle. Such tori are not listed.
 UNSTABLE_ORBIT = "of_unstable_orbit"
 # A Lyapunov exponent within this number of standard errors of 0 counts as 0.
 NEUTRAL = 3.0
@@ -64,10 +65,10 @@ SHOWN = {
         "W": "Neimark-Sacker point at Ω",
         "angle": "angle of the multiplier [revolutions]",
         "torus": "torus that splits off",
-        "W of torus": "at Ω",
-        "second frequency": "second frequency there",
-        "limit": "rotation number at the point",
-        "growth": "growth of the amplitude",
+        "W of torus": "Ω of the computed torus",
+        "second frequency": "second frequency of this torus",
+        "rotation number at the point": "rotation number, extrapolated to the point",
+        "growth": "growth: change of ln(amplitude) per period of the orbit / amplitude^2",
     },
     "chaos": {
         "data": "curve",
@@ -98,7 +99,7 @@ STAGES = {
     "subharmonic": "starts on the free subharmonic",
     "optimum": "clearance sweeps",
     "studies": "planes of two parameters",
-    "balance_map, high run": "starts at violent solutions of (7)",
+    "balance_map, high run": "starts at the largest solution of harmonic balance",
 }
 TORI = {"stable": "stable", "unstable": "unstable", "unknown": "not found out"}
 # Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
@@ -110,7 +111,10 @@ SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
 
 
 def outcomes(datasets) -> pd.DataFrame:
-    """Return the numbers of starts by outcome, and of unresolved ones by sign of the exponent."""
+    """Return the numbers of starts with each outcome.
+
+    Unresolved starts are also counted by the sign of their Lyapunov exponent.
+    """
     rows = []
     for stage in SWEPT:
         for name, data in extract.damped(datasets, stage).items():
@@ -137,7 +141,9 @@ def _row(stage, name, counts):
         | shown
         | {
             "other": others,
-            "unresolved of 2000": 2000 * counts["unresolved"] / starts if starts else np.nan,
+            "unresolved per 2000 starts": 2000 * counts["unresolved"] / starts
+            if starts
+            else np.nan,
         }
     )
 
@@ -185,8 +191,9 @@ def quasi_periodic(datasets) -> pd.DataFrame:
 def tori(datasets) -> pd.DataFrame:
     """Return the Neimark-Sacker points at which stable orbits lose their stability, and the tori.
 
-    At such a point a pair of complex multipliers leaves the unit circle, and a torus of
-    quasi-periodic motions splits off. The torus is listed as computed a little beyond the point.
+    At such a point a pair of complex multipliers crosses the unit circle, and a torus of
+    quasi-periodic motions splits off. The torus is stable, unstable or of unknown stability. For a
+    stable torus the row holds its frequencies and its rotation number a little beyond the point.
     """
     rows = []
     for name, data in extract.damped(datasets, "branches").items():
@@ -217,21 +224,31 @@ def tori(datasets) -> pd.DataFrame:
                     "second frequency": first * float(event.torus_number),
                     "rotation number": float(event.torus_number),
                     "its error": float(event.torus_error),
-                    "limit": float(event.torus_limit),
-                    "limit less angle": float(event.torus_limit - event.torus_angle),
+                    "rotation number at the point": float(event.torus_limit),
+                    "rotation number at the point minus angle": float(
+                        event.torus_limit - event.torus_angle
+                    ),
                 }
             )
     frame = pd.DataFrame(rows)
-    digits = ("W", "angle", "W of torus", "second frequency", "rotation number", "limit")
+    digits = (
+        "W",
+        "angle",
+        "W of torus",
+        "second frequency",
+        "rotation number",
+        "rotation number at the point",
+    )
     for column in digits if rows else ():
         frame[column] = frame[column].map(lambda x: f"{x:.8f}" if np.isfinite(x) else "")
     return frame.sort_values(["data", "W"], kind="stable") if rows else frame
 
 
 def chaos(datasets) -> pd.DataFrame:
-    """Return the chaotic motions larger than half of the free resonance, with their mean lives.
+    """Return the chaotic motions that are violent, with their mean lives.
 
-    Free means without damper.
+    A motion is violent if it has contacts and its max |Z1| exceeds half of max |Z1| on the
+    resonance branch without damper at the same W.
     """
     rows = []
     for name, data in extract.damped(datasets, "response").items():
@@ -262,7 +279,7 @@ def chaos(datasets) -> pd.DataFrame:
 
 
 def shares(datasets) -> pd.DataFrame:
-    """Return the motions to which at least LISTED of the starts lead at some parameter value."""
+    """Return the motions whose share of the starts is at least LISTED at some parameter value."""
     rows = []
     for stage in MATCHED:
         for name, data in extract.damped(datasets, stage).items():

@@ -49,22 +49,22 @@ SHOWN = {
         "e": DAMPER["e"],
         "rm": DAMPER["rm"],
         "d0 for migration": "best clearance for migration by state",
-        "median cycles": "median time with it [cycles]",
+        "median cycles": "median time with the clearance for migration [cycles]",
         "d0 for suppression": "best clearance for suppression",
-        "quiet": "quiet displacement with it / free resonance",
-        "median cycles, suppression": "median time with it by state [cycles]",
-        "same": "is it as good for migration",
+        "quiet": "quiet displacement with the clearance for suppression / free resonance",
+        "median cycles, suppression": "median time with the clearance for suppression [cycles]",
+        "same": "is the clearance for suppression as good for migration",
     },
     "release_answers": {
         "W": DAMPER["W"],
         "e": DAMPER["e"],
         "for migration": "best damper for migration by state",
-        "median cycles": "its median time [cycles]",
-        "quiet": "its quiet displacement / free resonance",
+        "median cycles": "median time with the damper for migration [cycles]",
+        "quiet": "quiet displacement with the damper for migration / free resonance",
         "for suppression": "best damper for suppression",
-        "median cycles, suppression": "its median time by state [cycles]",
-        "quiet, suppression": "its quiet displacement / resonance",
-        "answer": "is the best for migration the best for suppression",
+        "median cycles, suppression": "median time with the damper for suppression [cycles]",
+        "quiet, suppression": "quiet displacement with the damper for suppression / free resonance",
+        "answer": "is one damper the best for both",
     },
 }
 # Text shown in Markdown for each policy.
@@ -227,7 +227,11 @@ def release_answers(datasets) -> pd.DataFrame:
                 apart = float(ends.sel(bound="lower")[quietest]) > float(
                     ends.sel(bound="upper")[best]
                 )
-                slower = "no; the latter is slower" if apart else "no, but as fast within the error"
+                slower = (
+                    "no; the damper for suppression is slower"
+                    if apart
+                    else "no, but the damper for suppression is as fast within the error"
+                )
                 row |= {"answer": "yes" if best == quietest else slower}
             else:
                 row |= {"answer": "no damper reaches the goal in half of the runs, or is quiet"}

@@ -1,4 +1,4 @@
-"""Table of numbers computed by this package (ours) beside published ones and closed forms."""
+"""Table of numbers computed by this package (ours), published numbers and closed forms."""
 
 import numpy as np
 import pandas as pd
