@@ -1,4 +1,4 @@
-"""The best absorber by direct search, against the linear limit, its neighbours, exact motions."""
+"""The best absorber by direct search: the linear limit, similar absorbers, and exact motions."""
 
 from dataclasses import replace
 

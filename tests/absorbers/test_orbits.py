@@ -25,7 +25,10 @@ def found(request):
 
 
 def equation(absorber, hertz, share):
-    """Return the rate in SI units of state, work of the force, and losses in the dashpots."""
+    """Return the function of the rates, in SI units, of state, work of the force, and losses.
+
+    The losses are those in the dashpots of machine and absorber.
+    """
 
     def rate(t, y):
         x, v, u, w = y[:4]

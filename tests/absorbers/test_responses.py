@@ -107,7 +107,7 @@ def test_a_motion_without_a_period_by_scipy():
 
 @pytest.mark.thorough
 def test_a_motion_without_a_period_that_few_starts_reach():
-    """If no random start leads to the motion, neighbouring frequencies and forces lead to it."""
+    """A motion that no random start leads to is found from neighbouring frequencies and forces."""
     machine, absorber = HARD, best_absorber(HARD, 0.6, (20, 32))
     frequencies, shares = np.linspace(23.0, 27.5, 16), [2.83, 4.0]
     problems = problems_of(machine, absorber, frequencies, shares)
@@ -144,7 +144,7 @@ def test_a_detached_resonance():
 
 @pytest.mark.thorough
 def test_the_bare_machine_by_the_search_of_the_package():
-    """Motions from random starts by the integrator of the package that also treats contacts."""
+    """The search of `frequency_response`, with another integrator, finds the same displacements."""
     data = absorber_responses(HARD, 0.6, [23.0, 24.0], [1.0], detunings=[0.0])
     other = idm.frequency_response(HARD, None, [23.0, 24.0], starts=2)
     stable = other["maximum_displacement"].where(np.isfinite(other["residual"]))

@@ -69,7 +69,7 @@ def test_labels_of_random_states(free):
 
 
 def test_neighbourhoods_contract(free):
-    """States on the edge of a proven neighbourhood come closer to the orbit in its period."""
+    """States on the edge of a proven neighbourhood come closer to the orbit within one period."""
     frequency, _, attractors = free
     assert np.all(np.isfinite(attractors.shape))
     angles = np.linspace(0, 2 * np.pi, 16, endpoint=False)

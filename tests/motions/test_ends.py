@@ -70,7 +70,7 @@ def test_a_motion_that_stays_has_no_time_of_escape():
 
 @pytest.mark.parametrize("damping", [0.002, 0.05, 0.5])
 def test_length_of_a_linear_decay(damping):
-    """The motion is at rest once the energy, which falls as exp(-h t), is 1e-9 of the first."""
+    """The energy falls as exp(-h T). The motion is at rest at 1e-9 of the first energy."""
     oscillator, frequency = idm.Oscillator(damping, 3.0, 0.0, 0.0), 5.0
     settling = idm.Settling(limit=20000)
     found = idm.steady_motion(oscillator, None, frequency, (1.0, 0.0), settling=settling)
@@ -113,7 +113,7 @@ def test_responses_hold_one_escape_and_one_rest(oscillator):
 
 
 def test_records_of_runs_side_by_side():
-    """Motions that settle have the same records with escaping motions beside them as alone."""
+    """Motions that settle have the same records whether or not escaping motions are run too."""
     soft, hard = pack(SOFT, DAMPER, 1.0), pack(idm.Oscillator(0.3, 1.0), DAMPER, 1.0)
     random = np.random.default_rng(3)
     states = random.uniform(-1, 1, (60, 4)) * [3.0, 1.0, 0.4, 1.0]

@@ -52,7 +52,7 @@ def test_transient_is_told_from_chaos_that_lasts(violent):
 
 
 def test_longer_runs_agree(violent):
-    """Runs of twice the length, with other disturbances, have the same mean life."""
+    """Runs of twice the length, from other random states, have the same mean life."""
     short, long = lives(violent, 60, 500), lives(violent, 60, 1000, seed=2)
     for bound, sense in (("lower", 1), ("upper", -1)):
         other = long[f"mean_life_{bound}"][1, 0] - short["mean_life"][1, 0]

@@ -22,7 +22,7 @@ CHAOS = [motion("chaotic", size) for size in (2.0, 1.0, 0.1)]
 
 
 def test_the_closest_sizes_are_matched_first():
-    """Within a factor of 1.5, 1.2 can only be matched with 1, and 1.45 with 2 and with 1."""
+    """With ratios below 1.5 the size 1.2 can only match 1.0; the size 1.45 can match 2.0 or 1.0."""
     assert match_unsettled(CHAOS, [motion("chaotic", size) for size in (1.45, 1.2)]) == [
         (1, 1),
         (0, 0),
@@ -60,7 +60,10 @@ def test_chaos_that_is_small_for_a_while_is_the_same():
 
 
 def test_chaos_of_one_damper_is_one_motion():
-    """The loose mass rests for many periods between bursts, so displacements differ much."""
+    """Between bursts the loose mass rests for many periods, so one chaos has records that differ.
+
+    Their displacements were measured with and without a burst.
+    """
     found = frequency_response(PAPER, Damper(0.12, 2.0), [2.6], starts=60, radius=2.0, seed=1)
     chaos = found.outcome.values[0] == flag("outcome", "chaotic")
     assert chaos.sum() == 1 and int(found.motion_starts.values[0][chaos][0]) > 20

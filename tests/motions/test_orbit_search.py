@@ -1,4 +1,4 @@
-"""Stable orbits with small basins of attraction, found by Newton's method beside other motions.
+"""Stable orbits with small basins of attraction, which Newton's method finds and starts miss.
 
 Z1 is the displacement of the primary mass.
 """

@@ -81,7 +81,7 @@ def test_a_later_start_at_the_same_phase_settles_alike(quiet, turns):
 
 
 def test_a_start_within_a_period_leads_where_simulation_leads():
-    """A start at W T = 1 is the same as the state simulated on to the next strobe."""
+    """A start at W T = 1 leads to the same motion as its state at the next strobe."""
     begin = 1.0 / FREQUENCY
     run = idm.simulate(
         OSCILLATOR, None, FREQUENCY, (0.3, 0.1), start=begin, periods=(np.pi / 2 - 1) / (2 * np.pi)

@@ -37,7 +37,10 @@ def test_points_on_a_line_are_no_curve():
 
 
 def test_error_falls_faster_than_a_power():
-    """Twice the orbit has less than a fiftieth of the error; without weights, about half of it."""
+    """An orbit of twice the length has less than a fiftieth of the error.
+
+    Without weights the error would be about half.
+    """
     errors = []
     for count in (25, 50, 100, 200):
         values = np.sin(2 * np.pi * GOLDEN * np.arange(count)) ** 2

@@ -42,7 +42,10 @@ def growth_of_tangent(p, state, periods, skipped):
 
 
 def divergence_of_neighbours(p, state, periods, skipped=100, apart=1e-7, batches=20):
-    """Return the rate at which two motions, rescaled every period, diverge, and its error."""
+    """Return the rate at which two neighbouring motions diverge, and its standard error.
+
+    After every period the second motion is moved back to the distance `apart` from the first.
+    """
     period, strobe = 2 * math.pi / p[0], 0.5 * math.pi / p[0]
     work = single.workspace()
 

@@ -57,7 +57,7 @@ def test_the_default_search_finds_the_violent_motion_that_a_ball_of_radius_2_mis
 
 @pytest.mark.parametrize("name, frequency", [("softening", 0.85), ("linear", 1.3), ("shaken", 1.0)])
 def test_free_motions_are_settled_ones(name, frequency):
-    """By SciPy each free motion returns after a cycle, and the largest give the scales."""
+    """By SciPy each free motion returns after a cycle; largest displacement and speed agree."""
     oscillator = SPRINGS[name]
     found = free_motions(oscillator, frequency, SETTLING)
     force = oscillator.forcing_amplitude(frequency)
@@ -136,7 +136,10 @@ def test_a_radius_gives_the_ball_and_warns_only_where_it_is_narrow():
 
 
 def test_bound_on_what_was_never_seen():
-    """If none of n starts leads to a motion with this share, (1 - share)^n is just below 5 %."""
+    """All of n starts miss a motion with the share `missed_share(n)` with just below 5 %.
+
+    This probability is (1 - share)^n.
+    """
     for n in (24, 96, 1000):
         assert (1 - missed_share(n)) ** n < 0.05 < (1 - 0.9 * missed_share(n)) ** n * 1.1
     assert missed_share(0) == missed_share(1) == 1

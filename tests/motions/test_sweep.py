@@ -53,7 +53,7 @@ def ends_of(data, event="fold"):
 
 
 def test_every_motion_returns(free):
-    """An integration from its state returns after its period and not before."""
+    """An integration from the state of a motion returns after its period and not before."""
     period, state = free["period"][1], free["state"][1]
     outcome = free["outcome"][1]
     for i, frequency in enumerate(FREQUENCIES):

@@ -1,4 +1,4 @@
-"""Motions that settle on no orbit, against spectra, multipliers and their own neighbours.
+"""Undecided motions that are run longer: spectra, multipliers, and integration over a period.
 
 Z1 is the displacement of the primary mass. A strobe is the time of the forcing phase pi/2 in each
 cycle.
@@ -138,7 +138,7 @@ def test_long_period():
 
 
 def test_drifting_mass_has_its_own_name():
-    """The primary mass is on its free orbit; the loose mass crosses the gap in 20 000 periods."""
+    """The primary mass is on its free orbit; the loose mass reaches a wall in 11 000 periods."""
     p = pack(PAPER, Damper(0.12, 2.0), 2.0)
     free = ensemble.settle(pack(PAPER, None, 2.0)[None], np.zeros((1, 4)), Settling())[0]
     state = np.array([*free["state"][:2], *free["state"][:2]])
@@ -149,7 +149,7 @@ def test_drifting_mass_has_its_own_name():
     assert record["period"] == 1 and record["contacts"] == 0
     assert abs(record["maximum_displacement"] - free["maximum_displacement"]) < 1e-9
     assert abs(record["multiplier"] - free["multiplier"]) < 1e-6
-    # with a longer limit it is seen to touch the wall
+    # with a longer limit the loose mass touches a wall
     later = Settling(patience=300, limit=20_000)
     assert ensemble.settle(rows, state[None], later)[0]["outcome"] != records.DRIFTING
 

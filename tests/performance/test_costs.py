@@ -30,7 +30,10 @@ def damper_of(machine, **others):
 
 
 def by_scipy(machine, damper, frequency, state, time):
-    """Last values of the equations of `SiMotion` (state and works), largest force, acceleration."""
+    """Return the last values of the equations of `SiMotion`, and largest force and acceleration.
+
+    The values are the state, then the works and the impulse that `SiMotion` integrates.
+    """
     angular = 2 * math.pi * frequency
     amplitude = machine.force if machine.force else machine.unbalance * angular**2
     motion = SiMotion(machine, damper, lambda t: amplitude * math.cos(angular * t))

@@ -24,7 +24,7 @@ AT_REST = flag("transient_status", "at_rest")
 
 
 def beginnings(found, equipment):
-    """Times at which windows begin, s, and the envelope, mm."""
+    """Return the times (s) at which the windows begin, and the envelope (mm)."""
     part = found.sel(equipment=equipment).dropna("window")
     return part["time"].values - 0.5 / part["frequency"].values, part["envelope"].values
 
@@ -46,7 +46,7 @@ def test_a_linear_machine_decays_exponentially():
 
 
 def test_a_cubic_machine_decays_at_a_third_of_the_rate():
-    """With a purely cubic spring, 2/3 of the energy E is kinetic in the mean.
+    """With a purely cubic spring, 2/3 of the energy E is kinetic on average.
 
     E therefore falls as exp(-4 c t/(3 m)), and the amplitude as its fourth root.
     """

@@ -18,8 +18,8 @@ LINEAR = idm.Machine(**SPRING, force=40)
 HARD = idm.Machine(**SPRING, cubic_stiffness=4e8, force=40)
 DAMPER = {"mass": 0.6, "gap": 0.008, "restitution": 0.7, "contact_stiffness": 2e7}
 NATURAL = LINEAR.natural_frequency
-# At this rate (Hz/s) the frequency crosses the width of the resonance in a few times the decay
-# time of the machine.
+# At this rate (Hz/s) the frequency crosses the width 2 zeta f of the resonance in 2/(zeta f), which
+# is 4 pi times the decay time 1/(2 pi zeta f) of the machine.
 RATE = (0.005 * NATURAL) ** 2
 
 
@@ -86,7 +86,7 @@ def test_periods_are_those_of_the_continuous_phase(first, slope):
 def test_a_slow_sweep_meets_the_resonance_peak():
     """In a slow sweep the peak has the height of the steady state, in faster ones it is lower.
 
-    In steady state this is 1/(2 zeta sqrt(1 - zeta^2)) static deflections.
+    The height in steady state is 1/(2 zeta sqrt(1 - zeta^2)) static deflections.
     """
     damper = LINEAR.damper(**DAMPER)
     peak = 1e3 * 40 / 2e5 / (2 * 0.005 * math.sqrt(1 - 0.005**2))

@@ -140,7 +140,7 @@ def test_shares_of_releases(runs):
 
 @pytest.mark.parametrize("frequency", [1.31, 1.7, 2.014])
 def test_scene(frequency):
-    """Both free motions are found also near the folds where they end, as by harmonic balance."""
+    """Both free motions are found, also near their folds; sizes agree with harmonic balance."""
     known = release_case(CUBIC, PAPER, frequency, Settling()).known
     free = free_solutions(CUBIC, min(frequency, 2.0))
     assert_allclose(known, free.amplitude[[0, -1]], rtol=0.08)
@@ -155,7 +155,7 @@ def test_nothing_to_migrate_between(frequency):
 def test_survival():
     """Survival agrees with SciPy's Kaplan-Meier estimate.
 
-    Runs that last longer than the horizon are censored: their life is known to be longer only.
+    Runs that last longer than the horizon are censored: only a lower bound of their life is known.
     """
     lives = np.array([3, 12, 12, 25, 40, 77, 100, 100])
     times = np.array([0, 10, 12, 30, 80])
@@ -186,7 +186,10 @@ def test_wilson(successes):
 
 
 def test_release_scan():
-    """At W = 1.73 the quiet motion leads to period 3, which does not exist at W = 1.7."""
+    """At W = 1.73 releases from the quiet motion lead to a motion that does not exist at W = 1.7.
+
+    This is the free motion of period 3.
+    """
     scan = release_scan(CUBIC, PAPER, [1.7, 1.73], starts=16, releases=10, lifetime=60)
     quiet = scan.damped_kind == flag("damped_kind", "quiet")
     assert_array_equal(quiet.sum("damped"), [1, 1])

@@ -158,7 +158,7 @@ def test_without_a_disturbance_the_success_is_that_of_the_policy(free):
 
 
 def test_expected_cycles_are_those_of_single_holds(free):
-    """The estimate agrees with single holds with other random numbers, which are not recorded."""
+    """The estimate from recorded holds agrees with holds that are run with other random numbers."""
     of_hold, of_phase = expected_cycles(ON, free, 100, [1])
     assert of_phase.shape == (len(HOLDS), PHASES) and np.all(of_hold >= of_phase.min(axis=1))
     drawn = Draws(2, 400).following()

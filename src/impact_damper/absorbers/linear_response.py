@@ -128,11 +128,11 @@ def tuning_of(machine, absorber) -> Tuning:
 
 
 def maxima(linear, tuning, band):
-    """Return frequencies r and squared displacements at the maxima within a band.
+    """Return frequencies r and squared displacements at the stationary points within a band.
 
-    The maxima are roots of a polynomial. It is written in t with s = 1 + w t, where w is the width
-    of the resonance. In s the roots for a light absorber would be so close together that rounding
-    errors merge them.
+    The stationary points are roots of a polynomial. The polynomial is written in t with
+    s = 1 + w t, where w is the width of the resonance. In s the roots for a light absorber would be
+    so close together that rounding errors merge them.
 
     Parameters
     ----------

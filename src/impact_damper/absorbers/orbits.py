@@ -10,7 +10,7 @@ from impact_damper.motions.smooth_runs import SIZE, run
 # Newton's method runs with coarse and then with fine integration steps. A correction is compared
 # with the largest components of the state along the orbit. The method ends after a correction below
 # LAST times these components. It fails after a correction above FARTHEST times these components, or
-# after the number of CORRECTIONS.
+# after CORRECTIONS corrections.
 LAST = {COARSE: 1e-3, FINE: 1e-6}
 CORRECTIONS = {COARSE: 10, FINE: 4}
 FARTHEST = 10.0
@@ -127,7 +127,7 @@ def _corrected(problems, state, active, steps, period, longest):
 def _period_map(problems, state, steps, period):
     """Return the change of states over a period, a derivative, and the largest components.
 
-    The derivative is that of the state after the period with respect to the first state.
+    The state after the period is differentiated with respect to the first state.
     """
     after, largest = state.copy(), np.empty_like(state)
     slopes = np.empty((len(state), SIZE, SIZE))

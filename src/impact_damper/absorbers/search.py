@@ -112,9 +112,9 @@ def _stable(orbits) -> Orbits:
 
 
 def _neighbours(index, shape):
-    """Return the grid neighbours of the problems in `index`, and the places of these problems.
+    """Return the grid neighbours of the problems in `index`.
 
-    The second array holds, for each neighbour, the place in `index` of the problem that it adjoins.
+    A second array holds, for each neighbour, the place in `index` of the problem that it adjoins.
     """
     frequency, force = np.unravel_index(index, shape)
     there = [(frequency + i, force + j) for i, j in NEIGHBOURS]

@@ -64,7 +64,10 @@ def harmonic_displacements(problems):
 
 
 def _solutions(problems, allowed):
-    """Return the problem and the amplitude of u (or x) of all roots that are nearly real."""
+    """Return the problem and the amplitude of u (or x) of all roots that are nearly real.
+
+    In a nearly real root the imaginary part is at most `allowed` times the real part.
+    """
     power, force = _polynomial(problems), problems[:, FORCE]
     # With q = scale/y the polynomial in y has the coefficients 1 of y^9 and -1 of y^8.
     scale, degree = force**2 / power[0], len(power)

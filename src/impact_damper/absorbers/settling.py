@@ -200,7 +200,7 @@ def _distances(orbits, problem, state, sizes):
 
 
 def _nearest(orbits, problem, state, sizes):
-    """Return the index of the orbit that is near each state, or UNSETTLED."""
+    """Return the index of the orbit that is near each state (NEAR), or UNSETTLED."""
     away, columns = _distances(orbits, problem, state, sizes), np.arange(len(state))
     best = away.argmin(axis=0)
     nearest = _candidates(orbits, problem)[best, columns]

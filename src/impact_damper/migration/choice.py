@@ -35,8 +35,8 @@ def chosen_policies(on, free, trials, limit, seed):
     order = np.argsort(phase_cycles, axis=None, kind="stable")[:TRIED]
     places = zip(*np.unravel_index(order, phase_cycles.shape), strict=True)
     phases = [Policy(PHASE, HOLDS[k], int(phase)) for k, phase in places]
-    # The length of hold of the kind STATE is the longest one. Candidates: the two best lengths of
-    # the kind HOLD, the last of HOLDS, and no limit.
+    # For the kind STATE, `hold` is the largest length of a hold. Candidates are the two best
+    # lengths of the kind HOLD, the last of HOLDS, and infinity.
     waits = [Policy(STATE, each.hold) for each in holds[:2]] + [Policy(STATE, HOLDS[-1])]
     waits.append(Policy(STATE, math.inf))
 

@@ -14,8 +14,8 @@ An earlier arrival may be possible in a further hold. To begin one soon, the con
 present hold after one to two forcing cycles, at the moment after which the free motion settles
 soonest to another motion than the goal. Then it switches the damper on again.
 
-Noise on the measured state does not affect this controller. It compensates a known delay by an
-earlier order to release.
+Noise on the measured state does not affect this controller. A known delay between the order to
+release and the release does not affect it either, because the controller gives the order earlier.
 """
 
 import math
@@ -30,8 +30,8 @@ from impact_damper.migration.recorded import label_moments, record
 # negative outside. A state is labelled (the motion to which it leads is computed) only if its depth
 # exceeds NEAR cells. States further outside certainly do not lead to the goal.
 NEAR = -1.5
-# Moments of a trial are labelled in the order of time, in several passes.
-# FIRST, MOMENTS: number of moments in the first pass and in each later pass.
+# The moments of a hold are labelled in the order of time, in several passes.
+# FIRST, MOMENTS: number of moments of each hold in the first pass and in each later pass.
 # TRIALS: number of trials that are recorded together, which limits the memory.
 FIRST, MOMENTS, TRIALS = 4, 32, 256
 # A hold is first recorded for HORIZON forcing cycles, because the goal is often reached in this

@@ -83,9 +83,9 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     """Return the `ReleaseCase` of a damper at a frequency.
 
     With a hardening spring the resonance motion ends at a fold at a higher frequency, and the
-    non-resonance motion, the goal of migration, at a lower one. Therefore the first is followed
-    upward in frequency and the second downward. With a softening spring both directions are
-    reversed.
+    non-resonance motion, the goal of migration, at a fold at a lower frequency. Therefore the
+    resonance motion is followed upward in frequency and the non-resonance motion downward. With a
+    softening spring both directions are reversed.
 
     Raises
     ------

@@ -54,7 +54,7 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
     tolerance : float
         Largest local error of a step.
     limit : int
-        Largest number of strobes.
+        Number of the last strobe, counted from 0.
     path : array, shape (limit + 2, 5)
         Receives a row for the beginning and for each strobe: time in forcing cycles, then the
         state.
@@ -129,7 +129,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop
         Z2/d0 of the loose mass when the damper is switched on. The loose mass is then at rest
         relative to the primary mass. Not used when the damper is switched off.
     strobe : float
-        Number of the strobe before the switching.
+        Number of this strobe, at which the waiting begins.
     tolerance, limit, path, stop
         Arguments of `run`.
     out : array of records.MOTION, shape (1,)

@@ -12,9 +12,9 @@ free motion settles to the goal. The policies release
 
     settled  at a random phase, after the states at the strobes repeat: the paper's policy
     hold     after a fixed number of forcing cycles
-    phase    at a fixed phase of the forcing, after a number of cycles
-    state    as soon as the measured state lies inside the release set, at a distance from its
-             boundary; without such a state after a number of cycles
+    phase    when a fixed phase of the forcing first occurs after a fixed number of cycles
+    state    as soon as the measured state lies inside the release set, farther from its boundary
+             than a fixed distance; without such a state after a fixed number of cycles
 
 Z1 is the displacement of the primary mass and W the forcing frequency.
 """

@@ -147,8 +147,8 @@ def label_moments(free, recording, rows, moments, latest):
     rows, moments : array of int, shape (m,)
         Indices of the hold and of the moment of each release.
     latest : array, shape (m,)
-        Forcing cycles from the switching on after which an arrival does not count. The label is
-        then UNRESOLVED.
+        Forcing cycles from the switching on after which an arrival does not count. The label of a
+        later arrival may be UNRESOLVED.
 
     Returns
     -------

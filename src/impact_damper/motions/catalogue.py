@@ -66,7 +66,8 @@ class Catalogue:
     def add(self, record, origin):
         """Return the index of a motion, and enter it if it is new.
 
-        A new record of a known motion replaces the old record if max |Z1| is larger by SAME.
+        A new record of a known motion replaces the old record if its max |Z1| is larger by more
+        than SAME.
         """
         i = self.find(record)
         if i is None:

@@ -28,7 +28,7 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
     The linear spring has the same largest compression as Hertz's contact in the fastest impact of
     the motion. Its stiffness grows with the speed of impact, and the speed of impact depends on the
     stiffness. Therefore stiffness and motion are computed alternately until they agree. The first
-    stiffness is that for the speed with which the loose mass crosses the gap in half a forcing
+    stiffness is computed for the speed at which the loose mass crosses the gap in half a forcing
     cycle. Each motion starts from a state of the motion before.
 
     Parameters
@@ -111,8 +111,8 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
 def _fastest_impact(machine, damper, frequency, steady):
     """Return the largest speed of impact (m/s) of a steady motion, and a state of the motion.
 
-    The state (m, m/s) is that at the beginning of a forcing cycle. `steady` is the dataset from
-    `steady_motion`, which holds the state a quarter of a forcing cycle later.
+    The returned state (m, m/s) is at the beginning of a forcing cycle. `steady` is the dataset from
+    `steady_motion`. Its state is a quarter of a forcing cycle after the beginning of a cycle.
     """
     run = _simulate(
         machine,

@@ -62,7 +62,7 @@ def motion_costs(machine, damper, frequency, state, periods, *, start=None, cont
         A state of the motion, m and m/s.
     periods : int
         Number of forcing cycles over which the costs are measured. For a periodic motion use its
-        period; for a chaotic motion as many cycles as the accuracy of the means requires.
+        period, and for a chaotic motion enough cycles for accurate means.
     start : float, optional
         Time of the state, s. The default is a quarter of a forcing cycle, the phase of the states
         that `steady_motion` returns.

@@ -27,8 +27,9 @@ COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
 _INTEGRALS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))]
 WEIGHTS = _INTEGRALS @ COEFFICIENTS
 # FINE: matrix that maps values at the nodes to values at 33 points.
-# MISSED: the largest value in a panel exceeds the largest of these 33 values by less than this
-#     share. Only panels within this share of the largest value are searched for the exact maximum.
+# MISSED: the largest modulus in a panel exceeds the largest of these 33 moduli by less than this
+#     fraction. The exact maximum is therefore searched for only in panels with a modulus above
+#     1 - MISSED times the largest of the moduli in all panels.
 FINE = chebyshev.chebvander(np.linspace(-1, 1, 33), len(NODES) - 1) @ COEFFICIENTS
 MISSED = 0.01
 # The fastest oscillation of the motion turns by at most this angle (radian) in a panel.
@@ -111,8 +112,8 @@ def sampled(p, state, begin, end) -> Panels:
 def logged(p, state, begin, times, room=FIRST_LOG):
     """Return the states of a motion at given times, shape (n, 4), and the log of its contacts.
 
-    The log is that of `Panels`. `room` is the number of contacts for which it has room at first. If
-    there are more contacts, the motion is integrated again.
+    The log is described in `Panels`. `room` is the number of rows of the log at first. If there are
+    more contacts, the motion is integrated again with a longer log.
     """
     states = np.empty((len(times), 4))
     while True:
