@@ -21,7 +21,7 @@ def data():
 
 
 def policies(case, frequency):
-    """Return a dataset of policies with the damper of a case.
+    """Return a dataset of policies with the damper of a case, at one frequency.
 
     Their shares of success are 0.1, 0.2, ... in the order of SHARES.
     """

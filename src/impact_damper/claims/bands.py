@@ -128,10 +128,10 @@ CLAIMS = (
         interpretation="The width is a range of W, as in the figures of the paper; the width over "
         "Wp is reported too. For omega_l it is taken by (7) alone, as figure 3 is, with d0 by "
         "(19) and by the captions. For rm it is taken by (7) and by the motions that exist, for e "
-        "by the latter: e = 1 and 0.75 with rm = 0.25. The reduction is 100 % times 1 - |a|/(free "
-        "amplitude) at Wp. Barely means by at most 10 percentage points. For full agreement the "
-        "quiet motion, on which the reduction rests, must exist: at Wp its exact orbit must be "
-        "stable in all designs of figure 3.",
+        "(1 and 0.75, with rm = 0.25) by the motions that exist. The reduction is 100 % times 1 - "
+        "|a|/(free amplitude) at Wp. Barely means by at most 10 percentage points. For full "
+        "agreement the quiet motion, on which the reduction rests, must exist: at Wp its exact "
+        "orbit must be stable in all designs of figure 3.",
         measures=(
             Measure(
                 "linear_rule",
@@ -198,8 +198,9 @@ CLAIMS = (
         interpretation="Accurately means within 25 %. The median over the dampers of figures 5 "
         "and 8 decides for the width; for full agreement the amplitude and all dampers must "
         "agree. The width by (7) is compared with the width by the motions that exist, violent "
-        "chaos included, lasting or not. Chaos was looked for at steps of W only: where it ends "
-        "the band, the width within the step that agrees least counts. The amplitude is |a| by "
+        "chaos included, lasting or not. Chaos was looked for at steps of W only. Where chaos ends "
+        "the band, the edge may lie anywhere within a step, and the edge at which the widths agree "
+        "least counts. The amplitude is |a| by "
         "(7) and max |Z1| of the smallest stable quiet orbit, each averaged over the band by (7).",
         measures=(
             Measure(

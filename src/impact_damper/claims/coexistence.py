@@ -209,8 +209,8 @@ CLAIMS = (
             ),
             Measure(
                 "least_size",
-                "smallest max |Z1| of the motions that random starts lead to there, over the free "
-                "resonance",
+                "smallest max |Z1| of the motions that random starts lead to at these designs, "
+                "over the free resonance",
             ),
             Measure("most_size", "largest max |Z1| of these motions, over the free resonance"),
         ),

@@ -57,7 +57,7 @@ def parameter(data, name):
 def meaning(name, value):
     """Return the meaning of a value of a flag, with spaces in place of underscores.
 
-    An example is `meaning("status", 1)`, which returns "settled".
+    An example is `meaning("outcome", 1)`, which returns "settled".
     """
     return next(key for key, known in VARIABLES[name].flags.items() if known == value).replace(
         "_", " "

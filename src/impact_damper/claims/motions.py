@@ -63,7 +63,10 @@ def high_and_chaotic(datasets):
         total.append(np.sum(chaotic) * extract.spacing(response))
     contacts, orbits, twins = np.concatenate(contacts), pd.concat(orbits), pd.concat(twins)
     if len(contacts) == 0 or not orbits.a.notna().any():
-        raise Missing("There is no stable violent orbit beside a solution of (7)")
+        raise Missing(
+            "There is no violent motion, or no stable violent orbit at a W at which (7) has a "
+            "stable violent solution"
+        )
     return {
         "more": np.mean(contacts > 2 + 1e-6),
         "fewest": np.nanmin(fewest),
@@ -122,8 +125,8 @@ CLAIMS = (
         text="The low-amplitude motion has two symmetric impacts per cycle.",
         source="section 3, figure 4",
         interpretation="All stable quiet orbits in the suppression band by (7) count, for the "
-        "elastic dampers of figures 5 and 8, of which omega_l is 0. Motions of other periods that "
-        "exist beside them do not count.",
+        "elastic dampers of figures 5 and 8, of which omega_l is 0. Coexisting motions of other "
+        "periods do not count.",
         measures=(
             Measure(
                 "two",

@@ -60,7 +60,7 @@ def displaced(sweep):
 
 
 def rise(sweep):
-    """Return the relative rise of max |Z1| from the optimum d0 to 10 % beside it (`displaced`)."""
+    """Return the relative rise of max |Z1| from the optimum d0 to 10 % off it (`displaced`)."""
     return displaced(sweep) / float(sweep.optimum_displacement) - 1
 
 
@@ -163,7 +163,7 @@ def restitution_steps(group):
 
 
 def _rise_itself(sweep):
-    """Return the rise of max |Z1| from the optimum d0 to 10 % beside it, in units of Z1."""
+    """Return the rise of max |Z1| from the optimum d0 to 10 % off it, in units of Z1."""
     return displaced(sweep) - float(sweep.optimum_displacement)
 
 

@@ -47,7 +47,8 @@ def by_policy(datasets, case):
     - `by_<policy>`: share of runs that arrive at the goal within 350 cycles;
     - `by_<policy>_least`, `_most`: ends of the 95 % confidence interval of this share, and
       `by_<policy>_cycles`: median number of cycles; for "state" and "clairvoyant" only;
-    - `through`: share of the states with the damper on that lie in the basin of the goal.
+    - `through`: share of releases, at every phase and before the motion has settled, that lead to
+      the goal.
 
     All are NaN if no dataset has this damper and frequency.
     """

@@ -111,7 +111,7 @@ def third(curve):
 def expected(curve):
     """Return the mean max |Z1| over the random starts at each frequency.
 
-    A start that does not lead to a subharmonic counts as 0. `curve` is that of `third`.
+    A start that does not lead to a subharmonic counts as 0. `curve` is a dataset as for `third`.
     """
     share = curve.motion_starts / curve.motion_starts.sum("motion")
     return (share * curve.maximum_displacement).where(third(curve), 0.0).sum("motion")

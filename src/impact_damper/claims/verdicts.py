@@ -79,9 +79,9 @@ resonance branch without the damper; for solutions of (7) |a| counts. Above the 
 branch no motion is called violent. A quiet motion has period 1, touches the walls and is not \
 violent. In all claims the suppression band is the range of W around Wp, up to the end of the \
 free resonance, in which no motion with the damper is violent. By (7) the quiet motion is the \
-only stable one with contact there; a motion without contact may coexist. In the simulations \
-other motions that are not violent exist beside it, such as the subharmonics that the paper \
-finds within the band of figure 5 (c)."""
+only stable one with contact in the band; a motion without contact may coexist. In the \
+simulations other motions that are not violent coexist with it, such as the subharmonics that the \
+paper finds within the band of figure 5 (c)."""
 
 
 def document(frame, picture=None, drawn=None) -> str:

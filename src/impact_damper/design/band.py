@@ -44,7 +44,7 @@ def checked_band(machine, band, resonance) -> tuple[float, float]:
     Raises
     ------
     TypeError, ValueError
-        If the band is not two ascending frequencies, or does not contain a resonance.
+        If the band is not two ascending frequencies, or does not overlap the range `resonance`.
     """
     if not isinstance(band, Sequence | np.ndarray) or len(band) != 2:
         raise ValueError(f"band = {shown(band)}: must be least and greatest frequency")

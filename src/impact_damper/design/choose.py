@@ -32,8 +32,8 @@ class Choice(NamedTuple):
         "robust": all gaps within the tolerance of `gap` are quiet, and of all such gaps, `gap` has
         the smallest worst displacement within the tolerance. "needs_tolerance": only ranges
         narrower than the tolerance are quiet, and `gap` is the middle of the widest. "least_worst":
-        no gap is quiet, or only ranges too narrow to be held, and at `gap` the share of quiet
-        starts is largest.
+        no gap is quiet, or only ranges so narrow that a builder cannot keep a gap within them
+        (`cliff.HOLDABLE`). At `gap` the share of quiet starts is largest.
     """
 
     gap: float

@@ -29,10 +29,12 @@ from impact_damper.system.families import family_of
 
 # An edge is an end of a range of quiet gaps.
 # BISECTIONS: number of bisections between two compared gaps, of which only one is quiet.
-# CRITICAL: number of frequencies at which a gap is tested; those with the smallest shares.
+# CRITICAL: number of frequencies at which a gap is tested: those with the smallest shares of quiet
+#     starts.
 BISECTIONS, CRITICAL = 4, 2
 # Width of a range of gaps divided by the gap, below which a builder is assumed unable to keep a gap
-# within the range. If the task has a closer tolerance, twice this tolerance is the bound.
+# within the range. If the tolerance of the gap is below half this bound, the bound is twice the
+# tolerance.
 HOLDABLE = 0.01
 # The life of a chaotic motion is the time until it becomes quiet.
 # LIFE_GAPS: gaps divided by the gap of the upper edge; the inverse at the lower edge.
@@ -274,7 +276,7 @@ def quiet_branch(task, gap, frequency, orbit, parameter) -> QuietBranch | None:
         mm and Hz, of the orbit.
     orbit : Orbit or None
     parameter : str
-        "clearance", followed in its logarithm, "force" or "unbalance".
+        "clearance" (the branch follows its logarithm), "force" or "unbalance".
     """
     if orbit is None:
         return None

@@ -33,7 +33,7 @@ TRIAL = 24
 # decide, a second time with SECOND times as many starts in all.
 SECOND = 3
 # The candidates cover the tolerated deviation from the best gap of the coarse comparison, times
-# this factor, so that the cliff is seen if it is just outside.
+# this factor, so that the cliff (`cliff`) is seen if it is just outside this deviation.
 BEYOND = 1.15
 # If the task has no displacement limit, the quiet limit is ABOVE times the worst displacement at
 # the best gap of the coarse comparison. The factor leaves room for gaps within the tolerance, at

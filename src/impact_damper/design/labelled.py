@@ -127,7 +127,7 @@ def branch_dataset(task, found, parameter) -> xr.Dataset:
     task : Task
     found : cliff.QuietBranch or None
     parameter : str
-        "gap", whose logarithm the branch holds, or "force".
+        "gap" (the branch holds its logarithm) or "force".
     """
     place, event = f"{parameter}_of_orbit", f"stability_{parameter}_event"
     if found is None:

@@ -41,8 +41,8 @@ class Alternative(NamedTuple):
         Share of starts that lead to quiet motions, at the worst frequency, and at the worst gap
         within the tolerance.
     force : float
-        Largest contact force of the largest motion at each frequency at the nominal gap, N; NaN if
-        a motion escapes.
+        Largest contact force over the band at the nominal gap, N. At each frequency it is measured
+        in the largest motion. NaN if a motion escapes.
     """
 
     task: object

@@ -39,9 +39,9 @@ COSTS = {
 def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     """Return the largest motion to which starts lead at each frequency of the band, with its costs.
 
-    Motions in which the loose mass touches no wall require a loose mass that does not drift at all.
-    Unless random starts lead to such a motion, it is not counted here; the largest of them is
-    stored as `untouched_displacement`.
+    A motion in which the loose mass touches no wall lasts only if the loose mass does not drift at
+    all. Such a motion counts as reached only if random starts lead to it. The largest one that does
+    not count is stored as `untouched_displacement`.
 
     Parameters
     ----------

@@ -47,9 +47,9 @@ class BestOrbit(NamedTuple):
         Value of the flag `best_orbit_status`. "smooth": the displacement has a smooth minimum over
         the gap. "kink": it has a minimum with a kink, because two peaks of the motion are equal
         there. "stability_ends": the orbit is smallest where it ceases to be stable. "range_ends":
-        it is smallest at the first or last gap of the map with an orbit. "not_refined": no orbit
-        was found between gaps of the map, and the numbers hold at a gap of the map. "absent": there
-        is no stable orbit.
+        it is smallest at the first or last gap of the map with an orbit. "not_refined": the minimum
+        could not be located between gaps of the map, and the numbers hold at a gap of the map.
+        "absent": there is no stable orbit.
     """
 
     frequency: float

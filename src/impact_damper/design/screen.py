@@ -2,10 +2,11 @@
 
 The quiet orbit is the symmetric periodic motion for which a damper is designed. The loose mass
 presses each wall once in a forcing cycle. The screening answers each question with the cheapest
-model. Harmonic balance gives the response without the damper. Rule (18) of the paper gives the
-range of gaps. Two better rules are stored for comparison: the flight rule, in which the loose mass
-flies at constant speed between the walls, and, for a linear machine, the slow invariant manifold,
-a theory for small mass ratios. A few motions give quiet orbits, and Newton's method follows these
+model. Harmonic balance gives the response without the damper. Rule (18) of the paper, stated in
+`task`, gives the range of gaps. Two better rules are stored for comparison: the flight rule, in
+which the loose mass flies at constant speed between the walls, and, for a linear machine, the slow
+invariant manifold, a theory for small mass ratios. A few motions give quiet orbits, and Newton's
+method follows these
 orbits over gap and frequency. Motions from many starts (initial states) are run only later, by the
 comparisons of gaps.
 """

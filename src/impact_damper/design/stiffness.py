@@ -11,8 +11,9 @@ TYPICAL = 2000.0
 def contact_stiffness_of(machine, mass, band, stiffness, contact):
     """Return the contact stiffness given or, without one, the stiffness of a contact after Hertz.
 
-    Its stiffness grows with the speed of impact. The speed taken here is that with which the loose
-    mass crosses the gap of rule (18) of the paper in half a cycle, at the middle of the band.
+    The stiffness after Hertz grows with the speed of impact. The speed used here is that of a loose
+    mass that crosses the gap by rule (18) of the paper (`Task.rule_gap`) in half a cycle, at the
+    middle frequency of the band.
 
     Parameters
     ----------

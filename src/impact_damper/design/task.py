@@ -66,7 +66,7 @@ class Task:
     mass : float
         Loose mass, kg; at most the mass of the machine.
     band : tuple of float
-        Least and greatest forcing frequency, Hz. The resonance of the machine lies between them.
+        Least and greatest forcing frequency, Hz. The band must overlap the range `resonance`.
     restitution : float
     contact_stiffness : float
         N/m.

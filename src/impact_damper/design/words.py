@@ -26,8 +26,8 @@ SUMMARY = {
         "No range of gaps that one can hold (at least {holdable} of the gap) is quiet over the "
         "whole band. The gap of {gap:.3g} mm, with walls of restitution {restitution:.3g}, is the "
         "least bad: {worst}, instead of {bare:.3g} mm without the damper. {fewest} of the starts "
-        "lead to quiet motions at the worst frequency, and {share} must. Do not build this damper "
-        "for this band."
+        "lead to quiet motions at the worst frequency, but at least {share} are required. Do not "
+        "build this damper for this band."
     ),
     "broken": (
         "Do not build this damper: the check with new random starts failed. The gap chosen was "
@@ -123,7 +123,7 @@ def _worst(kind, data):
         k = int(np.argmax(data["reached_displacement"].values))
         return f"the machine {_moves(size)} at {float(data['frequency'][k]):.4g} Hz"
     if size <= limit:
-        return f"In no motion from the starts tried does it move more than {size:.3g} mm."
+        return f"From the starts tried the machine moves at most {size:.3g} mm."
     if float(data["reached_quiet_share"].min()) < 1:
         return (
             "Some starts do not lead to quiet motions: in the largest motion the machine "
@@ -213,14 +213,14 @@ def _margins(data, gap):
         )
     if quiet:
         texts.append(
-            f"Gaps are quiet at least {' and '.join(quiet)}: no gap beyond was compared, and no "
-            "cliff was found there."
+            f"Gaps are quiet at least {' and '.join(quiet)}. No gap beyond was compared, so a "
+            "cliff beyond is not known."
         )
     stable = stable_range(data, "gap")
     if stable:
         texts.append(
             f"The quiet orbit at {float(data['branch_frequency']):.4g} Hz is stable from {stable} "
-            "mm: not this range but the share of starts decides."
+            "mm. The gap was chosen by the share of quiet starts, not by this range."
         )
     return " ".join(texts)
 
@@ -275,8 +275,8 @@ def _help(task, data):
         texts.append(f"at {frequency:.4g} Hz alone, a gap of {gap:.3g} mm with restitution {e:.2g}")
     if not texts:
         return (
-            "With no mass up to twice this one, and no gap and restitution tried, do the starts "
-            "lead to quiet motions over the band."
+            "None of the other masses (up to twice this one), gaps and restitutions tried gives a "
+            "large enough share of quiet starts."
         )
     return f"What would help: {'; or '.join(texts)}."
 

@@ -33,9 +33,9 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-(a) Solution of (7) with the smallest amplitude: stability by the slow flow (17) against stability
-of the exact quiet orbit. Dots: a run from this solution becomes chaotic. (b) Largest stable
-solution of (7) against the motion to which a run from it leads. Near: within 20 % in amplitude.
+(a) Smallest solution of harmonic balance (7): stability by the slow flow (17) against stability of
+the exact quiet orbit. Dots: a run from this solution becomes chaotic. (b) Largest stable solution
+of harmonic balance against the motion to which a run from it leads. Near: within 20 % in amplitude.
 """
 
 PARAMETERS = {
@@ -156,9 +156,9 @@ def _draw_ends(axes, data):
 
 
 def _draw_chaos(axes, data):
-    """Dot the cells in which a start at the quiet solution of (7) leads to chaos."""
+    """Dot the cells in which a run from the quiet solution of harmonic balance becomes chaotic."""
     kinds = [flag("quiet_run_motion", name) for name in ("low_chaotic", "high_chaotic")]
     row, column = np.nonzero(np.isin(data["quiet_run_motion"], kinds))
     place = data["frequency_ratio"].values[column], data["map_value"].values[row]
     look = {"color": BLACK, "marker": ".", "markersize": 1.6, "linestyle": "none"}
-    axes.plot(*place, markeredgewidth=0, label="a start there leads to chaos", **look)
+    axes.plot(*place, markeredgewidth=0, label="a run from the solution becomes chaotic", **look)

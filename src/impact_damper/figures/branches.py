@@ -1,7 +1,7 @@
 """Branches of exact periodic orbits, stable and unstable, with their bifurcations.
 
-A branch is a sequence of periodic orbits along the forcing frequency. An event is a bifurcation or
-a change of the contacts on it. Free means without the damper.
+A branch is a sequence of periodic orbits along the forcing frequency. An event is a bifurcation on
+a branch, or a change of the contacts of its orbits. Free means without the damper.
 """
 
 import numpy as np
@@ -98,7 +98,7 @@ def draw_branches(*, branches):
 
 
 def _magnify(axes, data):
-    """Draw an inset that magnifies the part with most events beside stable orbits."""
+    """Draw an inset that magnifies the part with most events next to stable orbits."""
     beside = _next_to_stable(data)
     places = np.stack([data["event_value"].values, data["event_displacement"].values])[:, beside]
     limits = np.array([axes.get_xlim(), axes.get_ylim()])
@@ -146,7 +146,8 @@ def runs(data, chosen):
     Yields
     ------
     (array, array, bool)
-        Frequency, largest displacement, and whether stable.
+        Parameter that varies (in the stage branches the frequency), largest displacement, and
+        whether stable.
     """
     names = ("orbit_branch", "followed_value", "orbit_displacement", "orbit_stability")
     periods = data["branch_period"].values
@@ -161,7 +162,7 @@ def runs_of(branches, number, value, size, stability):
     ----------
     branches : iterable of int
     number, value, size, stability : array, shape (n,)
-        Branch, frequency, largest displacement and stability of each orbit.
+        Branch, parameter that varies, largest displacement and stability of each orbit.
     """
     stable = stability == flag("orbit_stability", "stable")
     for branch in branches:

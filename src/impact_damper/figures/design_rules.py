@@ -1,6 +1,7 @@
 """Optimum clearances of the exact motion, and rules for them (figure kind `design_rules`).
 
 A rule gives the product rm W^2 d0 of mass ratio, squared frequency and clearance at the optimum.
+By equation (18) of the paper, which follows from harmonic balance, it is 1.
 """
 
 import numpy as np
@@ -61,8 +62,9 @@ def draw_design_rules(*, design_rules):
     Parameters
     ----------
     design_rules : list of xarray.Dataset
-        Datasets of the stage design_rules. A dataset with one swept parameter beside the mass
-        ratio gets a row of panels. All datasets count in the last row, the errors.
+        Datasets of the stage design_rules. A dataset in which exactly one parameter is swept in
+        addition to the mass ratio gets a panel. The errors in the last row are those of all
+        datasets.
 
     Returns
     -------
@@ -115,7 +117,7 @@ def draw_sweep(axes, data, name):
         marker="x",
         linestyle="none",
         markersize=5.5,
-        label="motion unstable there",
+        label="optimum with an unstable motion",
     )
     words = parameter_label(parameters_of(data), "damping", "linear_frequency")
     axes.set(

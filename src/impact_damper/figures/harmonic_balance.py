@@ -9,9 +9,10 @@ from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, style
 
 CAPTION = """
-Amplitude by harmonic balance against forcing frequency, one panel for each clearance. Thick: stable
-solutions of (7) with contact. Thin: without the damper. The suppression band is the range around
-the peak in which (7) has a single stable solution with contact, smaller than the free resonance.
+Amplitude by harmonic balance, equations (7), against forcing frequency, one panel for each
+clearance. Thick: stable solutions with contact. Thin: without the damper. The suppression band is
+the range around the peak in which (7) has a single stable solution with contact, smaller than the
+free resonance.
 """
 
 

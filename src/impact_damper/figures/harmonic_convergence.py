@@ -1,6 +1,7 @@
 """Errors of harmonic balance and of Hill's method against the number of harmonics.
 
-Figure kind `harmonic_convergence`. In a cold start Newton's method begins from the solution with
+Figure kind `harmonic_convergence`. Hill's method computes Floquet multipliers from the harmonics
+of an orbit. In a cold start Newton's method begins from the solution with
 one harmonic, otherwise from the solution with the next lower number of harmonics.
 """
 

@@ -28,8 +28,8 @@ from impact_damper.rivals.words import CASES
 
 CAPTION = """
 Whether an integrator, started near a periodic orbit, ends on the right motion, known from Floquet
-multipliers. The table of verdicts lists the test cases. White: not run. Methods with fixed steps or
-marked kink do not locate contacts.
+multipliers. The table of verdicts lists the test cases. White: not run. Methods with fixed steps,
+and those marked "kink", do not locate contacts.
 """
 
 # Verdict -> colour and legend text.

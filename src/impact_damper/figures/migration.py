@@ -1,7 +1,7 @@
 """A run of migration control against time (paper: figures 13, 15 and 16; figure kind `migration`).
 
 Migration takes the oscillator from its resonance to its small motion, the goal, by switching the
-damper on and off. A release switches it off.
+damper on and off. A release is a moment at which the damper is switched off.
 """
 
 import numpy as np

@@ -17,7 +17,7 @@ from impact_damper.figures.style import (
 CAPTION = """
 Velocity against displacement of the primary mass during one period of the motion. Thick: contact
 with a wall. A contact is short and reverses the velocity at nearly constant displacement, so the
-motion differs strongly from the single harmonic of equations (7).
+motion differs strongly from the single harmonic of harmonic balance, equations (7).
 """
 
 WALLS = {

@@ -22,9 +22,9 @@ from impact_damper.figures.style import (
 
 CAPTION = """
 Largest displacement of the quiet motion against clearance. Points: exact motion. Lines: amplitude
-of the first harmonic by (7); with inelastic contact the lines only join the points. Star: smallest
-displacement of the exact orbit. Bar: range of clearances in which the displacement is at most 10 %
-larger. Larger coexisting motions are not drawn.
+of the first harmonic by harmonic balance (7); with inelastic contact the lines only join the
+points. Star: smallest displacement of the exact orbit. Bar: range of clearances in which the
+displacement is at most 10 % larger. Larger coexisting motions are not drawn.
 """
 
 BALANCE = "lines: $|a|$ by equations (7)"

@@ -13,9 +13,9 @@ from impact_damper.figures.motion_lines import branch_lines, draw_lines
 from impact_damper.figures.style import ROLES, axis_label, figure, legend, letter_panels, style
 
 CAPTION = """
-Largest displacement against forcing frequency. Motions with damper were found from random starts
-and by following. Lines join settled motions of a branch. Dotted lines, and all motions without
-damper, are exact orbits. Transient chaos ended in a longer run. Harmonic balance gives the
+Largest displacement against forcing frequency. Motions with damper come from random starts and
+neighbouring frequencies. Lines join settled motions of a branch. Dotted lines, and all motions
+without damper, are exact orbits. Transient chaos ended in a longer run. Harmonic balance gives the
 amplitude of the first harmonic.
 """
 

@@ -93,7 +93,7 @@ def elastic_model():
 
 @style()
 def inelastic_model():
-    """Return figure 9: as figure 1, with a dashpot c2 beside each contact spring."""
+    """Return figure 9: as figure 1, with a dashpot c2 parallel to each contact spring."""
     axes = sheet("double", 2.75)
     carriage(axes)
     slot(axes, inelastic_contact)

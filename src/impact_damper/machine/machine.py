@@ -154,7 +154,11 @@ class Machine:
         return Scales(length, math.sqrt(self.mass / (stiffness + cubic * length**2)), self.mass)
 
     def _static_deflection(self):
-        """Return the deflection under the force, m; for an unbalance, unbalance over mass."""
+        """Return the deflection under the force, m.
+
+        For an unbalance it is unbalance over mass, for a moving base the displacement of the base
+        or the deflection under the base's acceleration.
+        """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
             return static_deflection(self.force, stiffness, cubic)
@@ -170,8 +174,8 @@ class Machine:
     def resonant_displacement(self) -> float:
         """Displacement of a linear machine at resonance, m: the static deflection times m w/c.
 
-        With a hardening spring the displacement is smaller. w^2 is the stiffness at the static
-        deflection divided by the mass.
+        It is at least the static deflection. With a hardening spring the true displacement is
+        smaller. w^2 is the stiffness at the static deflection divided by the mass.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -194,7 +198,7 @@ class Machine:
             Forcing frequency, Hz. With a moving base the force of the oscillator then holds for
             this frequency alone. Without this argument the force is approximated by
             A (k + c^2 w^2/(2 k)), with A = a/w^2 for `base_acceleration`. Its relative error is
-            (2 damping_ratio w/w0)^4/8.
+            (2 damping_ratio w/wn)^4/8 at the angular frequency w; wn is the natural one.
 
         Raises
         ------

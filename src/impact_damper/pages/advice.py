@@ -19,8 +19,8 @@ ADVICE = {
 def advice(data) -> str:
     """Return the advice on whether to build the damper; `data` is the dataset of `design_damper`.
 
-    The advice depends on the choice of the gap, and on the promise: a share of starts that lead to
-    quiet motions, tested with new starts.
+    The advice depends on the choice of the gap, on the promise (a share of starts that lead to
+    quiet motions, tested with new starts), and on whether the largest motion exceeds the limit.
     """
     if named(data, "promise") == "broken":
         return "Do not build it: the check failed"
@@ -29,7 +29,7 @@ def advice(data) -> str:
         return "Build it, and hold all values more closely than your tolerances"
     larger = float(data["reached_displacement"].max()) > float(data["displacement_limit"])
     if choice != "least_worst" and larger:
-        return f"{ADVICE[choice]}, and beware of a large motion beside the quiet one"
+        return f"{ADVICE[choice]}, and beware: a large motion exists in addition to the quiet one"
     return ADVICE[choice]
 
 

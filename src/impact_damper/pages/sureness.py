@@ -23,20 +23,21 @@ from impact_damper.pages.blocks import (
 
 MEANING = (
     "A damper that works from one start may fail from another, because other motions can exist "
-    "beside the quiet one. Therefore motions are run from many random starts, up to three times "
-    "as large and as fast as the motions without the damper. A motion is quiet if the machine "
-    "moves at most {limit}. For a motion that never repeats the limit is {chaotic} while it is "
-    "watched, because later peaks may be larger. The share of starts that lead to quiet motions is "
-    "known within a 95 % interval, given in brackets. A gap counts as "
-    "quiet if, at every frequency of the band, the lower end of this interval is at least "
-    "{share}."
+    "in addition to the quiet one. Therefore motions are run from many random starts, up to three "
+    "times as large and as fast as the motions without the damper. A motion is quiet if the "
+    "machine moves at most {limit}. For a motion that never repeats the limit is {chaotic} while "
+    "it is watched, because later peaks may be larger. The share of starts that lead to quiet "
+    "motions is known within a 95 % interval, given in brackets. A gap counts as quiet if, at "
+    "every frequency of the band, the lower end of this interval is at least {share}."
 )
 TIME = (
-    "A share depends on the length of the runs. Comparisons of gaps ran motions for at most "
-    "{hurried} cycles of the forcing ({seconds}). Motions that were not quiet after this time, but "
-    "decided about a gap, were run for at most {limit} cycles, like all motions after the "
-    "comparisons. A motion that is certainly chaotic was stopped after {early} cycles in "
-    "comparisons, and after {patience} cycles otherwise."
+    "A share depends on the length of the runs. A short run has at most {hurried} cycles of the "
+    "forcing ({seconds}), a long run at most {limit}. The coarse comparison of gaps, the samples "
+    "of the tolerances and the maps have short runs. In the comparison of candidates, motions that "
+    "were not quiet after a short run had a long run, unless their gap had failed already. Motions "
+    "with the gap to build and the check with new starts have long runs. A motion that is "
+    "certainly chaotic was stopped after {early} cycles in a short run, and after {patience} "
+    "cycles in a long run."
 )
 DEPENDENCE = (
     "Change of the quiet orbit at {frequency} if one value grows by 1 %, by exact derivatives. The "
@@ -44,8 +45,8 @@ DEPENDENCE = (
 )
 TRAP = (
     "The gap of the smallest stable quiet orbit is {best}, at {frequency}. It is not the gap to "
-    "build, because the share of starts that lead to the orbit decides, not its size or its "
-    "stability."
+    "build: the gap is chosen by the share of starts that lead to quiet motions, not by the size "
+    "or the stability of the orbit."
 )
 
 

@@ -56,7 +56,7 @@ def response(data, *, ax=None):
         data,
         lambda each: bool(_kind(each)),
         "frequency_response, subharmonic_suppression, steady_motion, harmonic_balance_response, "
-        "orbit_branch or complete_branches (over frequency)",
+        "suppression_band, orbit_branch or complete_branches (over frequency)",
     )
     parts = {"motions": [], "balance": [], "orbits": [], "steady": [], "bands": []}
     for each in given:
@@ -90,7 +90,7 @@ def _name_dampers(axes):
 
 
 def _kind(data):
-    """Return the kind of response that a dataset holds, a key of `parts` above, or ""."""
+    """Return the kind of response that a dataset holds, a key of `parts` in `response`, or ""."""
     if "followed_value" in data and parameters_of(data).get("parameter") == "frequency":
         return "orbits"
     if "free_amplitude" in data:

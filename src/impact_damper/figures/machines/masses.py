@@ -1,4 +1,4 @@
-"""Loose masses beside the nominal one: displacement and contact force, and the Pareto front."""
+"""Dampers of several loose masses: displacement, contact force, and the Pareto front."""
 
 import numpy as np
 

@@ -10,12 +10,13 @@ from impact_damper.figures.style import BLUE, GREY, ORANGE, figure, legend, styl
 
 CAPTION = """
 Each point is one damper and machine whose values differ from the nominal ones within their
-tolerances. Circles: samples spread over the tolerances. Squares: corners, where each value is at
-one end of its tolerance. Star: nominal values. Corners and nominal values have new random starts,
-which the design did not use. Horizontal: share of starts over the band that lead to quiet motions,
-with its 95 % interval. Vertical: largest displacement of all motions found.
+tolerances. Squares: corners, where each value is at one end of its tolerance. Star: nominal values.
+Both have new random starts, which the design did not use. Circles: samples spread over the
+tolerances, and the same corners and nominal values with fewer starts; with these the design decided
+what to promise. Horizontal: share of starts over the band that lead to quiet motions, with its 95 %
+interval. Vertical: largest displacement of all motions found.
 """
-SAMPLES = {"color": BLUE, "marker": "o", "markersize": 3.2, "label": "sample of the tolerances"}
+SAMPLES = {"color": BLUE, "marker": "o", "markersize": 3.2, "label": "sample or corner"}
 CORNERS = {"color": ORANGE, "marker": "s", "markersize": 3.2, "label": "corner, new starts"}
 NOMINAL = STAR | {"label": "nominal, new starts"}
 ASKED = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (1, 1.2)), "label": "share required"}
