@@ -157,7 +157,8 @@ def test_exponent_of_a_settled_motion_is_its_multiplier(known_orbit):
     """The exponent is log |multiplier| / period, and the growth rate of a tangent on the orbit."""
     record = settled(known_orbit.parameters, known_orbit.state)
     expected = math.log(abs(record["multiplier"])) / (record["period"] * known_orbit.period)
-    # without a damper the tangent of the loose mass is neutral: start without this component
+    # Without a damper a tangent of the loose mass neither grows nor decays. Only the tangents of
+    # the primary mass are compared.
     if known_orbit.damper is None:
         _, matrix, _ = strobe_map.period_map(known_orbit.parameters, known_orbit.state, 1, 1e-13)
         found = math.log(max(abs(np.linalg.eigvals(matrix[:2, :2])))) / known_orbit.period

@@ -5,11 +5,11 @@ non-resonance motion. The goal is that the free motion settles to the small one.
 with the damper on, which ends with a release (switching the damper off). A policy decides when to
 release. Its parameters are the length of a hold and the phase of the forcing at the release.
 
-The choice takes two steps. Their random numbers are independent of those of the trials that compare
-the policies later. First, holds are recorded, and the free motion after a release at each candidate
-moment is labelled by the motion to which it settles. If a hold with the free motion after it takes
-c forcing cycles on average and leads to the goal with probability q, the goal is reached after c/q
-cycles on average. Second, the candidates with the smallest c/q are run in full trials.
+The choice takes two steps. First, holds are recorded, and the free motion after a release at each
+candidate moment is labelled by the motion to which it settles. If a hold and the free motion after
+this hold take c forcing cycles on average and lead to the goal with probability q, the goal is
+reached after c/q cycles on average. Second, the candidates with the smallest c/q are run in full
+trials. Both steps use other random numbers than the trials that compare the policies later.
 """
 
 import math

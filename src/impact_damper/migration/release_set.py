@@ -121,8 +121,8 @@ def depth_of(depth, half, phase, x, v):
     """Return the depth of a state inside the release set at a phase.
 
     `depth` and `half` are the attributes of a `ReleaseSet`, and `phase` is the index of a phase.
-    x and v are Z1 and Z1'. The depth is that of the cell which contains the state. Beyond the grid
-    it is minus infinity.
+    x and v are Z1 and Z1'. All states in a cell have the same depth. Beyond the grid the depth is
+    minus infinity.
     """
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf

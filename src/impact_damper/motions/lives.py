@@ -1,9 +1,10 @@
 """Lives of chaotic motions: mean lives of transients, and lower bounds on lives of attractors.
 
 A motion that is chaotic for some hundred cycles may still be a transient. Runs that begin close
-together on such a motion are independent after a few tens of cycles. They end at random times, and
-their lives are distributed exponentially. The number of runs that end, divided by the sum of the
-lives of all runs, therefore estimates the rate of ending, even if some runs do not end.
+together on such a motion are independent after a few tens of cycles. On a transient the runs end at
+random times, and their lives are distributed exponentially. The number of runs that end, divided by
+the sum of the lives of all runs, therefore estimates the rate of ending, even if some runs do not
+end. The mean life is the inverse of this rate.
 
 Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
 """

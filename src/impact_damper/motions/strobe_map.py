@@ -86,7 +86,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 
 def flow_map(p, y, begin, periods, half, tolerance):
-    """Return the state after `flow`, its derivative by the state y (4, 4), and the contact time."""
+    """Return the state after `flow`, its derivative by y (4, 4), and the time in contact."""
     state, tangents = y.copy(), np.eye(4)
     _, touching = flow(p, state, tangents, begin, periods, half, tolerance)
     return state, tangents.T.copy(), touching
@@ -94,9 +94,9 @@ def flow_map(p, y, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state `periods` cycles after a strobe, its derivative, and the contact number.
+    """Return the state `periods` cycles after a strobe, its derivative by y, and a count.
 
-    The derivative with respect to the first state has the shape (4, 4).
+    The derivative has the shape (4, 4). The count is the number of contacts begun.
     """
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents = y.copy(), np.eye(4)

@@ -1,8 +1,8 @@
 """Costs of a motion with a damper: impacts, forces, losses, noise, and the pressure of contacts.
 
 The force of a wall per unit of primary mass is f = r1 q + D q', with the penetration q, the contact
-stiffness r1 and the dashpot coefficient D. It accelerates the primary mass by -f and the loose mass
-by f/rm. A contact loses the work of the dashpot. Over a time after which a motion repeats,
+stiffness r1 and the dashpot coefficient D. This force accelerates the primary mass by -f and the
+loose mass by f/rm. A contact loses the work of its dashpot. Over a period of the motion,
 
     work of the external force = loss in the machine's dashpot + loss in contacts.
 

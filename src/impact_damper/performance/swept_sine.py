@@ -37,10 +37,11 @@ HELD = 10**5
 def swept_sine(machine, damper, band, rate):
     """Sweep the forcing frequency of a machine up and down, with its damper and without.
 
-    A sweep begins at rest, with the loose mass in the middle of the gap. First the first frequency
-    is held until the transients of the machine without the damper have decayed. In the sweep, the
-    resonance peak of a lightly damped linear machine is lower than in steady state: by 1 % at the
-    rate (damping ratio x natural frequency in Hz)^2, and by 6 % at four times this rate.
+    A motion begins at rest, with the loose mass in the middle of the gap. The first frequency is
+    held until the transients of the machine without the damper have decayed. Then the sweep begins.
+    In the sweep, the resonance peak of a lightly damped linear machine is lower than in steady
+    state: by 1 % at the rate (damping ratio x natural frequency in Hz)^2, and by 6 % at four times
+    this rate.
 
     Parameters
     ----------
