@@ -31,8 +31,8 @@ kernels: $(READY)
 # PYTEST= adds arguments, for example PYTEST="-k recurrence --durations=20".
 PYTEST ?=
 TESTS := $(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder
-# Bytecode is kept even where the environment forbids it: each process imports 400 modules of the
-# package and the tests.
+# Keep bytecode even if the environment forbids it. Otherwise each process would compile the 400
+# modules of the package and the tests again.
 test quick: export PYTHONDONTWRITEBYTECODE =
 test: kernels
 	$(TESTS) $(PYTEST)
@@ -47,13 +47,13 @@ CONFIG ?= config/smoke.yaml
 same-bytes: $(READY)
 	PYTHONPATH=tests $(BIN)/python -m helpers.same_bytes $(CONFIG)
 
-# Times of the integrator and of others, into results/benchmarks/. The reference program that
-# measures errors is in tests/references/.
+# Measure times of the integrator and of other programs, into results/benchmarks/. The reference
+# program that measures errors is in tests/references/.
 benchmark: $(READY)
 	PYTHONPATH=tests $(BIN)/python -m benchmarks
 
-# Trials whether a run recovers from kills, damaged files, full disks and so on, into
-# results/faults/.
+# Test whether a run recovers from kills, damaged files, full disks and so on. The outcomes are
+# written into results/faults/.
 faults: $(READY)
 	PYTHONPATH=tests $(BIN)/python -m faults
 

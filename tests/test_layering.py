@@ -65,8 +65,8 @@ FILES = {
 def imports_of(text, modules):
     """Return the set of those `modules` from which a source text imports.
 
-    A name imported from a package is a module if there is one of that name, else it stands in the
-    package's own `__init__.py`.
+    `from package import name` imports the module `package.name` if it exists, otherwise a name that
+    `__init__.py` of the package defines, so that the import counts as one of the package.
     """
     found = set()
     for node in ast.walk(ast.parse(text)):

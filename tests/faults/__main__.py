@@ -87,7 +87,9 @@ def try_all(given):
             for kind in given.kinds or KINDS:
                 for name, trial in KINDS[kind](context):
                     ended, said = tried(trial)
-                    rows.append({"fault": name, "outcome": ended, "what it takes": said})
+                    rows.append(
+                        {"fault": name, "outcome": ended, "what to do, or why it failed": said}
+                    )
                     print(f"{ended:12s} | {name} | {said}", flush=True)
                     context.clear()
         finally:
@@ -97,9 +99,13 @@ def try_all(given):
 
 def main():
     reader = argparse.ArgumentParser(prog="python -m faults", description=__doc__)
-    reader.add_argument("kinds", nargs="*", help=f"of {', '.join(KINDS)}; all if none")
-    reader.add_argument("--moments", type=int, default=20, help="kills of each kind")
-    reader.add_argument("--seed", type=int, default=1995, help="of all random moments and places")
+    reader.add_argument(
+        "kinds", nargs="*", help=f"kinds of trials: {', '.join(KINDS)}; all if none is given"
+    )
+    reader.add_argument(
+        "--moments", type=int, default=20, help="kills of Snakemake, and of jobs, at random moments"
+    )
+    reader.add_argument("--seed", type=int, default=1995, help="seed of random moments and damages")
     reader.add_argument("--table", type=Path, default=Path("results/faults/trials"))
     given = reader.parse_args()
     if unknown := set(given.kinds) - set(KINDS):

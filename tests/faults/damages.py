@@ -43,9 +43,9 @@ DAMAGES = {
     "cut off": _cut,
     "empty": _emptied,
     "its end made zero": _zeroed,
-    "a text": _text,
-    "a NetCDF file of another program": _other_netcdf,
-    "the result of another job": _other_result,
+    "a text in its place": _text,
+    "a NetCDF file of another program in its place": _other_netcdf,
+    "the result of another job in its place": _other_result,
 }
 
 
@@ -68,14 +68,14 @@ def _trial(context, name, damage, old):
         if old:
             os.utime(path, ns=(stat.st_atime_ns, stat.st_mtime_ns))
         code, told = project.run()
-        expect(code, "nothing is told")
+        expect(code, "the run does not stop at the damaged file")
         lines = [line for line in told.splitlines() if DATA in line and DELETE in line]
-        expect(lines, f"it is not told what to do: {told[-500:]}")
+        expect(lines, f"no message says what to do: {told[-500:]}")
         expect("Traceback" not in told, "a traceback is shown")
         path.unlink()
         # Two jobs may run again: the job of the file, and the job of the chapter made from it.
         project.recover(context.undisturbed, lost=2)
-        return "told: delete it; run again"
+        return "delete the file, as the message says; run again"
 
     return trial
 

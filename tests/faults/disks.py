@@ -56,11 +56,11 @@ def _full(context, kilobytes, whole):
             size = int(used.stdout.split()[-1]) + kilobytes
             _mount("-o", f"remount,size={size}k", disk)
             code, told = project.run()
-            expect(code, "the run says that all is well")
-            expect(FULL in told, f"it is not told that the disk is full: {told[-500:]}")
+            expect(code, "the run ends without an error")
+            expect(FULL in told, f"no message says that the disk is full: {told[-500:]}")
             project.expect_only_whole(context.undisturbed)
             _mount("-o", "remount,size=1g", disk)
-            return f"told: {FULL.lower()}; room made, {project.recover(context.undisturbed)}"
+            return f"make room on the disk, {project.recover(context.undisturbed)}"
 
     return trial
 
@@ -74,11 +74,11 @@ def read_only(context):
         with _mounted(results, "--bind", results):
             _mount("-o", "remount,ro,bind", results)
             code, told = project.run()
-        expect(code, "the run says that all is well")
-        expect("make it writable" in told, f"it is not told what to do: {told[-500:]}")
+        expect(code, "the run ends without an error")
+        expect("make it writable" in told, f"no message says what to do: {told[-500:]}")
         expect("Traceback" not in told, "a traceback is shown")
         project.recover(context.undisturbed)
-        return "told: make it writable; run again"
+        return "make the folder writable, as the message says; run again"
 
     def finished():
         project = context.finished("read-only-finished")

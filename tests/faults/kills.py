@@ -40,7 +40,7 @@ def wait_for_end_of_orphans(folder):
         if not any(_within(folder, process) for process in psutil.process_iter(["cmdline"])):
             return
         time.sleep(WAIT)
-    expect(False, "jobs go on though their run was killed")
+    expect(False, "jobs still run 10 s after their run was killed")
 
 
 def _within(folder, process):

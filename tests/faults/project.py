@@ -67,9 +67,10 @@ class Project:
     Parameters
     ----------
     folder : pathlib.Path
-        Made if it does not exist.
+        Folder of the copy, made if it does not exist.
     like : Project
-        Copied with its results, in place of this project.
+        A copy of the project that is copied with its results. Without it the project itself is
+        copied, without results.
     """
 
     def __init__(self, folder, like=None):
@@ -130,7 +131,10 @@ class Project:
     def expect_only_whole(self, undisturbed):
         """Raise Fault if an output differs from the same output of the undisturbed run."""
         for path, content in self.outputs().items():
-            expect(content == undisturbed.get(path), f"{path} is taken for whole and is not")
+            expect(
+                content == undisturbed.get(path),
+                f"{path} is left, but differs from the undisturbed run",
+            )
 
     def recover(self, undisturbed, lost=CORES):
         """Run the documented command again, and raise Fault unless the results become complete.
@@ -142,7 +146,7 @@ class Project:
         before, took = self.written(), "run again"
         code, told = self.run()
         if code and LOCKED in told:
-            expect("--unlock" in told, "a lock is told without the way out")
+            expect("--unlock" in told, "the message about the lock does not name --unlock")
             took = "--unlock, run again"
             self.run("--unlock")
             code, told = self.run()
@@ -154,7 +158,7 @@ class Project:
             for path in before
             if before[path] != after[path] and after[path][1] > 10**9
         }
-        expect(len(again) <= lost, f"finished, and made again: {sorted(again)}")
+        expect(len(again) <= lost, f"jobs that had finished ran again: {sorted(again)}")
         self.expect_same(undisturbed)
         return took
 
@@ -164,9 +168,9 @@ class Project:
         differing = sorted(
             path for path in found.keys() | undisturbed if found.get(path) != undisturbed.get(path)
         )
-        expect(not differing, f"other bytes than undisturbed: {differing}")
+        expect(not differing, f"files differ from the undisturbed run: {differing}")
         left = [path.name for path in (self.folder / "results").rglob("*.part-*")]
-        expect(not left, f"left behind: {left}")
+        expect(not left, f"unfinished files are left: {left}")
         expect(not self.planned(), "another run would run jobs again")
 
     def edit(self, name, old, new):

@@ -23,7 +23,7 @@ def two_runs(context):
         expect(codes[0] == 0, f"the first run is disturbed: {told[0][-500:]}")
         expect(codes[1] and LOCKED in told[1], f"the second is not refused: {told[1][-500:]}")
         project.expect_same(context.undisturbed)
-        return "the first ends well, the second is refused"
+        return "nothing: the first run finishes, the second is refused"
 
     def apart():
         project = context.fresh("two-targets")
@@ -72,13 +72,16 @@ def clock_set_back(context):
         script = project.folder / "workflow/scripts/optimum.py"
         script.write_text(script.read_text() + "# A word.\n")
         plan = project.planned()
-        expect(any("clearance" in line for line in plan), f"an edit is passed over: {plan}")
+        expect(
+            any("clearance" in line for line in plan),
+            f"the job of the edited script is not planned: {plan}",
+        )
         before = project.written()[DATA]
         code, told = project.run()
         expect(code == 0, told[-500:])
-        expect(project.written()[DATA] != before, "an edit is passed over")
+        expect(project.written()[DATA] != before, "the job of the edited script did not run")
         project.expect_same(context.undisturbed)
-        return "the edit is seen, run again"
+        return "run again"
 
     yield "clock set back after a run", finished
     yield "clock set back between data and figures", halfway
