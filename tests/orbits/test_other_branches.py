@@ -114,7 +114,7 @@ def extended_state(p, state, phase, cycles):
 
 @pytest.mark.thorough
 def test_a_simulated_motion_goes_over_to_a_supercritical_branch(branches):
-    """A motion beside an unstable symmetric orbit settles to the asymmetric orbit close to it."""
+    """A motion that starts near an unstable symmetric orbit settles to the asymmetric orbit."""
     branch = branches["inelastic"]
     event = next(
         event

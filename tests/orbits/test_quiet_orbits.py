@@ -62,7 +62,7 @@ def orbit_at(damper, frequency, design_orbit):
 
 
 def settled(orbit, push):
-    """Return the record of the motion that starts beside an orbit."""
+    """Return the record of the motion that starts near an orbit."""
     state = orbit.strobe_states[0] + push
     return ensemble.settle(orbit.p[None], state[None], SETTLING, from_strobe=True)[0]
 

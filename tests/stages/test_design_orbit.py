@@ -28,7 +28,7 @@ def linear():
 
 
 def settles(damping, data):
-    """Return whether a motion that starts beside the orbit settles on it."""
+    """Return whether a motion that starts near the orbit settles on it."""
     place = int(np.argmin(np.abs(data["followed_value"].values - damping)))
     oscillator = Oscillator(float(data["followed_value"][place]), 1.5)
     p = pack(oscillator, RULE, peak_frequency(LINEAR))

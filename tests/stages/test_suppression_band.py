@@ -32,7 +32,7 @@ def stable_amplitudes(frequency, oscillator=CUBIC, damper=PAPER):
 
 
 def test_band_of_the_paper(band):
-    """Below the lower edge a large motion is stable too, above it the quiet motion alone.
+    """Below the lower edge the quiet and a large motion are stable, above it the quiet motion only.
 
     The large motion is in antiphase with the forcing, so its amplitude is negative.
     """

@@ -68,7 +68,7 @@ class Branch:
         end of the range of the parameter. "closed": the branch is a closed curve.
         "symmetry_breaking", "period_doubling": at a branch of more symmetry. "contact_lost": at a
         motion without contacts. "lost": Newton's method fails. "point_limit": after the largest
-        number of orbits. "unstable": only stable orbits were wanted.
+        number of orbits. "unstable": at the first unstable orbit, if only stable ones were wanted.
     lost : int
         Number of events that could not be located.
     """

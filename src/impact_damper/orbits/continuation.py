@@ -5,10 +5,10 @@ are the parameter and the states at the beginnings of the orbit's segments, at p
 at which the loose mass is in flight. Most orbits have one segment (single shooting). An orbit that
 strongly amplifies disturbances is cut into several segments (`segments`), together called a chain.
 
-A step goes along the tangent of the branch. Newton's method then corrects it orthogonally to the
-tangent, so that the continuation passes folds, at which the branch turns back. The derivative with
-respect to the parameter is a central difference. Its error changes the direction of a step, but not
-the orbits. Where a contact appears within the difference, a finer difference is taken.
+A step goes along the tangent of the branch. Newton's method then corrects its end orthogonally to
+the tangent, so that the continuation passes folds, at which the branch turns back. The derivative
+with respect to the parameter is a central difference. Its error changes the direction of a step,
+but not the orbits. Where a contact appears within the difference, a finer difference is taken.
 
 In shapes, m is the number of segments and n the number of unknowns of a state: 4 with a damper, or
 2 without. Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose
@@ -103,9 +103,9 @@ class Point(NamedTuple):
 class Problem:
     """The equations that the orbits of a branch solve.
 
-    By them each segment ends where the next begins. The metric of the problem defines the distance
-    of two points: its square is the mean over the segments of the squared distance of their states,
-    plus the squared difference of the parameter.
+    They state that each segment ends where the next begins. The metric of the problem defines the
+    distance of two points: its square is the mean over the segments of the squared distance of
+    their states, plus the squared difference of the parameter.
 
     Attributes
     ----------

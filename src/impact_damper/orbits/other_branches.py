@@ -4,8 +4,8 @@ A branch is the curve of the periodic orbits over a parameter. At every loss of 
 period doubling another branch leaves. The orbits of this other branch have less symmetry: they are
 not symmetric, or repeat only after twice the period. An orbit of the other branch close to the
 bifurcation is always searched for. The branch is followed only if its period is short or its orbits
-are stable. Otherwise there would be no end, because period doublings form infinite cascades, and
-unstable branches of long periods wind through chaos.
+are stable where it begins. Otherwise the search would not end, because period doublings form
+infinite cascades, and unstable branches of long periods wind through chaos.
 
 An end of a branch is its first or its last point. Z1 is the displacement of the primary mass.
 Multipliers are Floquet multipliers.

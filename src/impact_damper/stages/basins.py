@@ -190,7 +190,7 @@ def free_attractors(p, window, settling, workers=1) -> Attractors:
 
 
 def _joined(p, attractors, more):
-    """Return `attractors` joined with those of `more` that are not among them."""
+    """Return `attractors` together with the attractors in `more` that are new."""
     new = [
         record
         for index, record in enumerate(more.records)

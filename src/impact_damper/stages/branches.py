@@ -43,7 +43,8 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
     other branch is searched for. The other branch is followed if its period is at most 3 forcing
     cycles, or at most 4 if it leaves beside a stable orbit, or at most 9 if its orbits are stable
     where it begins. If a branch of a period of at most 4 ends at another branch, this one is
-    followed too. Branches are followed to their ends, as far as their lengths are not limited.
+    followed too. A branch is followed to its ends or up to a largest number of orbits, and with a
+    period above 15 only as far as its orbits are stable.
 
     Parameters
     ----------
@@ -65,7 +66,8 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
         - `seeds`, the number of settled motions, and `seeds_lost`, the number of those from which
           Newton's method found no orbit;
         - `searches`, the number of searches from random states, `searches_stable`, the number of
-          those that found a stable orbit, and `searches_new`, the number of branches found so;
+          those that found a stable orbit, and `searches_new`, the number of branches that only they
+          found;
         - for each loss of symmetry and period doubling: `leaving_outcome`, which says whether the
           other branch was found and followed, and the orbit of the other branch that was found
           closest to the event;

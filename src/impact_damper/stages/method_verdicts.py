@@ -165,9 +165,9 @@ def right_from(right):
 
 
 def _by_resolution(label, scene, tolerances, steps):
-    """Return a method's verdict at each tolerance or number of steps, and from where it is right.
+    """Return a method's verdict at each tolerance or number of steps, and `right_from`.
 
-    The second result is the entry `right_from` of the dataset (see `verdicts`).
+    `right_from` is the entry of the dataset (see `verdicts`).
     """
     name, locate = name_and_mode(label)
     method, integrator = METHODS[name], integrators()[name]

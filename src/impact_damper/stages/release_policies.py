@@ -264,7 +264,7 @@ def under_disturbance(on, models, policy, trials, seed, disturbances=DISTURBANCE
     on : array, shape (packed.COUNT,)
         Packed parameters with the damper.
     models : dict
-        `FreeCase` with the true release set, keyed by (1.0, 1.0), and those of `wrong_models`.
+        `FreeCase` with the true release set, keyed by (1.0, 1.0), and the result of `wrong_models`.
     policy : Policy
         The policy by state.
     trials, seed : int
