@@ -23,7 +23,7 @@ from impact_damper.figures.style import (
     letter_panels,
     style,
 )
-from impact_damper.rivals.methods import METHODS, name_and_mode
+from impact_damper.rivals.methods import colour_of, name_and_mode
 
 # After a run that took longer than this, in seconds, no tighter tolerance is tried.
 LONG = 0.5
@@ -47,7 +47,7 @@ def looks():
     for label in RIVALS:
         name, located = name_and_mode(label)
         marker = markers.setdefault(name, MARKERS[len(markers) % len(MARKERS)])
-        rivals[label] = METHODS[name].colour, "-" if located else ":", marker
+        rivals[label] = colour_of(name), "-" if located else ":", marker
     return LOOK | rivals
 
 
@@ -73,7 +73,7 @@ def points_of(scene, name, exponents, rounds):
 
 
 def points(scenes, exponents, rounds, names=tuple(TIMED)):
-    """Return error of the state and microseconds a forcing cycle, by scene, method and tolerance.
+    """Return state error and microseconds per forcing cycle, by scene, method and tolerance.
 
     The time is the median over `rounds`; a slow method runs only once. `status` is "found", "lost"
     (the error of the state exceeds LOST) or "given_up" (the run did not end).
@@ -133,7 +133,7 @@ def draw(table):
     for axes in panels[::columns]:
         axes.set_ylabel("Error of the state at the end")
     for axes in panels[max(0, len(names) - columns) : len(names)]:
-        axes.set_xlabel("Time a forcing cycle and trajectory (µs)")
+        axes.set_xlabel("Time per forcing cycle and trajectory (µs)")
         axes.tick_params(labelbottom=True)
     letter_panels(panels[: len(names)])
     legend(drawn, 3)

@@ -65,7 +65,7 @@ def motions(count, seed=1995):
 
 
 def per_period(found, rounds, tolerances=TOLERANCES):
-    """Return the microseconds a forcing cycle of single motions.
+    """Return the microseconds that a forcing cycle of a single motion takes.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def per_period(found, rounds, tolerances=TOLERANCES):
 
 
 def fitted(table):
-    """Return the fit of time = a + b contacts + c (2 pi/W) max |Z1|, in microseconds a cycle.
+    """Return the fit of time = a + b contacts + c (2 pi/W) max |Z1|, in microseconds per cycle.
 
     `table` is the result of `per_period`. The last term stands for the number of steps in flight:
     the length of a step is proportional to the radius of convergence of the Taylor series, which is
@@ -132,8 +132,8 @@ def draw(table):
     left.set(
         xlabel=r"Largest displacement times period, $2\pi\,\max\,|Z_1|/\Omega$", ylim=(0, None)
     )
-    left.set_ylabel("Time a forcing cycle (µs)")
-    right.set_xlabel("Contacts a period")
+    left.set_ylabel("Time per forcing cycle (µs)")
+    right.set_xlabel("Contacts per cycle")
     letter_panels([left, right])
     legend(drawn, 3)
     return drawn

@@ -40,7 +40,7 @@ def tolerances(scene, timed, limit):
 
 
 def microseconds(scene, found, rounds):
-    """Return microseconds a forcing cycle and trajectory, of each method in each round."""
+    """Return microseconds per forcing cycle and trajectory, of each method in each round."""
     starts = {name: starts_of(scene, name) for name in found}
     calls = {
         name: lambda run=each.run, starts=starts[name]: run(starts) for name, each in found.items()

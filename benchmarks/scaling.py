@@ -35,7 +35,7 @@ def starts_of(scene, count):
 
 
 def sizes(scenes, counts, rounds):
-    """Return microseconds a trajectory and forcing cycle over the size of an ensemble."""
+    """Return microseconds per trajectory and forcing cycle over the size of an ensemble."""
     rows = []
     for scene in scenes:
         run = TIMED["kernel_ensemble"].prepare(scene, TOLERANCE)
@@ -62,10 +62,11 @@ def advance_in_shares(scene, starts, workers):
 
 
 def cores(scenes, count, rounds):
-    """Return the throughput of several threads over that of one thread, and if results agree.
+    """Return the speed-up by several threads, and whether they give the results of one thread.
 
-    The starts are random. For comparison the table also has the throughput of several processes
-    that share nothing, each with all starts. It is the limit that the computer sets.
+    The speed-up is the throughput divided by the throughput of one thread. The starts are random.
+    For comparison the table also has the speed-up by several processes that share nothing, each
+    with all starts. This is the largest speed-up that the computer allows.
     """
     threads = range(1, min(os.cpu_count(), 8) + 1)
     rows = []

@@ -10,7 +10,7 @@ def jobs(folder, since=0.0):
     """Return a row for each job under a folder of timings: stage, job and its measures.
 
     Files written before the time `since`, in seconds since 1970, are left out. A subfolder holds
-    the jobs of a stage. A file beside the subfolders is the only job of its stage.
+    the jobs of a stage. A file outside the subfolders is the only job of its stage.
     """
     rows = []
     for path in sorted(folder.rglob("*.tsv")):

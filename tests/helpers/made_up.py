@@ -2,7 +2,7 @@
 
 Tests of claims, tables and figures change one dataset and expect one claim to fail. Functions with
 the name of a stage return a dataset of this stage. Wp is the peak frequency without damper.
-With damper, the quiet motion is small, and the high motion large up to the suppression band.
+With damper there are a small motion (quiet), and below the suppression band a large one (high).
 """
 
 from functools import cache
@@ -247,7 +247,7 @@ def matched_sweep():
 
 
 def motion():
-    """Return a motion with a state of three components, the omission S3 of the paper."""
+    """Return a motion with a state of three components; the paper omits the fourth (claim S3)."""
     data = {name: np.zeros(3) for name in ("displacement", "velocity", "relative_displacement")}
     return dataset(data, {"time": np.arange(3.0)}, parameters(frequency=2.0), "made up")
 

@@ -39,7 +39,7 @@ def compare(heyoka_references, p, state, start, times, atol, side=0):
 
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 def test_error_stays_within_ten_tolerances(known_orbit, heyoka_references, tolerance):
-    """Compare after 20 periods, from a state on an orbit and from a state beside it."""
+    """Compare after 20 periods, from a state on an orbit and from a state close to the orbit."""
     p, end = known_orbit.parameters, known_orbit.strobe + 20 * known_orbit.period
     for nudge in (0.0, 1e-2):
         first = known_orbit.state + nudge
@@ -79,7 +79,7 @@ def test_start_in_contact(heyoka_references, damper, linear_frequency, speed):
 def grazing_state(reference, p, depth):
     """Return a start, and the time at which Z2 has its first maximum, `depth` beyond the wall.
 
-    For this maximum the walls are taken away.
+    The maximum is that of the motion without walls.
     """
     state = np.array([0.3, 0.5, 0.0, 0.9])
     unbounded = p.copy()

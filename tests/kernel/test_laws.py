@@ -122,7 +122,9 @@ def isolated_contact(mass_ratio, restitution, stiffness):
 @pytest.mark.parametrize("mass_ratio", [0.01, 0.12, 1.0, 10.0])
 @pytest.mark.parametrize("restitution", [0.3, 0.6, 0.75, 0.9, 1.0])
 def test_restitution_of_an_isolated_contact(mass_ratio, restitution):
-    """(25) and the law of the impulse hold in the limit of an infinite contact stiffness r1.
+    """With the dashpot by (25) the restitution is e in the limit of an infinite stiffness r1.
+
+    In this limit the primary mass gets the velocity that the conservation of momentum requires.
 
     Forcing and springs, which also act during a contact, cause an error in proportion to the time
     in contact, of order r1^(-1/2).

@@ -105,7 +105,7 @@ def test_largest_displacement(case):
 
 @pytest.mark.parametrize(("frequency", "expected"), [(1.0, "neimark_sacker"), (0.95, "fold")])
 def test_boundaries_separate_stable_from_unstable(frequency, expected):
-    """On the one side of a boundary a disturbed motion returns, on the other it leaves."""
+    """The boundaries have the expected events; between them a disturbed motion returns."""
     oscillator = Oscillator(0.02, 1.0, cubic=0.0)
     damper = Damper(0.05, 20.0, 0.4)
     lower, upper = stability_boundaries(oscillator, damper, frequency)

@@ -41,7 +41,10 @@ def test_linear_limit():
 
 
 def test_peaks_are_equal_to_first_order():
-    """The peaks differ by a share that grows as F^2, and more slowly with the cubic spring."""
+    """Without the absorber's cubic spring the relative difference of the peaks grows as F^2.
+
+    With this spring the difference is less than 3 % as large.
+    """
     forces = (0.005, 0.01)
 
     def parted(absorber):

@@ -71,7 +71,7 @@ def test_scipy_on_smooth_motion(method, free):
 def test_linear_stability_limit_of_the_contact(method):
     """With almost no clearance the two masses on the contact spring are a linear oscillator.
 
-    The springs of the primary mass are negligible beside the contact spring.
+    The springs of the primary mass are negligible compared with the contact spring.
     """
     stiffness, mass_ratio = 1e6, 0.25
     p = pack(Oscillator(1e-9), Damper(mass_ratio, 1.0, contact_stiffness=stiffness), 2.0)

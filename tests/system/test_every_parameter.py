@@ -147,7 +147,7 @@ NONLINEAR_PLACES = {
     "system/packed.py": [lambda oscillator: cubic_spring(packed(oscillator))],
     "system/parameters.py": [lambda oscillator: oscillator.hardening],
 }
-# The same for all fields that are allowed with a nonlinear spring.
+# Functions whose results must change with every field that is allowed with a nonlinear spring.
 BENT_PLACES = {
     "theory/free_oscillator.py": [lambda oscillator: np.array(free_folds(oscillator))],
     "theory/design_rule.py": [peak_frequency, partial(rule_clearance, mass_ratio=0.1)],
@@ -166,7 +166,7 @@ OTHERS = {
 
 
 # Files that contain the damping term h Z1', apart from those in the table of the walk-through in
-# CONTRIBUTING.md. A second term in the velocity is added there too, or refused.
+# CONTRIBUTING.md. These files must also have, or refuse, any second term in the velocity.
 DAMPED = {
     "attraction/boundary.py",
     "contact/rigid_impacts.py",

@@ -198,7 +198,7 @@ def test_an_unknown_key_is_answered_with_the_nearest_known_one(path, told):
         ("rigid_limit/figure_10/frequencies/last", 1, "less than last = 1"),
         ("curves/figure_05a/mass_ratio", 0, "at least 1e-06"),
         ("curves/figure_05a/clearance", "Rule", "of the form rule"),
-        ("curves/figure_05a/clearance", "rule", "a number with stages beside harmonic_balance"),
+        ("curves/figure_05a/clearance", "rule", "a number with stages other than harmonic_balance"),
         ("curves/figure_05a/restitution", 1.2, "at most 1 (e, 1 for elastic contact"),
         ("curves/figure_05a/restitution", 0.9, "it knows elastic contact only"),
         ("curves/figure_05a/oscillator", "h216", KNOWN),
@@ -282,7 +282,7 @@ def test_an_unknown_key_is_answered_with_the_nearest_known_one(path, told):
         (
             "curves/free_h215/stages",
             ["response"],
-            "figures.figure_05a.data.0 = 'figure_05a': must have beside it an entry of curves with "
+            "figures.figure_05a.data.0 = 'figure_05a': needs another entry of curves with "
             "the oscillator h215, no damper, and the stage branches",
         ),
         ("figures/figure_05a/data", ["free_h215"], "must be a curve with a damper"),

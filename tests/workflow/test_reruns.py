@@ -217,7 +217,7 @@ def test_an_edit_of_a_file_concerns_what_runs_it(path, noted, jobs):
 def test_snakemake_reruns_what_edits_concern(project, edit, config, jobs):
     """The edits concern values, a script, a module that two stages import, and a template.
 
-    Only jobs of chapters follow from edits of values and from edits of files.
+    Jobs that both an edit of a value and an edit of a file concern are jobs of chapters.
     """
     paths = [
         "workflow/scripts/motion.py",

@@ -10,14 +10,16 @@ from impact_damper.data.datasets import flag
 
 
 def quiet_gaps(data) -> str:
-    """Return, as text of `known_range`, the range of quiet gaps (mm) that holds the chosen gap."""
+    """Return the range of quiet gaps (mm) around the chosen gap, as text of `known_range`."""
     return known_range(
         data["cliff_gap"].values, data["cliff_status"].values == flag("cliff_status", "range_ends")
     )
 
 
 def stable_range(data, parameter) -> str:
-    """Return, as text of `known_range`, where the quiet orbit is stable; "" if it is so nowhere.
+    """Return the range in which the quiet orbit is stable as text; "" if it is stable nowhere.
+
+    `known_range` makes the text.
 
     Parameters
     ----------

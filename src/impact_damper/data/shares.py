@@ -53,7 +53,9 @@ def starts_needed(share) -> int:
 
 
 def failures_allowed(share, total) -> int:
-    """Return how many of `total` trials may fail if Wilson's interval shall lie above a share.
+    """Return the largest number of failures in `total` trials that still proves a share.
+
+    With this number of failures the lower end of Wilson's 95 % interval is at least the share.
 
     Return -1 if `total` trials are too few even without a failure.
     """
@@ -113,9 +115,10 @@ def escape_rate(lives, horizon, lead=LEAD):
 
 
 def missed_share(data):
-    """Return the share of completed runs in which an integrator misses a contact near grazing.
+    """Return the share of completed runs in which an integrator finds no contact near grazing.
 
-    NaN where no run was completed.
+    In such a run the computed motion passes the wall and returns within one step, or does not reach
+    the wall because of its error. The share is NaN where no run was completed.
 
     Parameters
     ----------

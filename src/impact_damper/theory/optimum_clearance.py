@@ -27,7 +27,8 @@ from impact_damper.theory.straight_flight import (
 # rm W^2 d0 at which the first harmonic of Z2, 8 d0/pi^2 in a straight flight between rigid walls,
 # equals f/(rm W^2). This amplitude keeps the primary mass at rest, and rule (18) requires it.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# A solution of (7) with |a| below ZERO_AMPLITUDE times the clearance counts as a = 0.
+# A solution of the harmonic balance, equation (7) of the paper, counts as a = 0 if the amplitude
+# |a| of Z1 is below ZERO_AMPLITUDE times the clearance.
 ZERO_AMPLITUDE = 1e-6
 # CRITERIA: quantities of Z1 that an optimum clearance makes as small as possible. RULES: rules that
 # predict the optimum clearance, see `rule_ratios`.
@@ -58,7 +59,10 @@ def straight_flight_ratio(mass_ratio, restitution=1.0) -> float:
 
 
 def _analytical(oscillator, damper, frequency):
-    """Return signed a of the stable solution of (7) with smallest |a|, and `analytical_status`."""
+    """Return the amplitude a of Z1 with its sign, and the name of its `analytical_status`.
+
+    a belongs to the stable solution of the harmonic balance (7) with the smallest |a|.
+    """
     if damper.restitution != 1:
         return np.nan, "inelastic"
     try:
@@ -71,7 +75,9 @@ def _analytical(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return the amplitude by (7) along a clearance sweep, and the clearance of zero amplitude.
+    """Return the amplitude of Z1 by harmonic balance (7) over a sweep of the clearance.
+
+    The clearance at which this amplitude is zero is returned too.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ from impact_damper.machine.machine import Machine
 from impact_damper.machine.units import QUANTITIES
 from impact_damper.system.parameters import SYMBOLS
 
-# Of a list with more values than this the text gives only the smallest and the largest.
+# If a list has more values than this, the text gives only the smallest and the largest.
 MANY = 3
 
 

@@ -34,7 +34,8 @@ def tell_version(asked: bool):
 @app.callback()
 def main(
     _: Annotated[
-        bool, typer.Option("--version", callback=tell_version, is_eager=True, help="Print it.")
+        bool,
+        typer.Option("--version", callback=tell_version, is_eager=True, help="Print the version."),
     ] = False,
 ):
     """Impact dampers for machines in SI units.
@@ -59,7 +60,10 @@ def design(
     workers: Workers = 2,
     as_json: AsJson = False,
 ):
-    """Find the gap to build, and how sure it is. Takes minutes; an interrupted design continues."""
+    """Find the gap to build, and how sure this choice is.
+
+    A design takes minutes. The same command continues an interrupted design.
+    """
     from impact_damper.data.datasets import decode, save
     from impact_damper.stages.machines import design_damper
 

@@ -41,7 +41,7 @@ def compile_all(processes, orders) -> None:
     with ProcessPoolExecutor(processes, fork, initializer=end_with_parent) as pool:
         for half in [pool.submit(warm_up_orbits), pool.submit(warm_up_settling)]:
             half.result()
-        # Starts last, because it needs kernels that the two other processes compile.
+        # This task starts last, because it needs kernels that the other two tasks compile.
         pool.submit(warm_up_rivals, orders).result()
 
 

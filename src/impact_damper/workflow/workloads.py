@@ -116,14 +116,14 @@ def _too_stiff(case):
 
 
 def _too_narrow_or_wide(path, clearance, radius):
-    """Yield a line if hardly a start lies within the gap, or if the clearance is too large.
+    """Yield a line if hardly any start lies within the gap, or if the clearance is too large.
 
     A start is a random initial state; a clearance may follow from the paper's rule (19).
     """
     least, most = radius / MOST_RADIUS, CLEARANCE_RANGE["most"]
     if clearance < least:
         reason = f"must be at least search.radius/{MOST_RADIUS:g} = {least:g}"
-        yield problem(path, clearance, f"{reason} (hardly a start is within the gap)")
+        yield problem(path, clearance, f"{reason} (hardly any start is within the gap)")
     if clearance > most:
         yield problem(path, clearance, f"must be at most {most:g} (`rule` gives this clearance)")
 

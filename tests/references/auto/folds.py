@@ -133,7 +133,7 @@ def points(folder, damping, run, setting):
 def first_orbit(damping, frequency, start, periods):
     """Return T, Z1, Z1', sin W T, cos W T over one period of the orbit that a start leads to.
 
-    The array has one row for each of 200 times in a forcing cycle, and a last row.
+    The array has one row for each of 200 times in a forcing cycle, and a row for the last time.
     """
 
     def rate(time, z):
@@ -168,7 +168,7 @@ def measured(solution, periods):
     parameters, profile = solution
     frequency, period = parameters[[0, 10]]
     if not math.isclose(period * frequency, 2 * math.pi * periods, rel_tol=1e-6):
-        raise RuntimeError(f"period {period} at W = {frequency}: not that of {periods} forcings")
+        raise RuntimeError(f"period {period} at W = {frequency}: not {periods} forcing cycles")
     time, displacement, velocity = profile[:, 0] * period, profile[:, 1], profile[:, 2]
     curve = CubicHermiteSpline(time, displacement, velocity)
     turns = curve.derivative().roots(extrapolate=False)

@@ -1,9 +1,9 @@
 """Single-term harmonic balance, suppression bands and optimum clearances.
 
 Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, and a
-and b are their amplitudes. "Free" means without the damper. Numbers in round brackets are equations
-of the paper. A suppression band is the range of frequencies around the peak in which the damper
-leaves only a quiet, that is small, motion.
+and b are their amplitudes. f is the amplitude of the forcing. "Free" means without the damper.
+Numbers in round brackets are equations of the paper. A suppression band is the range of frequencies
+around the peak in which the damper leaves only a quiet, that is small, motion.
 """
 
 from impact_damper.data.variables.variable import MINIMUM, STABILITY, Variable

@@ -1,8 +1,9 @@
 """Failures of integrators: contacts missed near grazing, unstable steps, wrong verdicts.
 
-A passage is a flight of the loose mass past a wall close to the largest |Z2| of the flight
-(`rivals.passages`). A scene is a test case: a motion and an orbit, with the knowledge whether the
-motion settles on the orbit. The verdict on a method says whether it finds the right answer.
+A passage is a random flight of the loose mass, computed without walls (`rivals.passages`). As a
+test case, a wall is placed close to the largest |Z2| of the flight. A scene is another test case: a
+motion and an orbit, with the knowledge whether the motion settles on the orbit. The verdict on a
+method says whether it finds the right answer.
 """
 
 from impact_damper.data.variables.variable import Variable

@@ -133,7 +133,8 @@ VARIABLES = {
     ),
     "searches_stable": Variable((), "number of searches that found a stable orbit"),
     "searches_new": Variable(
-        (), "number of branches followed from orbits of searches, as no other branch held them"
+        (),
+        "number of branches followed from orbits that searches found and no other branch held",
     ),
     # events
     "event_branch": Variable(("event",), "branch on which an event lies"),
@@ -162,9 +163,10 @@ VARIABLES = {
     # branches that leave at losses of symmetry and period doublings
     "leaving_outcome": Variable(
         ("event",),
-        "branch that leaves at a loss of symmetry or period doubling: it is followed; the branch "
-        "of the event ends here, at the other one; an orbit of it was found, but it was not "
-        "followed because of its period, or not past a grazing; or no orbit was found",
+        "what became of the other branch, which leaves at a loss of symmetry or period doubling. "
+        "followed: it is in the dataset; ended: the branch of the event ends at it; not_followed: "
+        "one of its orbits was found, but its period is too long; not_passed: it was not followed "
+        "past a grazing; not_found: none of its orbits was found",
         flags=OTHER,
     ),
     "leaving_branch": Variable(
@@ -189,11 +191,11 @@ VARIABLES = {
     "leaving_side": Variable(
         ("event",),
         "whether the other branch begins supercritical, with as many unstable multipliers as the "
-        "first branch on its more stable side, or subcritical, with one more; not told beside a "
-        "grazing, where multipliers change too fast",
+        "first branch on its more stable side, or subcritical, with one more; not determined near "
+        "a grazing, where multipliers change too fast",
         flags=SIDE,
     ),
-    # tori behind Neimark-Sacker points
+    # tori that begin at Neimark-Sacker points
     "torus_kind": Variable(
         ("event",),
         "torus that begins at a Neimark-Sacker point: stable, unstable, around an orbit with "
@@ -211,7 +213,7 @@ VARIABLES = {
     ),
     "torus_value": Variable(
         ("event",),
-        "varied parameter at which a stable torus was run onto",
+        "varied parameter at which a run settled on a stable torus",
         quantity="followed",
     ),
     "torus_number": Variable(

@@ -1,4 +1,4 @@
-"""Published numbers beside those computed here."""
+"""Published numbers, and the same quantities computed by this package."""
 
 from impact_damper.data.variables.variable import Variable
 

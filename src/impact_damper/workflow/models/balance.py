@@ -34,7 +34,11 @@ class HarmonicConvergence(MaybeWithDamper):
     contact_stiffness: CONTACT_STIFFNESS = None
     frequency: FREQUENCY
     highest: count("highest harmonic; the work grows with its cube", **HARMONIC_RANGE)
-    highest_cold: count("highest harmonic of a cold start", **HARMONIC_RANGE | {"least": 0})
+    highest_cold: count(
+        "highest harmonic of a cold start (Newton's method begun from the solution with one "
+        "harmonic)",
+        **HARMONIC_RANGE | {"least": 0},
+    )
 
 
 class DesignRules(WithOscillator):

@@ -34,7 +34,7 @@ from impact_damper.workflow.models.system import (
 )
 from impact_damper.workflow.models.values import count, number, several
 
-STEPS = range_of(count("steps a forcing cycle", **STEPS_RANGE))
+STEPS = range_of(count("steps in a forcing cycle", **STEPS_RANGE))
 TOLERANCES = range_of(number("tolerance of a method", **METHOD_TOLERANCE_RANGE), points=True)
 GEOMETRIC = range_of(number("end of a geometric grid", least=1e-14, most=1e9), points=True)
 
@@ -55,7 +55,7 @@ class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON
     cells: ContactCells
     smallest_restitution: number("smallest e of the map", **BOUNDS["restitution"])
     largest_load: number(
-        "largest acceleration over natural frequency and approach speed", **LOAD_RANGE
+        "largest load: acceleration divided by natural frequency and approach speed", **LOAD_RANGE
     )
 
     counts: ClassVar = ("cells.restitutions", "cells.loads")
@@ -91,7 +91,7 @@ class MissedContacts(WithOscillator):
     """Contacts that barely touch the wall (near grazing), found or missed by integrators."""
 
     frequency: FREQUENCY
-    passages: count("random flights without contact, of a forcing cycle each", **RUNS_RANGE)
+    passages: count("random flights without contact, each over one forcing cycle", **RUNS_RANGE)
     implicit_passages: count(
         "passages, counted from the first, on which the implicit Radau method is run",
         **RUNS_RANGE,
@@ -117,7 +117,10 @@ class StableSteps(WithDamper):
     frequency: FREQUENCY
     stiffnesses: range_of(CONTACT_STIFFNESS, points=True)
     scaled_steps: GEOMETRIC
-    most_steps: count("steps a forcing cycle beyond which a cell is not run", **MOST_STEPS_RANGE)
+    most_steps: count(
+        "largest number of steps in a forcing cycle; cells with more are not run",
+        **MOST_STEPS_RANGE,
+    )
     periods: RUN_PERIODS
 
     counts: ClassVar = ("stiffnesses.points", "scaled_steps.points")

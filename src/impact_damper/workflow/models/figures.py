@@ -61,7 +61,7 @@ def _curve_not_drawable(path, name, kind, config):
             yield problem(
                 path,
                 name,
-                "must have beside it an entry of curves with the oscillator "
+                "needs another entry of curves with the oscillator "
                 f"{dotted([curve.oscillator])}, no damper, and the stage branches (which the "
                 "figure draws too)",
             )

@@ -60,7 +60,7 @@ class Curve(MaybeWithDamper):
             reason = "must be 1 with the stage harmonic_balance (it knows elastic contact only)"
             yield problem((*path, "restitution"), self.restitution, reason)
         if self.clearance == "rule" and set(self.stages) - {"harmonic_balance", "design_orbit"}:
-            reason = "must be a number with stages beside harmonic_balance and design_orbit"
+            reason = "must be a number with stages other than harmonic_balance and design_orbit"
             reason = f"{reason} (see table harmonic_balance)"
             yield problem((*path, "clearance"), self.clearance, reason)
 

@@ -22,7 +22,7 @@ FALLING = "falling; each pair of neighbours gives an order of convergence"
 
 
 class RigidWalls(Section):
-    """The symmetric motion with two impacts a cycle, for all combinations of the lists."""
+    """The symmetric motion with two impacts in a cycle, for all combinations of the lists."""
 
     damping_ratio: DAMPING_RATIO
     restitutions: several(RESTITUTION, "values of e", least=1, distinct=True)

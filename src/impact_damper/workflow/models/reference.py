@@ -11,7 +11,7 @@ HEAD = f"""# Reference of the configuration
 Every key of `config.yaml` with its allowed values. This page is generated from the models that
 check the configuration, by `python -m impact_damper.workflow.models > config/reference.md`. `NAME`
 stands for a name of your choice: {NAME.__metadata__[-1].words}.
-After a semicolon a meaning mostly gives the reason for a bound.
+The text after a semicolon in the column "meaning" is mostly the reason for a bound.
 """
 COLUMNS = "| key | must be | meaning |\n|---|---|---|"
 

@@ -89,10 +89,11 @@ TABLES = (
         "change of the logarithm of the amplitude in a period, divided by the square of the "
         "amplitude; if it is negative the torus is stable. Motions on stable tori were simulated "
         "at two Ω near the point; the table gives the nearer Ω. The rotation number is "
-        "extrapolated to the point, where it must equal the angle of the multiplier. No "
-        "frequency: no torus was found at these Ω, because its orbit ends, locks or becomes "
-        "chaotic too soon. Not found out: a grazing or the resonance 1:3 is too close. Orbits that "
-        "are unstable on both sides of their point are left out.",
+        "extrapolated to the point, where it must equal the angle of the multiplier. The second "
+        "frequency is missing if no torus was found at these Ω, because the orbit ends, or because "
+        "the torus locks or becomes chaotic too soon. The kind of a torus is not found out if a "
+        "grazing or the resonance 1:3 is too close. Orbits that are unstable on both sides of "
+        "their point are left out.",
     ),
     Table(
         "shares",
@@ -123,11 +124,10 @@ TABLES = (
         "begins at a settled motion, at a stable orbit that Newton's method found in one of 360 "
         "searches from random states, or at a point of another branch: where an orbit loses its "
         "symmetry or doubles its period (table `other_branches`), or where the other branch ends. "
-        "The largest number of orbits is 8000 in one direction, 4400 for periods above 8. Left "
-        "where it becomes unstable is a branch of a period above 15. Newton's method finds no next "
-        "orbit where several contacts appear at almost the same frequency. The column `not "
-        "located` of the CSV counts events that lie between "
-        "two orbits but were not located.",
+        "A branch has at most 8000 orbits in one direction, or 4400 if its period is above 8. A "
+        "branch whose period is above 15 is left where it becomes unstable. Newton's method finds "
+        "no next orbit where several contacts appear at almost the same frequency. The column "
+        "`not located` of the CSV counts events that lie between two orbits but were not located.",
     ),
     Table(
         "bifurcations",
@@ -141,11 +141,11 @@ TABLES = (
         ("branches",),
         "What became of the branches that leave where an orbit loses its symmetry or doubles its "
         "period. An orbit of every such branch is searched for close to the event. A branch is "
-        "followed up to period 3, beside stable orbits up to period 4, and up to period 9 if its "
-        "orbits are stable where it begins; others are left, since "
-        "doublings form infinite cascades and unstable orbits of long periods wind through chaos. "
-        "Supercritical: it exists where the first orbit is the more unstable one; subcritical: "
-        "where this is the more stable one. Beside a grazing the side is not told, since the "
-        "multipliers change too fast there.",
+        "followed up to period 3, up to period 4 if it leaves next to stable orbits, and up to "
+        "period 9 if it is stable where it begins. Other branches are left, since doublings form "
+        "infinite cascades and unstable orbits of long periods wind through chaos. A branch is "
+        "supercritical if it exists on the side of the event on which the first orbit is more "
+        "unstable, and subcritical if it exists on the other side. The side is not determined near "
+        "a grazing, since the multipliers change too fast there.",
     ),
 )
