@@ -50,6 +50,7 @@ DAMAGES = {
 
 
 def damaged(context):
+    """Yield a trial of each damage of DATA, and of two damages that do not change its date."""
     for name, damage in DAMAGES.items():
         yield f"a NetCDF file in `results/`: {name}", _trial(context, name, damage, False)
     for name in ("cut off", "empty"):
@@ -60,6 +61,8 @@ def damaged(context):
 
 
 def _trial(context, name, damage, old):
+    """Return a trial of a damage; if `old`, the damaged file keeps the date it had before."""
+
     def trial():
         project = context.finished(name.replace(" ", "-"))
         path = project.folder / DATA
@@ -81,6 +84,8 @@ def _trial(context, name, damage, old):
 
 
 def stale_parts(context):
+    """Yield a trial with an incomplete file, as a killed job leaves it."""
+
     def trial():
         project = context.finished("parts")
         path = project.folder / DATA

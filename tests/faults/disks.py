@@ -36,6 +36,7 @@ def _mounted(folder, *arguments):
 
 
 def full_disk(context):
+    """Yield trials on disks of several sizes, which become full during the run."""
     for kilobytes in KILOBYTES:
         yield (
             f"a full disk under `results/`, of {kilobytes} kB",
@@ -46,6 +47,8 @@ def full_disk(context):
 
 
 def _full(context, kilobytes, whole):
+    """Return a trial on a disk with the free space given, of `results/` or the whole project."""
+
     def trial():
         folder = context.folder / f"full-{kilobytes}-{whole}"
         disk = folder if whole else folder / "results"
@@ -66,6 +69,8 @@ def _full(context, kilobytes, whole):
 
 
 def read_only(context):
+    """Yield trials in which nothing can be written into `results/`."""
+
     def trial(missing):
         project = context.finished("read-only")
         for path in missing:

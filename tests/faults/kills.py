@@ -48,6 +48,7 @@ def _within(folder, process):
 
 
 def kill_snakemake(context):
+    """Yield trials in which Snakemake is killed at a random moment."""
     for number, moment in enumerate(moments(context, "snakemake")):
         yield f"`kill -9` of Snakemake after {moment:.1f} s", _killed(context, number, moment)
 
@@ -66,6 +67,7 @@ def _killed(context, number, moment):
 
 
 def kill_job(context):
+    """Yield trials in which the job that runs at a random moment is killed, or the next one."""
     for number, moment in enumerate(moments(context, "job")):
         yield f"`kill -9` of a job after {moment:.1f} s", _job_killed(context, number, moment)
 
@@ -86,6 +88,7 @@ def _job_killed(context, number, moment):
 
 
 def interrupt(context):
+    """Yield trials with Ctrl-C at about four of the random moments."""
     for number, moment in enumerate(moments(context, "interrupt")[:: max(context.moments // 4, 1)]):
         yield f"Ctrl-C after {moment:.1f} s", _interrupted(context, number, moment)
 
@@ -98,14 +101,16 @@ def _interrupted(context, number, moment):
         os.killpg(process.pid, signal.SIGINT)
         process.communicate()
         wait_for_end_of_orphans(project.folder)
-        took = project.recover(context.undisturbed)
-        return took
+        return project.recover(context.undisturbed)
 
     return trial
 
 
 def edit_after_kill(context):
-    """A job that outlives its killed run must not overwrite results of a newer configuration."""
+    """Yield a trial: a job that outlives its killed run must not overwrite newer results.
+
+    The configuration is edited after the kill, and the newer results are those of the edited one.
+    """
 
     def trial():
         def edit(project):

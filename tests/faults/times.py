@@ -13,6 +13,8 @@ DAY = 86400
 
 
 def two_runs(context):
+    """Yield trials with two runs at once in one folder, of the same and of different targets."""
+
     def trial():
         project = context.fresh("two-runs")
         both = [project.start()]
@@ -47,6 +49,8 @@ def _ahead(paths):
 
 
 def clock_set_back(context):
+    """Yield trials in which results or sources seem to be from tomorrow."""
+
     def finished():
         project = context.finished("clock")
         _ahead((project.folder / "results").rglob("*"))
