@@ -3,9 +3,9 @@
     Z1'' = (F + U W^2 + V/W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
 This is equation (3) of the paper with four more parameters k3, F, U and V, which are fields of
-`parameters.Oscillator`. Kernels that evaluate the equation call the functions of this module, and
-the variations of a motion call its derivatives. The module `recurrence` has the Taylor series of
-the equation.
+`parameters.Oscillator`. Kernels that evaluate the equation call the functions of this module. The
+modules of the variational equations call the functions that return its derivatives. The module
+`recurrence` has the Taylor series of the equation.
 
 Symbols are as in `system.parameters`.
 """

@@ -77,12 +77,12 @@ class Writer:
         self.rows = rows(flight_order, contact_order)
 
     def at(self, row, k=0):
-        """Return the expression for the number of a trajectory in the k-th row after `row`."""
+        """Return the expression for a trajectory's entry in the k-th row after `row`."""
         index = (self.rows[row] + k) * self.lanes
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return the expression for the number of a tangent in the k-th row after `row`.
+        """Return the expression for a tangent's entry in the k-th row after `row`.
 
         The row "" is the first one; rows 0 to 3 hold the tangent itself.
         """

@@ -54,7 +54,7 @@ def assign(target, state):
 
 @kernel
 def polynomial(c, order, t):
-    """Return value and first derivative at t of the polynomial of c[0] + c[1] t + ..."""
+    """Return value and first derivative at t of the polynomial c[0] + c[1] t + ..."""
     value = c[order]
     slope = 0.0
     for k in range(order - 1, -1, -1):

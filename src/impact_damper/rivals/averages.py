@@ -53,8 +53,8 @@ def of_run(p, run, begin, periods, batch):
 def exponents(p, start, tolerance, periods, batch):
     """Return the largest Lyapunov exponent per unit of time T in each batch, by the Taylor series.
 
-    `start` is the state at W T = pi/2, and `tolerance` that of the integrator. The other arguments
-    are those of `of_run`.
+    `start` is the state at W T = pi/2, and `tolerance` the tolerance of the integrator. The
+    other arguments are those of `of_run`.
     """
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]

@@ -2,8 +2,8 @@
 
 A steady motion is a periodic motion of one forcing cycle. Most models solve for it instead of
 integrating from a state. If a harmonic balance has several solutions, the solution nearest to the
-initial state of the test case is taken, which favours the model. The numbers in brackets are those
-of equations in the paper. The counted work of a model is its number of floating-point operations:
+initial state of the test case is taken, which favours the model. Numbers in brackets are equations
+of the paper. The counted work of a model is its number of floating-point operations:
 
 - Rigid balance (14): the eigenvalues of the companion matrices of a polynomial of degree 6 and of
   its derivative, with 10 n^3 operations for n eigenvalues, and the search for roots of the

@@ -11,8 +11,8 @@ from impact_damper.system.packed import DASHPOT, FORCE, SHAKER, UNBALANCE, pack
 from impact_damper.system.parameters import Damper, Oscillator
 
 # Parameters that can vary along a branch, each with the dataclass that holds it. No dataclass holds
-# the frequency. Branches are continued in the coordinate of the parameter: the parameter itself for
-# those in LINEAR, otherwise the logarithm of the parameter.
+# the frequency. A branch is continued in a coordinate: the parameter itself if it is in LINEAR,
+# otherwise its logarithm.
 PARAMETERS = {
     "frequency": None,
     "damping": Oscillator,

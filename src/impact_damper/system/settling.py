@@ -28,8 +28,8 @@ class Settling:
     tolerance : float
         Largest local error in a step of the integrator, dimensionless.
     patience : int
-        Number of forcing cycles. After it a motion is stopped if it is certainly chaotic, or if the
-        loose mass hardly moves and has touched no wall during these cycles.
+        Number of forcing cycles after which a motion is stopped if it is certainly chaotic, or if
+        the loose mass hardly moves and has touched no wall during these cycles.
     limit : int
         Number of forcing cycles after which every motion is stopped. Its outcome is then chaotic if
         it certainly is, drifting if the loose mass has touched no wall for `patience` cycles, and

@@ -65,9 +65,13 @@ VARIABLES = {
     ),
     # the quiet motion
     "balance_quiet": Variable(
-        CELL, "stability of the quiet solution of (7) by the slow flow", flags=BALANCE_VERDICT
+        CELL,
+        "stability of the quiet solution of harmonic balance by the slow flow",
+        flags=BALANCE_VERDICT,
     ),
-    "balance_quiet_amplitude": Variable(CELL, "|a| of the quiet solution of (7)", "|a|"),
+    "balance_quiet_amplitude": Variable(
+        CELL, "|a| of the quiet solution of harmonic balance", "|a|"
+    ),
     "balance_quiet_growth": Variable(
         CELL, "growth rate of the slow flow at the quiet solution, per unit time"
     ),
@@ -117,19 +121,25 @@ VARIABLES = {
     ),
     # runs from the quiet solution
     "quiet_run_motion": Variable(
-        CELL, "motion to which a start at the quiet solution of (7) leads", flags=RUN_MOTION
+        CELL,
+        "motion to which a start at the quiet solution of harmonic balance leads",
+        flags=RUN_MOTION,
     ),
     "quiet_run_exponent": Variable(
         CELL, "largest Lyapunov exponent of the quiet run, per unit time"
     ),
     "quiet_run_error": Variable(CELL, "standard error of quiet_run_exponent"),
     # the high motion
-    "balance_high": Variable(CELL, "stability of the high solution of (7)", flags=BALANCE_VERDICT),
-    "balance_high_amplitude": Variable(CELL, "|a| of the high stable solution of (7)", "|a|"),
+    "balance_high": Variable(
+        CELL, "stability of the high solution of harmonic balance", flags=BALANCE_VERDICT
+    ),
+    "balance_high_amplitude": Variable(
+        CELL, "|a| of the high stable solution of harmonic balance", "|a|"
+    ),
     "high_run_motion": Variable(
         CELL,
-        "motion to which the high run leads; the run starts at the high solution of (7) or, where "
-        "none exists, on the free resonance branch",
+        "motion to which the high run leads; the run starts at the high solution of harmonic "
+        "balance or, where none exists, on the free resonance branch",
         flags=RUN_MOTION,
     ),
     "high_run_outcome": Variable(CELL, "outcome of the high run", flags=OUTCOME),

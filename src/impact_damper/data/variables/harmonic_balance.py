@@ -57,7 +57,9 @@ VARIABLES = {
     "free_count": Variable(
         ("frequency",), "number of solutions of the harmonic balance without the damper"
     ),
-    "rigid_tangent": Variable(("frequency", "root"), "root of the polynomial (14)", "D"),
+    "rigid_tangent": Variable(
+        ("frequency", "root"), "root of the polynomial (14) for rigid walls", "D"
+    ),
     "rigid_amplitude": Variable(
         ("frequency", "root"),
         "amplitude of Z1 for rigid walls, negative if Z1 is in antiphase to Z2",
@@ -72,8 +74,14 @@ VARIABLES = {
         "whether rigid walls push the loose mass, or would have to pull it",
         flags={"absent": 0, "pushes": 1, "pulls": 2},
     ),
-    "rigid_residual": Variable(("frequency", "root"), "residual of (13)", quantity="mixed"),
-    "rigid_count": Variable(("frequency",), "number of real roots of the polynomial (14)"),
+    "rigid_residual": Variable(
+        ("frequency", "root"),
+        "residual of the balance for rigid walls, equation (13)",
+        quantity="mixed",
+    ),
+    "rigid_count": Variable(
+        ("frequency",), "number of real roots of the polynomial (14) for rigid walls"
+    ),
     # suppression band
     "peak_frequency": Variable(
         (), "peak frequency without the damper", "Omega_p", quantity="frequency"
@@ -133,11 +141,14 @@ VARIABLES = {
         quantity="displacement",
     ),
     "analytical_amplitude": Variable(
-        ("clearance",), "smallest |a| of a stable solution of (7)", "|a|", quantity="displacement"
+        ("clearance",),
+        "smallest |a| of a stable solution of the harmonic balance (7)",
+        "|a|",
+        quantity="displacement",
     ),
     "analytical_status": Variable(
         ("clearance",),
-        "whether (7) has a stable solution",
+        "whether the harmonic balance (7) has a stable solution",
         flags={"absent": 0, "found": 1, "inelastic": 2, "unresolved": 3},
     ),
     "optimum_clearance": Variable(
@@ -163,7 +174,10 @@ VARIABLES = {
         flags={"not_found": 0, "crossed": 1, "branch_ends": 2, "sweep_ends": 3},
     ),
     "analytical_optimum": Variable(
-        (), "clearance at which (7) has a solution with a = 0", "d0", quantity="clearance"
+        (),
+        "clearance at which the harmonic balance (7) has a solution with a = 0",
+        "d0",
+        quantity="clearance",
     ),
     "analytical_kind": Variable((), "kind of minimum of |a| at analytical_optimum", flags=MINIMUM),
     "rule_clearance": Variable(

@@ -90,7 +90,8 @@ def find_contact(a):
 
     Bounds decide most flights without a search. CHANGE is the sum of the moduli of all terms of Z1'
     after the first, at T. The bounds hold for any series, so they do not depend on the spring. The
-    wall "ahead" is the wall to which the loose mass moves at the beginning of the flight.
+    wall "ahead" is the wall to which the loose mass moves at the beginning of the flight, and the
+    other wall is "behind".
 
     - `clear`: over [0, T], Z1 and therefore Z2 deviate from their chords by at most SAG CHANGE T.
       If the distance to the wall ahead exceeds this deviation at both ends, this wall is not met.
