@@ -197,10 +197,15 @@ def events_between(start, end, length):
 
 
 def _is_complex_pair(multipliers):
-    """Return whether the multipliers nearest to the unit circle are a complex pair."""
+    """Return whether the pair of multipliers whose product is nearest to 1 is a complex pair.
+
+    Another pair may be complex far from the unit circle while the product of two real multipliers
+    passes 1.
+    """
     values = multipliers[np.isfinite(multipliers)]
-    nearest = values[np.argmin(np.abs(np.abs(values) - 1))]
-    return abs(nearest.imag) > COMPLEX
+    first, second = PAIRS[len(values)]
+    nearest = first[np.argmin(np.abs(values[first] * values[second] - 1))]
+    return abs(values[nearest].imag) > COMPLEX
 
 
 def _changes_of_contact(point_at, start, end, length):
