@@ -42,8 +42,8 @@ def test_a_gap_is_held_as_closely_as_one_can(width, tolerance, held):
 def quiet_ranges(monkeypatch, quiet, width):
     """Return 9 gaps from 1 to 4 mm, and the result of `choose_with_edges` for them.
 
-    The gaps with the indices `quiet` are quiet. Each quiet range extends from such a gap up to
-    1 + `width` times this gap.
+    The gaps with the indices `quiet` are quiet. Each quiet range extends from such a gap up to this
+    gap times (1 + `width`).
     """
     shares = np.where(np.isin(np.arange(9), quiet), 1.0, 0.5)[:, None]
     gaps = np.geomspace(1, 4, 9)

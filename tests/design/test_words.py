@@ -122,8 +122,8 @@ def test_a_large_motion_is_told_with_the_starts_that_lead_to_it():
 
 def test_a_loose_mass_that_floats_is_told_with_the_room_that_it_has():
     words = said(untouched_displacement=[np.nan, 3.1, 2.5, np.nan, np.nan])
-    assert "moves less than that, up to 3.1 mm" in words
-    assert "within 0.4 mm of the middle of the gap (11 % of it)" in words
+    assert "moves less than half the gap, up to 3.1 mm" in words
+    assert "within 0.4 mm of the middle (11 % of the gap)" in words
     assert "until then the damper has no effect" not in said(displacement_limit=3.6)
     assert "moves half the gap, 3.5 mm: until then the damper has no effect" in said()
     assert "not touched" not in said()

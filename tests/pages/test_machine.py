@@ -122,11 +122,19 @@ def test_who_wins_is_said_plainly():
         "moves at most 0.5 mm. Next is this impact damper with 0.8 mm."
     ) in markdown
     assert (
-        "So the absorber is better than the impact damper, even if detuned: with its springs 10 % "
-        "off the optimised absorber reaches 0.6 mm."
+        "So the absorber is better than the impact damper, even if detuned: with the springs of "
+        "the optimised absorber 10 % off the machine moves up to 0.6 mm."
     ) in markdown
     better = machine_page("x", made_up_design(reached_displacement=np.full(5, 0.1)))
     assert "the impact damper is the right choice here" in as_text("page.md", better, NO_PICTURES)
+
+
+def test_a_detuned_absorber_from_which_the_machine_escapes_is_told():
+    sizes = made_up_design()["competitor_displacement"].values.copy()
+    sizes[-1, 0] = np.inf
+    told = "so the absorber is better only as long as it stays tuned: with the springs of the "
+    told += "optimised absorber 10 % off the machine escapes."
+    assert told in texts(competitor_displacement=sizes)[1].lower()
 
 
 def test_a_lighter_mass_that_does_as_well_is_told():

@@ -146,11 +146,12 @@ CLAIMS = (
         text="All impacting solutions of (14) and (7) but the smallest agree very closely.",
         source="section 3",
         interpretation="Roots of (14) with walls that push are compared with the solutions of (7) "
-        "at the same W, for all designs of figures 3, 5 and 8. A wall pushes if a < d0, as (10) "
-        "supposes with eps > 0. The smallest |a| at each W is left out. Very closely means "
-        "within 5 %. In addition these solutions of (7) are compared with the first harmonic of "
-        "the nearest exact orbit with two symmetric contacts, stable or not, for the dampers of "
-        "figures 5 and 8. Orbits on branches without any stable part are not known.",
+        "at the same W, for all designs of figures 3, 5 and 8. A wall pushes if its force, "
+        "rm W^2 (d0 - a), is positive, as (10) supposes with eps > 0. The smallest |a| at each W "
+        "is left out. Very closely means within 5 %. In addition these solutions of (7) are "
+        "compared with the first harmonic of the nearest exact orbit with two symmetric contacts, "
+        "stable or not, for the dampers of figures 5 and 8. Orbits on "
+        "branches without any stable part are not known.",
         measures=(
             Measure(
                 "alike",

@@ -39,7 +39,7 @@ BEYOND = 1.15
 # the best gap of the coarse comparison. The factor leaves room for gaps within the tolerance, at
 # which the quiet motion is larger.
 ABOVE = 2.5
-# If no candidate is quiet, further candidates are compared beside a candidate at which the share of
+# If no candidate is quiet, further candidates are compared next to a candidate whose share of
 # quiet starts is at least PROMISING at all frequencies.
 PROMISING = 0.5
 

@@ -12,7 +12,7 @@ from impact_damper.data.design_ranges import known_range, stable_range
 from impact_damper.design.restitutions import best_of
 
 # In the model the dashpot of a wall may pull the loose mass at the end of a contact. A remark is
-# made if a wall that cannot pull has a restitution that is larger by more than this share.
+# made if the same wall without pull has a restitution that is larger by more than this fraction.
 EXCESS = 0.1
 # A range of excitations is called narrow if one of its ends differs from 1 by less than CLOSE.
 CLOSE = 0.1

@@ -36,7 +36,8 @@ FLIGHT = 1.14
 SEEDED = 16
 SEED_GAPS = (0.3, 0.5, 0.7, 0.9, 1.05)
 SEED_FREQUENCIES = 5
-# Shortest step between neighbours of the map, as a fraction of their distance.
+# Shortest step with which an orbit is followed from one place of the map to the next one, as a
+# fraction of their distance.
 SHORTEST = 0.25
 
 

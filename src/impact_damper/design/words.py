@@ -163,10 +163,10 @@ def _untouched(data, gap):
     if size > limit:
         room = gap / 2 - size
         texts.append(
-            "At some frequencies the machine without the damper moves less than that, up to "
-            f"{size:.3g} mm. If the loose mass then lies at rest within {room:.2g} mm of the "
-            f"middle of the gap ({_percent(2 * room / gap, 2)} of it), it is not touched, and "
-            "the machine moves as without the damper until the loose mass drifts. A loose mass "
+            "At some frequencies the machine without the damper moves less than half the gap, up "
+            f"to {size:.3g} mm. If the loose mass then lies at rest within {room:.2g} mm of the "
+            f"middle ({_percent(2 * room / gap, 2)} of the gap), the loose mass is not touched, "
+            "and the machine moves as without the damper until the loose mass drifts. A loose mass "
             "that begins at an end of the gap is touched at once. No random start led to this "
             "motion."
         )

@@ -111,7 +111,13 @@ def _panel(axes, data):
             axes.plot(stopped, top, role[2], markerfacecolor="none", **looks)
             axes.plot(stopped, top, "+", color=BLACK, markersize=7, clip_on=False)
     if quantity == "contacts":
-        axes.text(0.02, 0.86, "errors above 1: orbit left", transform=axes.transAxes, fontsize=7)
+        axes.text(
+            0.02,
+            0.86,
+            "errors above 1: the motion left the orbit",
+            transform=axes.transAxes,
+            fontsize=7,
+        )
     else:
         axes.axhline(allowed, color=BLACK, linestyle="--", linewidth=0.9, label="required accuracy")
     axes.plot([], [], "o", color=GREY, markerfacecolor="none", label=DOUBTFUL)

@@ -66,9 +66,9 @@ class MachineDamper:
     def check_for(self, machine):
         """Raise ValueError, with the range allowed, if the damper does not fit a machine.
 
-        The gap must be larger than the static play: the sum of the compressions of both contacts
-        under the force with which the machine, driven by its static force, accelerates the loose
-        mass.
+        The gap must be larger than the static play. If the static force of the machine accelerates
+        both masses together, a contact passes the fraction m2/(m1 + m2) of this force on to the
+        loose mass m2. The static play is the compression of both contacts under this fraction.
         """
         scales = machine.scales
         clearances = scales.range_to_si(CLEARANCE_RANGE, "clearance")

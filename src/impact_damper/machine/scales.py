@@ -16,9 +16,9 @@ class Scales(NamedTuple):
     Attributes
     ----------
     length : float
-        x0, m.
+        Length x0, m.
     time : float
-        1/w0, s.
+        Time 1/w0, s.
     mass : float
         Mass m1 of the machine, kg.
     """

@@ -106,7 +106,8 @@ def _verdict(data, over_frequency):
     else:
         off = data["competitor_displacement"].sel(competitor=first, force_share=1.0)
         detuned = float(off.max(skipna=False))
-        what = f"with its springs 10 % off {NAMES[first]} reaches {shown(detuned, 'mm')}"
+        moves = "escapes" if np.isinf(detuned) else f"moves up to {shown(detuned, 'mm')}"
+        what = f"with the springs of {NAMES[first]} 10 % off the machine {moves}"
         if detuned < worst["this"]:
             yield f"So the absorber is better than the impact damper, even if detuned: {what}."
         else:

@@ -21,12 +21,12 @@ from impact_damper.figures.style import BLUE, GREY, figure, legend, style
 
 CAPTION = """
 Horizontal: gap, the full play. Above: share of random starts that lead to quiet motions, at the
-worst frequency of the band (circles: coarse comparison; squares: candidates, with 95 % intervals).
-Below: largest displacement of all motions found over the band. Star: smallest stable quiet orbit;
-few starts may lead to it. The star holds for one frequency: among the frequencies with a stable
-quiet orbit, the one at which the machine without the damper moves most. Blue line: exact quiet
-orbit at the frequency at which the share falls first. If the two frequencies differ, the star is
-off the line.
+worst frequency of the band. Circles: coarse comparison, from few starts. Squares: candidates, from
+all starts, with 95 % intervals. Below: largest displacement of all motions found over the band.
+Star: smallest stable quiet orbit; few starts may lead to it. The star holds for one frequency:
+among the frequencies with a stable quiet orbit, the one at which the machine without the damper
+moves most. Blue line: exact quiet orbit at the frequency at which the share falls first. If the two
+frequencies differ, the star is off the line.
 """
 COARSE = {
     "color": GREY,
