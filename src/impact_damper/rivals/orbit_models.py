@@ -43,6 +43,7 @@ from impact_damper.rivals.taylor_runs import (
     steps_work,
 )
 from impact_damper.system.packed import CLEARANCE, DASHPOT, FREQUENCY, pack
+from impact_damper.system.parameters import SPRING_POWER
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.harmonic_solutions import Solution, solve, state_of
@@ -218,7 +219,7 @@ def many_harmonics(oscillator, damper, frequency, state, highest):
 def newton_work(balance):
     """Return the number of operations of one step of Newton's method with many harmonics."""
     n, top = int(np.sum(balance.kept)), balance.highest
-    transforms = 2 * _transform(16 * top) + 3 * _transform(4 * top)
+    transforms = 2 * _transform(16 * top) + 3 * _transform((SPRING_POWER + 1) * top)
     return 2 / 3 * n**3 + 12 * n**2 + transforms
 
 

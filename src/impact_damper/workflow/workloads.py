@@ -67,7 +67,15 @@ def workloads(config):
         if isinstance(section, Study):
             yield from _too_many_cells(path, section.cells(), config.chunks)
     radius = max(config.search.radius, MIGRATION_RADIUS)
-    for case in _cases(config):
+    for path, section in parts(config):
+        try:
+            case = _case(path, section, config)
+        except ValueError as error:
+            # The rule for the clearance and the peak frequency are not defined for all oscillators.
+            yield f"{dotted(path)}: no clearance by `rule`, or no peak, with this oscillator: {error}"
+            continue
+        if case is None:
+            continue
         yield from _too_stiff(case)
         for key, clearance in case.clearances:
             yield from _too_narrow_or_wide((*case.path, key), clearance, radius)
@@ -128,28 +136,32 @@ def _too_narrow_or_wide(path, clearance, radius):
         yield problem(path, clearance, f"must be at most {most:g} (`rule` gives this clearance)")
 
 
-def _cases(config):
-    """Yield each entry with a damper."""
-    for path, section in parts(config):
-        key, mass_ratio = _given(section, "mass_ratios", "mass_ratio")
-        if isinstance(section, BalanceMap):
-            yield _case_of_map(path, section, config)
-        elif mass_ratio is not None:
-            _, stiffness = _given(
-                section, "stiffnesses", "contact_stiffnesses", "contact_stiffness"
-            )
-            _, frequency = _given(section, "frequencies", "frequency")
-            if frequency is None:
-                named = getattr(section, "oscillator", None)
-                frequency = config.oscillators[named].frequencies if named else NATURAL
-            yield Case(
-                path,
-                key,
-                _least(mass_ratio),
-                _greatest(stiffness or config.contact_stiffness),
-                _least(frequency),
-                _clearances(section, config),
-            )
+def _case(path, section, config):
+    """Return the `Case` of an entry of the configuration, None without a damper.
+
+    Raises
+    ------
+    ValueError
+        If the oscillator has no peak, which the rule for the clearance needs.
+    """
+    key, mass_ratio = _given(section, "mass_ratios", "mass_ratio")
+    if isinstance(section, BalanceMap):
+        return _case_of_map(path, section, config)
+    if mass_ratio is None:
+        return None
+    _, stiffness = _given(section, "stiffnesses", "contact_stiffnesses", "contact_stiffness")
+    _, frequency = _given(section, "frequencies", "frequency")
+    if frequency is None:
+        named = getattr(section, "oscillator", None)
+        frequency = config.oscillators[named].frequencies if named else NATURAL
+    return Case(
+        path,
+        key,
+        _least(mass_ratio),
+        _greatest(stiffness or config.contact_stiffness),
+        _least(frequency),
+        _clearances(section, config),
+    )
 
 
 def _clearances(section, config):
