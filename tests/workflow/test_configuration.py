@@ -270,7 +270,11 @@ def test_an_unknown_key_is_answered_with_the_nearest_known_one(path, told):
         ("figures/verdicts/data", ["orbits", "more"], "must be 1 at most"),
         ("figures/figure_01/data", ["elastic_model", "algorithm"], "must be 1 at most"),
         ("curves/figure_03c_rule/mass_ratio", 1.0e-6, "at most 1000 (`rule` gives this"),
-        ("oscillators/h215/force", 0.0, "figure_03c_rule: no clearance by `rule`, or no peak, with"),
+        (
+            "oscillators/h215/force",
+            0.0,
+            "figure_03c_rule: no clearance by `rule`, or no peak, with",
+        ),
         ("rigid_limit/figure_10/mass_ratio", 1.0e-6, "so large that sqrt(r1 (1 + 1/rm))/W ="),
         ("contact_stiffness", 1.0e-7, "at least 1e-06"),
         (f"curves/{'a' * 65}", PAPER["curves"]["figure_10"], "a file name"),
