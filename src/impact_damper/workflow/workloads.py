@@ -72,7 +72,8 @@ def workloads(config):
             case = _case(path, section, config)
         except ValueError as error:
             # The rule for the clearance and the peak frequency are not defined for all oscillators.
-            yield f"{dotted(path)}: no clearance by `rule`, or no peak, with this oscillator: {error}"
+            reason = "no clearance by `rule`, or no peak, with this oscillator"
+            yield f"{dotted(path)}: {reason}: {error}"
             continue
         if case is None:
             continue
