@@ -6,13 +6,14 @@ The CSV files have all columns.
 import re
 from importlib import import_module
 
+import pandas as pd
 import pytest
 import yaml
 from helpers.made_up import world
 from helpers.made_up_design import made_up_design
 from helpers.running import ROOT
 
-from impact_damper.data.table_files import in_words
+from impact_damper.data.table_files import for_people, in_words
 from impact_damper.rivals.words import method_in_words
 from impact_damper.workflow import selection
 from impact_damper.workflow.chapter import make_table
@@ -105,3 +106,11 @@ def test_claims_show_the_figures_that_the_run_draws(tmp_path):
     values = selection.chapter_values(config, "claims")
     assert "figure_05a" in values["drawn"] and "figure_06" not in values["drawn"]
     assert "drawn" not in selection.chapter_values(config, "responses")
+
+
+def test_a_table_for_people_shows_the_chosen_rows_and_counts_all():
+    frame = pd.DataFrame({"W": ["1", "2", "3"], "stable": ["yes", "no", "yes"]})
+    text = for_people(frame, "Events", {"W": "Ω"}, "e.csv", rows=("stable", "yes"))
+    assert "`e.csv` has all 2 columns and 3 rows." in text
+    cells = [line.strip("| ") for line in text.splitlines() if line.startswith("|")]
+    assert cells[2:] == ["1", "3"]

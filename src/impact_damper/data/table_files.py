@@ -42,8 +42,8 @@ def as_markdown(frame) -> str:
     return text.to_markdown(index=False, disable_numparse=True)
 
 
-def for_people(frame, title, heads, csv_name, cells=None) -> str:
-    """Return the Markdown text of a table with its most important columns.
+def for_people(frame, title, heads, csv_name, cells=None, rows=None) -> str:
+    """Return the Markdown text of a table with its most important columns and rows.
 
     Parameters
     ----------
@@ -58,14 +58,18 @@ def for_people(frame, title, heads, csv_name, cells=None) -> str:
     cells : dict of callable, optional
         Keyed by column: a function from the text of a cell to the text shown. Other cells are shown
         as `in_words` returns them.
+    rows : (str, str), optional
+        Column, and the text that it has in the rows shown. All rows are shown by default.
     """
     cells = cells or {}
-    shown = frame[[name for name in heads if name in frame]]
+    kept = frame if rows is None or frame.empty else frame[frame[rows[0]] == rows[1]]
+    shown = kept[[name for name in heads if name in frame]]
     shown = shown.apply(lambda column: column.map(cells.get(column.name, in_words)))
     shown = shown.rename(columns=heads)
     note = (
         "Numbers without a unit are dimensionless; an empty cell is a quantity that does not "
-        f"exist there or was not computed. `{csv_name}` has all {frame.shape[1]} columns."
+        f"exist there or was not computed. `{csv_name}` has all {frame.shape[1]} columns"
+        + (f" and {len(frame)} rows." if len(kept) < len(frame) else ".")
     )
     body = "The configuration has no data for this table." if frame.empty else as_markdown(shown)
     return "\n\n".join([f"# {title}", note, body])

@@ -47,6 +47,8 @@ SHOWN = {
         "stable": "its orbit is stable",
     },
 }
+# Table -> column and value of the rows in the Markdown table; the CSV file has all rows.
+ROWS = {"bifurcations": ("next to stable orbits", "yes")}
 # Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
 # In columns without a function, underscores become spaces.
 CELLS = {"event": lambda cell: cell.replace("neimark sacker", "Neimark-Sacker")}
@@ -142,6 +144,7 @@ def bifurcations(datasets) -> pd.DataFrame:
     """Return located bifurcations and changes of the contacts, sorted by branch and frequency."""
     rows = []
     for name, parameters, data in _branches(datasets):
+        stable = _next_to_stable(data)
         for k in range(data.sizes["event"]):
             branch = int(data["event_branch"][k])
             rows.append(
@@ -152,6 +155,7 @@ def bifurcations(datasets) -> pd.DataFrame:
                     "period": int(data["branch_period"][branch]),
                     "W": f"{float(data['event_value'][k]):.10f}",
                     "event": extract.meaning("event_kind", data["event_kind"].values[k]),
+                    "next to stable orbits": "yes" if stable[k] else "no",
                     "max |Z1|": float(data["event_displacement"][k]),
                     "walls before": str(data["walls_before"].values[k]),
                     "walls after": str(data["walls_after"].values[k]),
@@ -161,6 +165,19 @@ def bifurcations(datasets) -> pd.DataFrame:
             )
     frame = pd.DataFrame(rows)
     return frame.sort_values(["data", "branch", "W"], kind="stable") if rows else frame
+
+
+def _next_to_stable(data):
+    """Return for each event whether an orbit before or after it on the branch is stable."""
+    found = np.zeros(data.sizes["event"], bool)
+    for branch in range(data.sizes["branch"]):
+        points = np.flatnonzero(data["orbit_branch"].values == branch)
+        stable = data["orbit_stability"].values[points] == flag("orbit_stability", "stable")
+        ahead, behind = np.append(stable[1:], False), np.append(False, stable[:-1])
+        at = data["followed_value"].values[points][ahead | behind | stable]
+        events = np.flatnonzero(data["event_branch"].values == branch)
+        found[events] = np.isin(data["event_value"].values[events], at)
+    return found
 
 
 def _leaving(event):

@@ -36,6 +36,7 @@ def make_table(name, datasets, path, drawn=()) -> None:
         heads=module.SHOWN[name],
         csv_name=f"{name}.csv",
         cells=getattr(module, "CELLS", {}),
+        rows=getattr(module, "ROWS", {}).get(name),
     )
     if table.pictures:
         document = partial(document, drawn=drawn)

@@ -133,7 +133,8 @@ TABLES = (
         "bifurcations",
         "tables.branches",
         ("branches",),
-        "All located bifurcations and changes of contact of the periodic orbits.",
+        "Located bifurcations and changes of contact next to stable periodic orbits; the CSV has "
+        "those of unstable orbits too. An event at which two branches meet has a row for each.",
     ),
     Table(
         "other_branches",
