@@ -328,10 +328,11 @@ def test_a_spring_that_pushes_outward_is_said_to_soften(name):
             assert pushes[0] > 0 > pushes[1], "motions/start_states.py: barrier"
 
 
+@pytest.mark.parametrize("spring", SPRINGS)
 @pytest.mark.parametrize("number", range(COUNT), ids=NAMES)
-def test_derivatives_of_the_equation(number):
+def test_derivatives_of_the_equation(number, spring):
     """Against central differences, whose step is a power of two."""
-    p, step = packed(SPRINGS["shaken"]), np.zeros(COUNT)
+    p, step = packed(SPRINGS[spring]), np.zeros(COUNT)
     step[number] = 2.0**-12
     speed = np.linspace(-1.0, 1.0, len(Z1))
     where = f"kernel/equation.py, {NAMES[number]}: "
