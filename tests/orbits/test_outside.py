@@ -8,7 +8,10 @@ doubling, by two at a Neimark-Sacker point, and nowhere else.
 import numpy as np
 import pytest
 
+from impact_damper.orbits.bifurcations import _is_complex_pair, events_between
 from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.continuation import Problem
+from impact_damper.orbits.hidden import hides_bifurcations
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.system.packed import pack
 from impact_damper.system.parameters import Damper, Oscillator
@@ -33,6 +36,13 @@ CASES = {
         (1.690, 1.6925),
     ),
 }
+# W, phase and state of a symmetric orbit of period 7 with the damper of figure 5 (a). The branch
+# has two losses of symmetry at larger W: at 1.661081 and 1.665833.
+BEFORE_TWO_LOSSES = (
+    1.6607936847446518,
+    2.908858122417371,
+    [-0.40427670589641235, -0.15225110539453973, 0.27734003610564995, -1.3276315715040206],
+)
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -59,3 +69,48 @@ def _reachable(count, changes):
     for change in changes:
         reached = {each + sign * change for each in reached for sign in (-1, 1)}
     return reached
+
+
+@pytest.mark.parametrize(
+    ("multipliers", "expected"),
+    [
+        ([-8.75, 0.6 + 0.8j, 0.6 - 0.8j, -0.01], True),
+        ([0.6 + 0.8j, 0.6 - 0.8j, 0.1 + 0.2j, 0.1 - 0.2j], True),
+        ([50.0, 0.1 + 0.3j, 0.1 - 0.3j, 0.02], False),
+        ([30 + 40j, 30 - 40j, 0.012 + 0.016j, 0.012 - 0.016j], False),
+    ],
+)
+def test_only_a_conjugate_pair_on_the_unit_circle_makes_a_torus(multipliers, expected):
+    """In the last two cases two multipliers that are not conjugate have the product 1."""
+    assert _is_complex_pair(np.array(multipliers, complex)) == expected
+
+
+def test_a_step_that_hides_two_losses_of_symmetry_is_recognized():
+    """The step to W = 1.6665 passes both losses of symmetry, and none of them is located."""
+    point, ahead, events = _step_over_losses_of_symmetry(1.6665)
+    assert not events and hides_bifurcations(point, ahead, events)
+
+
+def _step_over_losses_of_symmetry(last):
+    """Return the ends of a step that ends at W = `last`, and the events located on the step."""
+
+    def family(frequency):
+        return pack(Oscillator(0.215), Damper(0.12, 2.0), frequency)
+
+    first, phase, state = BEFORE_TWO_LOSSES
+    orbit = find_orbit(family(first), state, 7, phase)
+    point = Problem.of(family, orbit).begin(orbit, first, 1)
+    ahead = point
+    for value in np.linspace(first, last, 12)[1:]:
+        ahead = point.problem.at_value(ahead, value)
+    length = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
+    events, lost = events_between(point, ahead, length)
+    assert not lost
+    return point, ahead, events
+
+
+def test_a_step_without_one_of_its_events_is_recognized():
+    """Without the loss of symmetry the multipliers outside the unit circle are unaccounted for."""
+    point, ahead, events = _step_over_losses_of_symmetry(1.6645)
+    assert not hides_bifurcations(point, ahead, events)
+    assert hides_bifurcations(point, ahead, [])

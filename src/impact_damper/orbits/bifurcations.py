@@ -197,15 +197,15 @@ def events_between(start, end, length):
 
 
 def _is_complex_pair(multipliers):
-    """Return whether the pair of multipliers whose product is nearest to 1 is a complex pair.
+    """Return whether the pair of multipliers whose product is nearest to 1 is a conjugate pair.
 
-    Another pair may be complex far from the unit circle while the product of two real multipliers
-    passes 1.
+    Other multipliers may be complex while the product of two that are not conjugate passes 1.
     """
     values = multipliers[np.isfinite(multipliers)]
     first, second = PAIRS[len(values)]
-    nearest = first[np.argmin(np.abs(values[first] * values[second] - 1))]
-    return abs(values[nearest].imag) > COMPLEX
+    k = np.argmin(np.abs(values[first] * values[second] - 1))
+    one, other = values[first[k]], values[second[k]]
+    return abs(one.imag) > COMPLEX and np.isclose(one, other.conjugate())
 
 
 def _changes_of_contact(point_at, start, end, length):

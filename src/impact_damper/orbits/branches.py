@@ -28,6 +28,7 @@ from impact_damper.orbits.continuation import (
 )
 from impact_damper.orbits.cutting import holds_still, recut
 from impact_damper.orbits.grazing import through_grazing
+from impact_damper.orbits.hidden import hides_bifurcations
 from impact_damper.orbits.steps import folds_twice, next_point, passes_unseen, with_bend
 
 # Largest number of orbits in one direction.
@@ -46,8 +47,8 @@ WEAK = 0.02
 VANISHED = 0.5
 # If a step shorter than CLOSE_STEP fails, a grazing is searched for within REACH times its length.
 CLOSE_STEP, REACH = 2e-3, 8.0
-# A step is halved, down to CLEAR_STEP, if an event on it is not located or if another branch may
-# cross it unseen.
+# A step is halved, down to CLEAR_STEP, if an event on it is not located, if it may hide two
+# bifurcations, or if another branch may cross it unseen.
 CLEAR_STEP = 1e-4
 
 
@@ -202,7 +203,9 @@ def _walk(problem, first, span, most, stable=False) -> Branch:
                 continue
             along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
             pieces = [(point, ahead, *events_between(point, ahead, along))]
-            if length > CLEAR_STEP and (pieces[0][3] or passes_unseen(*pieces[0][:3])):
+            step = pieces[0][:3]
+            unseen = passes_unseen(*step) or hides_bifurcations(*step)
+            if length > CLEAR_STEP and (pieces[0][3] or unseen):
                 length /= 2
                 continue
         for start, ahead, located, missed in pieces:
