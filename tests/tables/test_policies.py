@@ -67,6 +67,9 @@ def test_policies_and_bound_have_a_row_each():
     rows = table(release_policies).set_index("policy")
     assert list(rows.index) == POLICIES
     assert rows.loc["state", "median cycles"] == 20 and rows.loc["state", "hold"] == 5
+    assert rows.loc["state", "rule"] == "state in the goal's basin, margin 0, at most K = 5"
+    assert rows.loc["state", "share and interval"] == "0.8 (0.7 to 0.9)"
+    assert set(rows["damper"]) == {"rm = 0.12, d0 = 2, e = 1"}
 
 
 def test_predictions_are_told_to_hold_or_not():
@@ -87,3 +90,5 @@ def test_the_best_margin_has_the_most_success_and_then_the_least_time():
     rows = table(release_disturbances).set_index("disturbance")
     assert rows.loc["noise 10 %", ["without margin", "with best margin"]].tolist() == [0.2, 0.6]
     assert np.all(rows["clairvoyant"] == 1)
+    margins = ["margin 0", "margin 0.01", "margin 0.02", "margin 0.02, median cycles"]
+    assert rows.loc["noise 10 %", margins].tolist() == [0.2, 0.4, 0.6, 7]

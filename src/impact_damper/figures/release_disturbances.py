@@ -18,10 +18,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Horizontal: least distance of a release from the basin's boundary, over the size of the resonance
-motion. Above: share of trials that reach the non-resonance motion within 350 cycles. Below: median
-number of cycles. Noise is relative to the resonance motion; h and force are values assumed by the
-controller. Bars: 95 % intervals. Dotted, grey area: bound if state and future are known.
+Margin: least distance of a release from the basin's boundary. Unit of margin and noise: size of
+the resonance motion. Above, at the lower W: share within 350 cycles. Below, at the higher W: median
+cycles. h, force: assumed by controller. Bars: 95 % intervals. Dotted, grey: bound. Other
+disturbances: `release_disturbances.csv`.
 """
 
 # Disturbances that are drawn, with their labels; the table holds further disturbances.

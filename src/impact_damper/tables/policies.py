@@ -20,27 +20,30 @@ DAMPER = {
     "W": "forcing frequency Ω",
 }
 SHOWN = {
-    "release_policies": DAMPER
-    | {
-        "policy": "policy",
-        "within 350 cycles": "share within 350 cycles",
-        "median cycles": "median time [cycles]",
+    "release_policies": {
+        "damper": "damper",
+        "W": DAMPER["W"],
+        "rule": "policy (K in cycles, phase ΩT in radian)",
+        "share and interval": "share within 350 cycles (95 % interval)",
+        "median and interval": "median time [cycles] (95 % interval)",
         "95 % of cycles": "95 % arrive within [cycles]",
         "median damper on": "median time with damper [cycles]",
+        "median impacts": "median number of impacts",
     },
     "release_predictions": DAMPER
     | {
         "predicted": "share of releases predicted to reach the goal",
         "realised": "share of releases that reach it",
         "within 1 %": "do both shares agree within 0.01",
-        "state over settled": "median time by state / median time by random phase",
+        "state over settled": "median time by state / median time by random phase (empty if fewer "
+        "than half of the runs by random phase arrive)",
         "at most half": "is this ratio at most 1/2",
     },
     "release_disturbances": DAMPER
     | {
         "disturbance": "disturbance",
         "without margin": "share within 350 cycles without margin",
-        "best margin": "best margin",
+        "best margin": "best margin / size of the resonance motion",
         "with best margin": "share with the best margin",
         "median cycles": "median time with the best margin [cycles]",
     },
@@ -53,7 +56,8 @@ SHOWN = {
         "d0 for suppression": "best clearance for suppression",
         "quiet": "quiet displacement with the clearance for suppression / free resonance",
         "median cycles, suppression": "median time with the clearance for suppression [cycles]",
-        "same": "is the clearance for suppression as good for migration",
+        "same": "is the clearance for suppression as good for migration, within the 95 % intervals "
+        "of the medians",
     },
     "release_answers": {
         "W": DAMPER["W"],
@@ -67,7 +71,7 @@ SHOWN = {
         "answer": "is one damper the best for both",
     },
 }
-# Text shown in Markdown for each policy.
+# Words for each policy.
 POLICIES = {
     "settled": "random phase once settled",
     "hold": "fixed number of cycles",
@@ -75,9 +79,6 @@ POLICIES = {
     "state": "state in the goal's basin",
     "clairvoyant": "future known",
 }
-# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
-# In columns without a function, underscores become spaces.
-CELLS = {"policy": lambda cell: POLICIES.get(cell, cell)}
 # Column -> variable of the dataset, without its prefix `case_`.
 SYMBOLS = {"rm": "mass_ratio", "d0": "clearance", "e": "restitution"}
 
@@ -92,11 +93,15 @@ def release_policies(datasets) -> pd.DataFrame:
         for here in (data.isel(case=case, frequency=k) for k in range(data.sizes["frequency"])):
             for policy in here.policy.values:
                 one = here.sel(policy=policy)
+                median = one.policy_cycles.sel(quantile=0.5)
                 rows.append(
                     damper
-                    | {"W": float(here.frequency), "policy": policy}
+                    | {"damper": ", ".join(f"{name} = {x:g}" for name, x in damper.items())}
+                    | {"W": float(here.frequency), "policy": policy, "rule": _rule(one)}
+                    | {"share and interval": _with_interval(one.policy_success)}
+                    | {"median and interval": _with_interval(median)}
                     | _bounded("within 350 cycles", one.policy_success)
-                    | _bounded("median cycles", one.policy_cycles.sel(quantile=0.5))
+                    | _bounded("median cycles", median)
                     | _bounded("95 % of cycles", one.policy_cycles.sel(quantile=0.95))
                     | _bounded("median damper on", one.policy_damper)
                     | _bounded("median impacts", one.policy_impacts)
@@ -143,7 +148,11 @@ def release_predictions(datasets) -> pd.DataFrame:
 
 
 def release_disturbances(datasets) -> pd.DataFrame:
-    """Return the success of the policy by state under disturbances, without and with a margin."""
+    """Return the success of the policy by state under disturbances, for each margin.
+
+    Margins are divided by the size of the resonance motion. The columns `margin ...` hold success
+    and median of the cycles with each margin.
+    """
     rows = []
     for data, case, damper in _cases(datasets):
         for frequency in data.noisy_frequency.values:
@@ -152,6 +161,11 @@ def release_disturbances(datasets) -> pd.DataFrame:
             for disturbance in here.disturbance.values:
                 one = here.sel(disturbance=disturbance)
                 best = best_margin(one)
+                margins = {}
+                for margin in one.margin.values:
+                    at, words = one.sel(margin=margin), f"margin {margin:g}"
+                    margins |= _bounded(words, at.disturbed_success)
+                    margins |= _bounded(f"{words}, median cycles", at.disturbed_cycles)
                 rows.append(
                     damper
                     | {"W": float(frequency), "disturbance": disturbance}
@@ -160,6 +174,7 @@ def release_disturbances(datasets) -> pd.DataFrame:
                     | _bounded("with best margin", one.disturbed_success.sel(margin=best))
                     | _bounded("median cycles", one.disturbed_cycles.sel(margin=best))
                     | {"clairvoyant": float(bound.sel(bound="share"))}
+                    | margins
                 )
     return pd.DataFrame(rows)
 
@@ -255,6 +270,28 @@ def _cases(datasets):
                 symbol: float(data[f"case_{name}"][case]) for symbol, name in SYMBOLS.items()
             }
             yield data, case, parameters
+
+
+def _rule(one):
+    """Return the policy in words, with the parameters that were chosen for it.
+
+    The trials that compare policies release by state without a margin.
+    """
+    words, cycles = POLICIES[str(one.policy.values)], f"K = {float(one.policy_hold):g}"
+    return {
+        "hold": f"{words}, {cycles}",
+        "phase": f"{words} {float(one.policy_phase):.2f} after {cycles}",
+        "state": f"{words}, margin 0, at most {cycles}",
+    }.get(str(one.policy.values), words)
+
+
+def _with_interval(value):
+    """Return the text of a share or quantile and its confidence interval."""
+    middle, lower, upper = (
+        f"{float(value.sel(bound=bound)):.3g}".replace("inf", "∞")
+        for bound in ("share", "lower", "upper")
+    )
+    return middle if middle == lower == upper else f"{middle} ({lower} to {upper})"
 
 
 def _yes(holds):
