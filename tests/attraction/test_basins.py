@@ -133,8 +133,10 @@ def in_cells(data, x, v):
 def test_boundaries_are_stable_manifolds(phase):
     """Labels change only near a stable manifold, and change everywhere along one.
 
-    Near means within a cell. The second statement is tested for the unstable orbit of period 1,
-    whose manifold is a simple curve. The manifold of period 3 has windings closer than a cell.
+    Near means within a cell. In the wide plane the first statement is tested for the basin of the
+    resonance, since the manifold of period 3 is cut there. The second statement is tested for the
+    unstable orbit of period 1, whose manifold is a simple curve. The manifold of period 3 has
+    windings closer than a cell.
     """
     plane = {"displacement": 1.2, "velocity": 1.6, "cells": 240, "phase": phase}
     data = basins(CUBIC, None, 1.85, **plane)
@@ -148,7 +150,12 @@ def test_boundaries_are_stable_manifolds(phase):
     first = wide["boundary_saddle"].values == int(np.argmin(wide["saddle_period"].values))
     x, v = wide["boundary_displacement"].values[first], wide["boundary_velocity"].values[first]
     kept = np.isfinite(x)
-    distance, _ = cKDTree(changes(wide)).query(in_cells(wide, x[kept], v[kept]))
+    first_curve = in_cells(wide, x[kept], v[kept])
+    resonance = wide["basin_label"] == int(np.argmax(wide["attractor_displacement"].values))
+    distance, _ = cKDTree(first_curve).query(changes(wide.assign(basin_label=resonance)))
+    assert np.max(distance) < 1
+
+    distance, _ = cKDTree(changes(wide)).query(first_curve)
     inside = (np.abs(x[kept]) < wide["basin_displacement"].values[-1]) & (
         np.abs(v[kept]) < wide["basin_velocity"].values[-1]
     )

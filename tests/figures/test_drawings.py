@@ -170,7 +170,7 @@ DRAWINGS = {
     ),
     "branches": (
         lambda: draw_branches(**DAMPED),
-        ["free_stable"],
+        [],
     ),
     "inelastic": (
         lambda: draw_response(

@@ -6,6 +6,7 @@ which states lead, and its share is the fraction of the plane that its basin cov
 
 import numpy as np
 from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from impact_damper.data.datasets import has_damper, parameters_of
@@ -27,16 +28,19 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Each state of the primary mass has the colour of the motion to which it leads (circle); percentages
-are shares of the states. Without a damper: crosses are unstable orbits, black lines their stable
-manifolds, computed independently. With the damper the loose mass starts at rest at five places; the
-shade is the share of places that lead to the smallest motion.
+Each state of the primary mass has the colour of the motion to which it leads (circles);
+percentages are shares of the runs. Crosses: unstable orbits; black lines: their stable manifolds,
+computed independently, up to a limited length. With the damper the loose mass starts at rest at
+five places; the shade is the share of places that lead to the smallest motion.
 """
 
 # Colours of attractors in the order of rising max |Z1|; the largest attractor has the last colour.
 COLOURS = (SKY, VERMILION, PURPLE, "#F7E7A6")
 # Colours of states that lead to chaos, and of states that lead to no attractor or to several.
 CHAOS, NONE = ORANGE, PALE
+# A sum of shares that differs from 1 by less is 1.
+ROUNDING = 1e-9
+AREA = {"edgecolor": BLACK, "linewidth": 0.4}
 POINTS = {"linestyle": "none", "marker": "o", "markeredgecolor": BLACK, "markersize": 4.5}
 SADDLES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5}
 
@@ -85,12 +89,20 @@ def draw_plane(axes, data):
         # labels from -6 (quasi-periodic) to -1 (unresolved), then the attractors
         norm = BoundaryNorm(np.arange(-6.5, len(colours)), len(colours) + 6)
         fill(axes, data, labels, cmap=palette, norm=norm)
-    handles = [
-        Patch(facecolor=colour, edgecolor=BLACK, linewidth=0.4, label=words)
-        for colour, words in zip(colours, attractor_words(data), strict=True)
+    named = list(zip(colours, attractor_words(data), strict=True))
+    areas = named[:1] if "basin_share" in data else named
+    handles = [Patch(facecolor=colour, **AREA, label=words) for colour, words in areas]
+    handles += [
+        Line2D([], [], **POINTS, markerfacecolor=colour, label=words)
+        for colour, words in named[len(areas) :]
     ]
+    rest = 1 - float(data["attractor_share"].sum())
+    if "basin_share" in data and rest > ROUNDING:
+        limit = parameters_of(data)["limit"]
+        words = f"none within {limit} cycles: {share_words(rest)}"
+        handles.append(Line2D([], [], linestyle="none", label=words))
     if "basin_share" not in data and np.any(labels == BASIN_LABEL["chaotic"]):
-        handles.append(Patch(facecolor=CHAOS, edgecolor=BLACK, linewidth=0.4, label="chaotic"))
+        handles.append(Patch(facecolor=CHAOS, **AREA, label="chaotic"))
     for index, colour in enumerate(colours):
         axes.plot(
             data["attractor_point"][index],

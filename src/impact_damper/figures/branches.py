@@ -25,9 +25,9 @@ from impact_damper.figures.style import (
 
 CAPTION = """
 Largest displacement of the exact periodic orbits against forcing frequency. Each settled motion
-found is continued to a branch. Grey and black: without the damper. Markers: bifurcations and
-changes of contact; large next to a stable orbit, small between unstable orbits of period 1. Plus: a
-contact appears, or two merge. Cross: the branch continues, but was not followed further.
+found is continued to a branch. Black and grey: without the damper. Unstable orbits of other periods
+are faint. Markers are large next to a stable orbit, small between unstable orbits of period 1.
+Plus: a contact appears, or two merge. Cross: the branch continues, but was not followed further.
 """
 
 # Kind of event -> label, marker, colour.
@@ -36,11 +36,17 @@ EVENTS = {
     "symmetry_breaking": ("loss of symmetry or doubling", "s", VERMILION),
     "period_doubling": ("loss of symmetry or doubling", "s", VERMILION),
     "neimark_sacker": ("Neimark-Sacker", "D", GREEN),
-    "grazing": (None, "P", SKY),
-    "merging": (None, "P", SKY),
+    "grazing": ("change of contact", "P", SKY),
+    "merging": ("change of contact", "P", SKY),
 }
+# Markers of changes of contact are pale, so they have an edge and are larger by this factor.
+EDGE = {"P": {"markeredgecolor": BLACK, "markeredgewidth": 0.3}}
+WIDER = {"P": 2.0}
 # An inset magnifies a part of the axes with many events. All lengths are fractions of the axes.
-INSET = (0.76, 0.52, 0.225, 0.45)  # left, bottom, width and height of the inset
+INSET = (0.225, 0.45)  # width and height of the inset
+LABELS = (0.05, 0.07)  # room for its labels, to the left and below
+# Left and lower sides of the inset that are tried, the upper right corner first.
+LEFTS, BOTTOMS = np.linspace(0.76, 0.06, 15), np.linspace(0.52, 0.1, 15)
 MAGNIFIED = (0.15, 0.2)  # width and height of the part that it shows
 CROWD = 4  # least number of events in this part
 # Sizes of markers of events next to stable orbits, and of others.
@@ -49,10 +55,11 @@ LARGE, SMALL = 3.0, 1.2
 OPEN_ENDS = ("lost", "point_limit", "unstable")
 OPEN = {
     "marker": "x",
-    "color": GREY,
-    "markersize": 3.4,
+    "color": BLACK,
+    "markersize": 4.5,
+    "markeredgewidth": 1.0,
     "linestyle": "none",
-    "zorder": 2.5,
+    "zorder": 3.1,
 }
 
 # Label, colour, opacity of unstable orbits, and test of the period.
@@ -84,8 +91,8 @@ def draw_branches(*, branches):
         for each in free:
             for value, size, stable in runs(each, lambda period: True):
                 role = ROLES["free_stable" if stable else "free_unstable"]
-                look = {} if stable else {"linestyle": ":", "label": None}
-                axes.plot(value, size, **role | {"linewidth": 0.7} | look)
+                look = {"linewidth": 0.7, "label": None} | ({} if stable else {"linestyle": ":"})
+                axes.plot(value, size, **role | look)
         draw_orbits(axes, data)
         axes.set_ylim(bottom=0)
         _magnify(axes, data)
@@ -93,7 +100,7 @@ def draw_branches(*, branches):
             xlabel="Forcing frequency, $\\Omega$",
             ylabel=axis_label(data["orbit_displacement"]),
         )
-    legend(drawn, 3)
+    legend(drawn, 4)
     return drawn
 
 
@@ -107,11 +114,26 @@ def _magnify(axes, data):
     if near.sum(axis=0).max(initial=0) < CROWD:
         return
     middle = places[:, near[np.argmax(near.sum(axis=0))]].mean(axis=1)[:, None]
-    inset = axes.inset_axes(INSET)
+    inset = axes.inset_axes((*_emptiest_corner(axes), *INSET))
     draw_orbits(inset, data)
     (left, right), (bottom, top) = middle + half * [-1, 1]
     inset.set(xlim=(left, right), ylim=(bottom, top))
     axes.indicate_inset_zoom(inset)
+
+
+def _emptiest_corner(axes):
+    """Return the lower left corner of the inset that covers the fewest points of lines, shape (2,).
+
+    In fractions of the axes.
+    """
+    lines = [line.get_xydata() for line in axes.lines]
+    points = axes.transLimits.transform(np.concatenate(lines))
+    corners = np.array([(left, bottom) for left in LEFTS for bottom in BOTTOMS])
+    covered = [
+        np.all((points > corner - LABELS) & (points < corner + INSET), axis=1).sum()
+        for corner in corners
+    ]
+    return corners[np.argmin(covered)]
 
 
 def draw_orbits(axes, data):
@@ -212,9 +234,10 @@ def mark_events(axes, data):
                     label=label if large else None,
                     marker=marker,
                     color=color,
-                    markersize=LARGE if large else SMALL,
+                    markersize=WIDER.get(marker, 1) * (LARGE if large else SMALL),
                     linestyle="none",
                     zorder=3 if large else 2.1,
+                    **EDGE.get(marker, {}),
                 )
 
 

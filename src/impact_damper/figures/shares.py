@@ -32,8 +32,8 @@ from impact_damper.figures.style import (
 CAPTION = """
 Share of random starts that lead to each motion. A motion keeps its colour from value to value: it
 is followed by Newton's method or, if not settled, recognised by kind and size. Further motions of a
-kind are paler. Chaos is called transient where it ended in a longer run. Bars: 95 % intervals
-(Wilson). Titles: bound on the share of a motion not found.
+kind are paler, of period 1 also hatched. Chaos is called transient where it ended in a longer run.
+Bars: 95 % intervals (Wilson). Titles: bound on the share of a motion not found.
 """
 
 # Kinds of motions from below: label, colour and hatching.
@@ -56,6 +56,8 @@ OUTCOMES = {
     "drifting": "no contact",
     "chaotic": "chaotic",
 }
+# Hatching of further motions of kinds without hatching. Pale blue alone resembles another kind.
+FURTHER = {"period 1": "----"}
 # Fractions of white mixed into the colours of the first, second, third ... motion of a kind.
 PALER = (0.0, 0.45, 0.7)
 EDGE = {"edgecolor": WHITE, "linewidth": 0.4}
@@ -100,10 +102,9 @@ def _draw(datasets, named):
     """Return a figure with one panel for each dataset; titles hold the parameters `named`."""
     columns = min(len(datasets), 2)
     rows = -(-len(datasets) // columns)
-    drawn = figure("double", 0.8 + 2.3 * rows)
+    empty = rows * columns > len(datasets)
+    drawn = figure("double", (0.2 if empty else 0.8) + 2.3 * rows)
     panels = drawn.subplots(rows, columns, squeeze=False, sharey=True)
-    for axes in panels.flat[len(datasets) :]:
-        axes.remove()
     used = panels.flat[: len(datasets)]
     for axes, data in zip(used, datasets, strict=True):
         shares_panel(axes, data)
@@ -114,7 +115,10 @@ def _draw(datasets, named):
         axes.set_ylabel("Share of random starts")
     if len(datasets) > 1:
         letter_panels(used)
-    legend(drawn, 4, order=LOOKS)
+    if empty:
+        legend(drawn, 2, order=LOOKS, place=panels.flat[-1])
+    else:
+        legend(drawn, 4, order=LOOKS)
     return drawn
 
 
@@ -134,6 +138,7 @@ def shares_panel(axes, data):
     for kind, rank, chosen in ranked_motions(data):
         share = np.where(chosen, data["motion_starts"].values, 0).sum(axis=1) / starts
         colour, hatch = LOOKS[kind]
+        hatch = FURTHER.get(kind, hatch) if rank else hatch
         white = PALER[min(rank, len(PALER) - 1)]
         face = [white + (1 - white) * part for part in to_rgb(colour)]
         look = {"fill": True, "facecolor": face, "hatch": hatch, **EDGE}

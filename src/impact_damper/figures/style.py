@@ -248,15 +248,22 @@ def letter_panels(panels) -> None:
         axes.set_title(f"({letter})", loc="left")
 
 
-def legend(figure, columns, order=()) -> None:
-    """Add one legend below all axes that lists each label once, the labels in `order` first."""
+def legend(figure, columns, order=(), place=None) -> None:
+    """Add one legend that lists each label once, the labels in `order` first.
+
+    The legend stands below all axes, or in the empty axes `place`.
+    """
     entries = {}
     for axes in figure.axes:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
     first = [label for label in order if label in entries]
     entries = {label: entries[label] for label in [*first, *entries]}
-    figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
+    if place is None:
+        figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
+    else:
+        place.set_axis_off()
+        place.legend(entries.values(), entries.keys(), loc="center", ncols=columns)
 
 
 def save_figure(figure, path) -> None:

@@ -72,8 +72,10 @@ TABLES = (
         "outcomes",
         "tables.motions",
         ("response", "subharmonic", "optimum", "studies", "balance_map"),
-        "Number of random starts with each outcome, for each dataset. The CSV file also counts "
-        "unresolved motions by the sign of their Lyapunov exponent.",
+        "Number of random starts with each outcome, for each dataset. The figures draw motions "
+        "without contact that still drift as motions without contact. They also draw motions that "
+        "were found by following, to which no start led; these are not counted here. The CSV file "
+        "also counts unresolved motions by the sign of their Lyapunov exponent.",
     ),
     Table(
         "quasi_periodic",
@@ -108,7 +110,8 @@ TABLES = (
         "tables.motions",
         ("response", "branches"),
         "Chaotic motions of the responses that are larger than half of the free resonance, and "
-        "their mean lives with 95 % intervals. The upper end is empty if chaos ended in no run.",
+        "their mean lives with 95 % intervals. If chaos ended in no run, the mean life is empty and "
+        "the upper end is infinite.",
     ),
     Table(
         "subharmonic",
