@@ -30,8 +30,8 @@ from impact_damper.figures.style import (
 CAPTION = """
 Each state of the primary mass has the colour of the motion to which it leads (circles);
 percentages are shares of the runs. Crosses: unstable orbits; black lines: their stable manifolds,
-computed independently, up to a limited length. With the damper the loose mass starts at rest at
-five places; the shade is the share of places that lead to the smallest motion.
+computed independently. With the damper the loose mass starts at rest at five places; the shade is
+the share of places that lead to the smallest motion.
 """
 
 # Colours of attractors in the order of rising max |Z1|; the largest attractor has the last colour.

@@ -25,8 +25,8 @@ from impact_damper.figures.style import (
 
 CAPTION = """
 Largest displacement of the exact periodic orbits against forcing frequency. Each settled motion
-found is continued to a branch. Black and grey: without the damper. Unstable orbits of other periods
-are faint. Markers are large next to a stable orbit, small between unstable orbits of period 1.
+found is continued to a branch. Black, grey: without damper. Unstable orbits of other periods are
+faint. Markers are large next to a stable orbit, small between unstable orbits of period 1.
 Plus: a contact appears, or two merge. Cross: the branch continues, but was not followed further.
 """
 

@@ -30,10 +30,10 @@ from impact_damper.figures.style import (
 )
 
 CAPTION = """
-Share of random starts that lead to each motion. A motion keeps its colour from value to value: it
-is followed by Newton's method or, if not settled, recognised by kind and size. Further motions of a
-kind are paler, of period 1 also hatched. Chaos is called transient where it ended in a longer run.
-Bars: 95 % intervals (Wilson). Titles: bound on the share of a motion not found.
+Share of random starts that lead to each motion. A motion keeps its colour from value to value;
+further motions of a kind are paler, of period 1 also hatched. Chaos is called transient where at
+least one longer run of it ended. Bars: 95 % intervals (Wilson). Titles: bound on the share of a
+motion not found.
 """
 
 # Kinds of motions from below: label, colour and hatching.

@@ -207,7 +207,8 @@ def _followed_label(data):
 def shares(data, *, ax=None):
     """Draw the shares of random starts that lead to each motion, stacked, with 95 % intervals.
 
-    A motion keeps its colour over all values; further motions of a kind are paler.
+    A motion keeps its colour over all values; further motions of a kind are paler, and
+    of period 1 also hatched.
 
     Parameters
     ----------
