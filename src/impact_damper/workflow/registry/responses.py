@@ -110,8 +110,8 @@ TABLES = (
         "tables.motions",
         ("response", "branches"),
         "Chaotic motions of the responses that are larger than half of the free resonance, and "
-        "their mean lives with 95 % intervals. If chaos ended in no run, the mean life is empty and "
-        "the upper end is infinite.",
+        "their mean lives with 95 % intervals. If chaos ended in no run, the mean life is empty "
+        "and the upper end is infinite.",
     ),
     Table(
         "subharmonic",
