@@ -99,7 +99,7 @@ def draw_plane(axes, data):
     rest = 1 - float(data["attractor_share"].sum())
     if "basin_share" in data and rest > ROUNDING:
         limit = parameters_of(data)["limit"]
-        words = f"not periodic within {limit} cycles: {share_words(rest)}"
+        words = f"aperiodic in {limit} cycles: {share_words(rest)}"
         handles.append(Line2D([], [], linestyle="none", label=words))
     if "basin_share" not in data and np.any(labels == BASIN_LABEL["chaotic"]):
         handles.append(Patch(facecolor=CHAOS, **AREA, label="chaotic"))
