@@ -1,6 +1,6 @@
 """Orbits followed over a grid: the cells reached, their order, and where following ends.
 
-The orbits are made up: the state of an orbit is the point of its cell.
+The orbits are not computed: the state of each is set to the point of its cell.
 """
 
 from types import SimpleNamespace
@@ -19,7 +19,10 @@ def known(point):
 
 
 def correction(lost):
-    """Return a function `correct` of `Grid` that fails at points for which `lost` is true."""
+    """Return a function for the argument `correct` of `Grid`.
+
+    It fails at points for which `lost` is true.
+    """
 
     def correct(point, _):
         return (None, "not_followed") if lost(*point) else (known(point), "found")

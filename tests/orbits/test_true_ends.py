@@ -82,7 +82,8 @@ def test_fold_and_loss_of_symmetry_beside_a_grazing(quiet):
 def test_ends_of_all_branches_of_a_damper():
     """Each branch ends at the range or at another branch, or it is closed.
 
-    No branch is left where it becomes unstable, as none has a period above LONGEST.
+    Branches are followed beyond the points where they become unstable: only a period above LONGEST
+    would stop this, and none is so long.
     """
     response = frequency_response(PAPER, INELASTIC, [1.15, 1.2], starts=12)
     branches = complete_branches(PAPER, INELASTIC, (1.1, 1.4), [response])

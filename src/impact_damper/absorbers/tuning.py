@@ -118,8 +118,8 @@ def nonlinear_absorber(machine, mass, band=None) -> TunedAbsorber:
     """
     if check_mass(machine, mass) and machine.cubic_stiffness == 0:
         raise ValueError(
-            "cubic_stiffness = 0 N/m^3: must not be 0 for a nonlinear absorber (with a linear "
-            "spring of the machine it is the tuned absorber)"
+            "cubic_stiffness = 0 N/m^3: must not be 0 for a nonlinear absorber; for a machine "
+            "with a linear spring use exact_absorber"
         )
     return with_cubic(machine, exact_absorber(machine, mass, band))
 

@@ -177,7 +177,8 @@ def _wide(states, window, spacing, reach):
     """Return a mask of the pairs of neighbouring states that are too far apart.
 
     At least one state of such a pair lies within the reach. If the other state is unknown (NaN),
-    because its image one cycle later was beyond the reach, the pair counts only next to the window.
+    because its image one cycle later was beyond the reach, the pair is in
+    the mask only if the known state lies in the window or within twice the spacing of it.
     """
     apart = np.abs(np.diff(states, axis=0))
     inside = np.all(np.abs(states) <= window + 2 * spacing, axis=1)

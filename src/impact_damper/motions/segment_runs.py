@@ -151,8 +151,8 @@ def flow_all(p, states, tangents, times, tolerance):
     states : array, shape (m, 4)
         States at the beginnings of the segments, replaced by the states at their ends.
     tangents : array, shape (m, 0, 4) or (m, 4, 4)
-        Solutions of the variational equations, from the beginnings of the segments to their ends;
-        also replaced.
+        Solutions of the variational equations at the beginnings of the segments, none or four for
+        each segment, replaced by the solutions at their ends.
     times : array, shape (m + 1,)
         Beginnings of the segments, and end of the last one.
     tolerance : float
@@ -233,8 +233,8 @@ def separate(factors, apart, sweeps, settled, coupled, blocks, cuts):
         in an iteration.
     coupled : float
         While the subspaces of two groups turn by more than this angle (radian) in an iteration, the
-        groups count as one. The two vectors of a complex pair keep turning, even if the ratio of
-        their lengths exceeds `apart`.
+        groups count as one. The two vectors of a complex pair keep turning in their plane, so they
+        stay one group even if the ratio of their growth factors exceeds `apart`.
     blocks : array, shape (n, n)
         Receives the diagonal blocks.
     cuts : array of int, shape (n + 1,)
@@ -275,7 +275,7 @@ def separate(factors, apart, sweeps, settled, coupled, blocks, cuts):
         if moved < settled:
             break
     # The two vectors of a complex pair never stop turning in their plane. If they were separated
-    # because the ratio of their lengths exceeds `apart`, they are joined again.
+    # because the ratio of their growth factors exceeds `apart`, they are joined again.
     kept = 1
     for group in range(1, groups):
         j, moved = cuts[group], 0.0

@@ -109,7 +109,7 @@ def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=
     steady = steady_motion(oscillator, damper, frequency, state, settling=settling)
     for name in ("escaped", "at_rest", "drifting", "quasi_periodic"):
         if steady["outcome"] == flag("outcome", name):
-            raise ArithmeticError(f"{name}: the motion leads to no orbit; simulate computes it")
+            raise ArithmeticError(f"{name}: the state leads to no periodic orbit; use simulate")
     if not is_settled(steady):
         raise ArithmeticError(
             f"settling.limit = {settling.limit}: the motion has not settled within this number of "

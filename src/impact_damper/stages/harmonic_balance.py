@@ -84,12 +84,12 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     xarray.Dataset
         For each (frequency, free_solution) a motion without the damper. With a damper also, for
         each (frequency, solution), a solution of (7) or a motion in which the loose mass rests, and
-        for each (frequency, root) a root of (14). The stability of a motion with the loose mass at
-        rest follows from the slow flow without the damper, because the loose mass may rest at any
-        place. Each index of these dimensions is a branch, continuous over frequency from fold to
-        fold, so that `amplitude.plot.line(x="frequency")` draws the curves. Where a branch does not
-        exist, entries are NaN or flagged absent. The number of solutions is given for each
-        frequency.
+        for each (frequency, root) a root of (14). Where the loose mass rests, it stands still in
+        space and touches no wall, so the stability of the motion is the one without the damper, by
+        the slow flow. Each index of `free_solution`, `solution` or `root` is a branch, continuous
+        over frequency from fold to fold, so that `amplitude.plot.line(x="frequency")` draws the
+        curves. Where a branch does not exist, entries are NaN or flagged absent. The number of
+        solutions is given for each frequency.
 
     Raises
     ------
@@ -134,7 +134,7 @@ def _table(columns, rows, fill=np.nan):
 
 
 def _plane(amplitude, phase):
-    """Return the components of a harmonic in phase with the forcing and a quarter period later."""
+    """Return the coefficients of cos(W T) and -sin(W T) in amplitude * cos(W T + phase)."""
     return np.stack([amplitude * np.cos(phase), amplitude * np.sin(phase)], axis=-1)
 
 
@@ -195,7 +195,8 @@ def _solution_table(oscillator, damper, frequencies):
 def _solution_branches(amplitude, relative, phase, kinds):
     """Return for each frequency the branches of the solutions with a damper.
 
-    Motions in which the loose mass rests have the last branches.
+    The first branches are those with impacts. The branches of motions in which the loose mass
+    rests follow.
     """
     resting = flag("kind", "resting")
     found, begun = [np.empty(len(row), int) for row in kinds], 0

@@ -95,7 +95,10 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return the largest stable step h of fixed-step methods for each accuracy and stiffness r1."""
+    """Return the largest step h of fixed-step methods for each accuracy and stiffness r1.
+
+    With h and all smaller steps tested, the method keeps the accuracy.
+    """
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         for method in data.fixed_method.values:
@@ -117,7 +120,7 @@ def stable_steps(datasets) -> pd.DataFrame:
                             / float(here.stable_step),
                             "h omega_c": scaled,
                             "linear limit of it": float(of.linear_limit),
-                            "larger h omega_c that holds": float(
+                            "largest h omega_c that keeps the accuracy": float(
                                 here.largest_holding_step * here.contact_frequency
                             ),
                             "slope of 1/h in r1": float(of.step_slope),

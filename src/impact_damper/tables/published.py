@@ -34,7 +34,7 @@ REASONS = {
     "random starts": "Both are right: they are shares of two random samples and differ by "
     "{sigma:+.1f} standard errors. 95 % confidence interval of ours: {low:.4f} to {high:.4f}.",
     "one harmonic": "The fold of the branch of exact orbits is right: the closed form keeps one "
-    "harmonic, and the jump from the small motion neglects damping.",
+    "harmonic, and its formula for the jump from the small to the large motion neglects damping.",
     "linear contact": "Hertz is right for elastic bodies: our contact is the linear spring that "
     "stores the same energy at the same compression, with 4/5 of the force and 6.7 % more time.",
 }
