@@ -24,7 +24,7 @@ slurm: $(READY)
 # Compile the kernels (functions compiled by numba) before the tests, so that the processes of the
 # tests load them instead of each compiling them.
 kernels: $(READY)
-	$(BIN)/python -m impact_damper.workflow.compile_kernels '[2, []]'
+	$(BIN)/python -m chatterjee1995.workflow.compile_kernels '[2, []]'
 
 # On all cores. One process runs all tests of a file, so that the fixtures are made once. The files
 # run in the order in which tests/conftest.py puts them, the longest first.
@@ -95,7 +95,7 @@ lowest:
 		--no-header --no-emit-index-url --output-file $(LOWEST)/requirements.txt
 	$(LOWEST)/bin/pip install --requirement $(LOWEST)/requirements.txt
 	PYTHONPATH=src $(LOWEST)/bin/python -m pytest --numprocesses auto --dist loadfile \
-		--ignore tests/workflow $(PYTEST)
+		--ignore tests/paper $(PYTEST)
 
 clean:
 	rm -rf results-smoke .snakemake

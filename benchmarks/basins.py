@@ -9,14 +9,14 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.timing import interleaved, spread
-from impact_damper.attraction.labels import label_states
+from chatterjee1995.stages.release_trials import free_case
 from impact_damper.kernel.compiling import kernel
-from impact_damper.migration.release_set import depth_of
-from impact_damper.stages.basins import free_attractors
-from impact_damper.stages.release_trials import free_case
-from impact_damper.system.packed import pack
-from impact_damper.system.parameters import Oscillator
-from impact_damper.system.settling import Settling
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import Oscillator
+from impact_damper.model.settling import Settling
+from impact_damper.motions.labels import label_states
+from impact_damper.motions.release_set import depth_of
+from impact_damper.orbits.basins import free_attractors
 
 # Half widths of the plane in Z1 and Z1'.
 PLANE = np.array([3.2, 5.0])

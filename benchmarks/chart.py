@@ -13,7 +13,8 @@ import pandas as pd
 from benchmarks.accuracy import measured
 from benchmarks.methods import RIVALS, TIMED, applying, starts_of
 from benchmarks.timing import interleaved
-from impact_damper.figures.style import (
+from chatterjee1995.methods.methods import colour_of, name_and_mode
+from impact_damper.plot.panels.style import (
     BLACK,
     BLUE,
     GREY,
@@ -23,7 +24,6 @@ from impact_damper.figures.style import (
     letter_panels,
     style,
 )
-from impact_damper.rivals.methods import colour_of, name_and_mode
 
 # After a run that took longer than this, in seconds, no tighter tolerance is tried.
 LONG = 0.5

@@ -12,13 +12,13 @@ import pandas as pd
 from benchmarks.methods import TIMED
 from benchmarks.scenes import BenchmarkScene
 from benchmarks.timing import interleaved
-from impact_damper.figures.style import curve, figure, legend, letter_panels, points, style
 from impact_damper.kernel.single import side_of, workspace
 from impact_damper.kernel.tangents import advance
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions.records import measured
 from impact_damper.motions.simulate import random_states
-from impact_damper.system.packed import FREQUENCY, pack
-from impact_damper.system.parameters import Damper, Oscillator
+from impact_damper.plot.panels.style import curve, figure, legend, letter_panels, points, style
 
 OSCILLATOR = Oscillator(0.215)
 DAMPER = Damper(0.12, 2.0)

@@ -15,7 +15,7 @@ import heyoka
 import numpy as np
 
 from impact_damper.kernel.equation import forcing_amplitude
-from impact_damper.system.packed import (
+from impact_damper.model.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
     DAMPING,

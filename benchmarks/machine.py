@@ -6,8 +6,8 @@ from importlib.metadata import version
 
 import pandas as pd
 
+from chatterjee1995.workflow.provenance import processor
 from impact_damper.data import table_files
-from impact_damper.workflow.provenance import processor
 
 PACKAGES = ("numba", "llvmlite", "numpy", "scipy", "heyoka")
 

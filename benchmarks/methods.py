@@ -2,7 +2,7 @@
 
 For a scene (a test case) and a tolerance a method prepares a function from starts (initial states)
 to states at the end. The kernel is this package's compiled integrator. The integrators with which
-it is compared, called rivals, come from `impact_damper.rivals.methods`.
+it is compared, called rivals, come from `chatterjee1995.methods.methods`.
 """
 
 from collections.abc import Callable
@@ -11,17 +11,17 @@ from typing import NamedTuple
 import numpy as np
 
 from benchmarks.heyoka_runs import BATCH, Motions
-from impact_damper.kernel import batch
-from impact_damper.kernel.single import workspace
-from impact_damper.kernel.tangents import advance
-from impact_damper.rivals.methods import (
+from chatterjee1995.methods.methods import (
     COMPARED,
     METHODS,
     integrators,
     name_and_mode,
     title_with_mode,
 )
-from impact_damper.rivals.taylor_runs import ROWS, SERIES, steps_of, take_steps
+from chatterjee1995.methods.taylor_runs import ROWS, SERIES, steps_of, take_steps
+from impact_damper.kernel import batch
+from impact_damper.kernel.single import workspace
+from impact_damper.kernel.tangents import advance
 
 NO_TANGENTS = np.empty((0, 4))
 

@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.timing import interleaved, spread
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.system.packed import pack
-from impact_damper.system.parameters import Damper, Oscillator
 
 DAMPER, FREQUENCY, SPAN = Damper(0.12, 2.0), 2.0, (0.3, 2.6)
 # A state near the quiet motion, and the disturbance from which each orbit is found again.

@@ -14,10 +14,10 @@ import pandas as pd
 
 from benchmarks.methods import TIMED, advance_rows
 from benchmarks.timing import interleaved, spread
+from impact_damper.model.packed import CLEARANCE
+from impact_damper.model.parameters import Damper
 from impact_damper.motions.ensemble import run_chunks
 from impact_damper.motions.simulate import random_states
-from impact_damper.system.packed import CLEARANCE
-from impact_damper.system.parameters import Damper
 
 TOLERANCE = 1e-9
 RADIUS = 2.0

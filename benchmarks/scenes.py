@@ -10,7 +10,7 @@ import numpy as np
 from references import extended
 from references.extended.scenes import configured_scenes, packed
 
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
 # Starts differ from the scene's state by at most this in each component.
 SPREAD = 1e-3

@@ -10,11 +10,11 @@ import pandas as pd
 
 from benchmarks.timing import interleaved, spread
 from impact_damper.data.variables.variable import OUTCOME
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import random_states
-from impact_damper.system.packed import pack
-from impact_damper.system.parameters import Damper, Oscillator
-from impact_damper.system.settling import Settling
 
 SEED = 3
 # Ranges of mass ratio, clearance, forcing frequency and restitution of a random damper.

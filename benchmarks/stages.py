@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-# Columns of the timings (impact_damper.workflow.job), and their names here.
+# Columns of the timings (chatterjee1995.workflow.job), and their names here.
 COLUMNS = {"seconds": "seconds", "cpu_seconds": "cpu_seconds", "peak_memory_mb": "memory_mb"}
 
 

@@ -12,10 +12,10 @@ from pathlib import Path
 import pandas as pd
 from typer.testing import CliRunner
 
-from impact_damper.claims.verdicts import document
+from chatterjee1995.claims.verdicts import document
+from chatterjee1995.workflow.models.reference import reference
+from impact_damper.command.command_line import app as command
 from impact_damper.data.variables import MODULES
-from impact_damper.workflow.command_line import app as command
-from impact_damper.workflow.models.reference import reference
 
 ROOT = Path(__file__).parents[2]
 # Folders of results in the order of preference, and their names on the pages.

@@ -44,30 +44,30 @@ __version__ = "0.1.0"
 
 # Module of each public name.
 _HOMES = {
-    "Oscillator": "system.parameters",
-    "Damper": "system.parameters",
-    "Settling": "system.settling",
-    "Machine": "machine.machine",
-    "HertzContact": "machine.hertz",
-    "Material": "machine.hertz",
-    "hertz_stiffness": "performance.contact_stiffness",
-    "TunedAbsorber": "absorbers.absorber",
+    "Oscillator": "model.parameters",
+    "Damper": "model.parameters",
+    "Settling": "model.settling",
+    "Machine": "model.machine",
+    "HertzContact": "model.hertz",
+    "Material": "model.hertz",
+    "hertz_stiffness": "design.contact_stiffness",
+    "TunedAbsorber": "design.absorber",
     "simulate": "motions.simulate",
     "steady_motion": "motions.steady",
-    "frequency_response": "stages.response",
-    "subharmonic_suppression": "stages.subharmonic",
-    "basins": "stages.basins",
-    "migrate": "stages.migration",
-    "periodic_orbit": "stages.orbit_branch",
-    "orbit_branch": "stages.orbit_branch",
-    "complete_branches": "stages.branches",
-    "harmonic_balance_response": "stages.harmonic_balance",
-    "suppression_band": "stages.suppression_band",
-    "optimum_clearance": "stages.harmonic_balance",
-    "harmonic_convergence": "stages.harmonic_convergence",
-    "clearance_sweep": "stages.optimum",
-    "design_damper": "stages.machines",
-    "absorber_responses": "absorbers.responses",
+    "frequency_response": "motions.response",
+    "subharmonic_suppression": "chatterjee1995.stages.subharmonic",
+    "basins": "orbits.basins",
+    "migrate": "motions.migration",
+    "periodic_orbit": "orbits.orbit_branch",
+    "orbit_branch": "orbits.orbit_branch",
+    "complete_branches": "orbits.all_branches",
+    "harmonic_balance_response": "theory.harmonic_balance",
+    "suppression_band": "theory.suppression_band",
+    "optimum_clearance": "theory.harmonic_balance",
+    "harmonic_convergence": "chatterjee1995.stages.harmonic_convergence",
+    "clearance_sweep": "orbits.clearance_sweep",
+    "design_damper": "design.design_damper",
+    "absorber_responses": "design.absorber_responses",
     "decode": "data.datasets",
 }
 
@@ -96,15 +96,15 @@ def __getattr__(name):
     if name == "plot":
         return import_module("impact_damper.plot")
     if name not in _HOMES:
-        from impact_damper.system.names import nearest
+        from impact_damper.model.names import nearest
 
         words = nearest(name, _HOMES)
         raise AttributeError(f"module 'impact_damper' has no attribute {name!r}{words}")
     found = getattr(import_module(f"impact_damper.{_HOMES[name]}"), name)
     if name in _OF_MACHINES:
-        found = import_module("impact_damper.machine.arguments").takes_machine(found)
+        found = import_module("impact_damper.data.arguments").takes_machine(found)
     if not isinstance(found, type):
-        found = import_module("impact_damper.system.names").names_arguments(found)
+        found = import_module("impact_damper.model.names").names_arguments(found)
     # Once loaded, a name is found without this function.
     globals()[name] = found
     return found

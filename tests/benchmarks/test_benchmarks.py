@@ -11,7 +11,7 @@ from benchmarks import accuracy, chart, costs, machine, overhead, ratios, scalin
 from benchmarks.heyoka_runs import BATCH, SETTINGS
 from benchmarks.methods import TIMED, heyoka, starts_of
 from impact_damper.data import table_files
-from impact_damper.system.packed import pack
+from impact_damper.model.packed import pack
 
 pytestmark = [
     pytest.mark.thorough,

@@ -6,10 +6,10 @@ from typing import NamedTuple
 from hypothesis import strategies as st
 from snakemake.utils import update_config
 
+from chatterjee1995.variables.studies import AXES as STUDY_AXES
+from chatterjee1995.workflow.configuration import without_left_out
 from helpers import configurations
 from helpers.running import ROOT
-from impact_damper.data.variables.studies import AXES as STUDY_AXES
-from impact_damper.workflow.configuration import without_left_out
 
 # As a value: the key is removed. As the value to be shown: the message shows no value.
 GONE = object()
@@ -130,7 +130,7 @@ COUNTS = [
     or "cells" in path
     or path[-1] in WHOLE
 ]
-REFERENCES = [p for p in TEXTS if p[-1] in ("oscillator", "scene") or p[-2:-1] == ("data",)]
+REFERENCES = [p for p in TEXTS if p[-1] == "oscillator" or p[-2:-1] == ("data",)]
 
 junk_text = st.text(max_size=20) | st.sampled_from(["nan", "1e-9", "2 000", "0,5", "yes", "\n"])
 junk = st.recursive(

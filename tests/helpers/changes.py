@@ -6,7 +6,7 @@ changes them. `power` and `fourth` are changes themselves.
 
 import json
 
-from impact_damper.claims import extract
+from chatterjee1995.claims import extract
 from impact_damper.data.datasets import parameters_of
 
 

@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions import strobe_map
-from impact_damper.system.packed import pack
-from impact_damper.system.parameters import Damper, Oscillator
 
 PAPER = Oscillator(0.215)
 DESIGN = Damper(0.12, 2.0)

@@ -5,8 +5,8 @@ import json
 import numpy as np
 
 from impact_damper.data.datasets import flag
+from impact_damper.data.results import shown_variable
 from impact_damper.design.labelled import labelled
-from impact_damper.machine.results import shown_variable
 
 FREQUENCY = np.linspace(26.0, 34.0, 5)
 MACHINE = {

@@ -4,8 +4,8 @@ import json
 from pathlib import Path
 from typing import NamedTuple
 
-from impact_damper.workflow import selection
-from impact_damper.workflow.registry import CHAPTERS, STAGES, TABLES
+from chatterjee1995.workflow import selection
+from chatterjee1995.workflow.registry import CHAPTERS, STAGES, TABLES
 
 # Stages whose entries are all computed by one job.
 TOGETHER = ("collisions", "design_orbit", "rigid_limit")

@@ -4,7 +4,7 @@ import numpy as np
 from references import equation
 from scipy.integrate import solve_ivp
 
-from impact_damper.system.packed import pack
+from impact_damper.model.packed import pack
 
 TIGHT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-12}
 

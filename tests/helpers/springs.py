@@ -3,7 +3,7 @@
 import math
 from dataclasses import replace
 
-from impact_damper.system.parameters import Oscillator
+from impact_damper.model.parameters import Oscillator
 
 SPRINGS = {
     "linear": Oscillator(0.1, 1.3, cubic=0.0, force=0.7),

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from impact_damper.literature.masri_caughey import flight_with_speed
+from chatterjee1995.comparisons.masri_caughey import flight_with_speed
+from impact_damper.model.packed import pack
 from impact_damper.orbits.shooting import shoot
-from impact_damper.system.packed import pack
 
 # Coefficients of a central difference of order 8.
 CENTRAL = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}

@@ -6,7 +6,7 @@ functions take numbers, arrays, or expressions of heyoka.py.
 
 import math
 
-from impact_damper.system.packed import (
+from impact_damper.model.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
     CUBIC,

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import heyoka
 import numpy as np
 
-from impact_damper.system import packed
+from impact_damper.model import packed
 from references import equation
 
 # Larger clearances are replaced by this one. heyoka's tolerance is relative to the largest term of

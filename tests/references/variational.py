@@ -12,7 +12,7 @@ import math
 import heyoka
 import numpy as np
 
-from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY, INVERSE_MASS_RATIO
+from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY, INVERSE_MASS_RATIO
 from references import equation
 from references.taylor_events import BEYOND_ALL_MOTIONS, PARAMETERS
 

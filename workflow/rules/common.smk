@@ -10,22 +10,20 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from impact_damper.workflow import selection
-from impact_damper.workflow.configuration import (
-    ConfigurationError,
-    check_configuration,
-    check_file,
-    without_left_out,
-)
-from impact_damper.workflow.registry import CHAPTERS, PAPER, STAGES
-from impact_damper.workflow.registry.clearance import study_chunk
-from impact_damper.workflow.sources import PACKAGE, compiled_kernels, module_file, sources
+from chatterjee1995.workflow import selection
+from chatterjee1995.workflow.configuration import check_configuration, without_left_out
+from chatterjee1995.workflow.registry import CHAPTERS, PAPER, STAGES
+from chatterjee1995.workflow.registry.clearance import study_chunk
+from chatterjee1995.workflow.sources import compiled_kernels
+from impact_damper.command.yaml_files import ConfigurationError, check_file
+from impact_damper.kernel.sources import module_file, sources
 
 # Planning makes many small objects, none of which becomes garbage. Collecting garbage less often
 # than by default saves a fifteenth of the time of a dry run.
 gc.set_threshold(100_000)
 
 ROOT = Path(workflow.basedir)
+PACKAGES = ROOT / "src"
 ENVIRONMENT = str(ROOT / "workflow/envs/impact-damper.yaml")
 # Jobs that need compiled kernels (functions compiled by numba) wait for this marker file. With
 # `ancient` a new date of the file reruns no job.
@@ -131,7 +129,7 @@ def parameters_of_all(stage):
 
 def write_provenance():
     """Write versions, commit and computer into `provenance.json`."""
-    from impact_damper.workflow.provenance import provenance
+    from chatterjee1995.workflow.provenance import provenance
 
     path = Path(config["results"]) / "provenance.json"
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
@@ -217,7 +215,7 @@ def compile_again():
     if not marker.exists() or marker.read_bytes() == now.encode():
         return
     logger.info("Compiling the kernels again: they were edited")
-    program = [sys.executable, "-m", "impact_damper.workflow.compile_kernels"]
+    program = [sys.executable, "-m", "chatterjee1995.workflow.compile_kernels"]
     arguments = json.dumps([workflow.cores or 1, config["comparison"]["orders"]])
     if subprocess.run([*program, arguments]).returncode:
         raise WorkflowError("The kernels cannot be compiled: see the error above.")

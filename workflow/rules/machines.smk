@@ -23,7 +23,10 @@ rule machine_pages:
     input:
         machines=data("machines"),
         code=code("machine_pages"),
-        templates=[local(PACKAGE / "pages/templates" / name) for name in ("page.html", "page.md")],
+        templates=[
+            local(PACKAGES / "impact_damper/plot/pages/templates" / name)
+            for name in ("page.html", "page.md")
+        ],
     output:
         [page for page in page_files("machines") if not page.endswith("index.html")],
         [

@@ -3,9 +3,9 @@
 import json
 from pathlib import Path
 
-from impact_damper.workflow.job import Job
-from impact_damper.rivals.comparison_scenes import ComparisonScene
-from impact_damper.stages.accuracy import error_against_work
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.methods.accuracy import error_against_work
+from chatterjee1995.methods.comparison_scenes import ComparisonScene
 
 job = Job(snakemake)
 references = json.loads(Path(snakemake.input.references).read_text())

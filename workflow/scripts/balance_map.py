@@ -1,7 +1,7 @@
 """A map of the errors of harmonic balance over frequency and another parameter."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.balance_map import balance_map
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.stages.balance_map import balance_map
 
 job = Job(snakemake)
 job.save(

@@ -1,7 +1,7 @@
 """Basins of attraction of motions without or with a damper (section 5 of the paper)."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.basins import basins
+from chatterjee1995.workflow.job import Job
+from impact_damper.orbits.basins import basins
 
 job = Job(snakemake)
 job.save(

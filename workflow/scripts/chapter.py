@@ -1,7 +1,7 @@
 """Figures and tables of a chapter of the report, with their captions."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.workflow.chapter import draw_figure, make_table
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.workflow.chapter import draw_figure, make_table
 
 job = Job(snakemake)
 for key, figure in job.given.items():

@@ -1,7 +1,7 @@
 """Shares of random initial states that lead to collisions (section 3 of the paper, claim 8)."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.response import collisions
+from chatterjee1995.workflow.job import Job
+from impact_damper.motions.response import collisions
 
 job = Job(snakemake)
 for entry in job.entries():

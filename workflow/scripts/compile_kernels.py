@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from impact_damper.workflow.job import Job
-from impact_damper.workflow.compile_kernels import compile_all
-from impact_damper.workflow.sources import compiled_kernels
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.workflow.compile_kernels import compile_all
+from chatterjee1995.workflow.sources import compiled_kernels
 
 job = Job(snakemake)
 compile_all(snakemake.threads, snakemake.config["comparison"]["orders"])

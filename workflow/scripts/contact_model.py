@@ -3,8 +3,8 @@
 The load is the acceleration that all forces except the contact force cause.
 """
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.contact_model import contact_model, spread_loads
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.stages.contact_model import contact_model, spread_loads
 
 job = Job(snakemake)
 job.save(

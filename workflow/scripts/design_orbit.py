@@ -4,8 +4,8 @@ The data are those of the paper's figure 3. A quiet orbit is the small periodic 
 damper is designed.
 """
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.design_orbit import design_orbit
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.stages.design_orbit import design_orbit
 
 job = Job(snakemake)
 for entry in job.entries():

@@ -3,8 +3,8 @@
 The suppression band is the range of frequencies without violent (large) motion.
 """
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.harmonic_balance import harmonic_balance
+from chatterjee1995.workflow.job import Job
+from impact_damper.theory.harmonic_balance import harmonic_balance
 
 job = Job(snakemake)
 job.save(harmonic_balance(job.oscillator, job.damper, job.grid("frequencies")))

@@ -1,7 +1,7 @@
 """Harmonic balance with more and more harmonics, compared with the exact orbit."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.harmonic_convergence import harmonic_convergence, ladder
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.stages.harmonic_convergence import harmonic_convergence, ladder
 
 job = Job(snakemake)
 harmonics = ladder(job["highest"])

@@ -1,8 +1,8 @@
 """The pages of all machines, in HTML and Markdown, with their figures."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.pages.machine import FIGURES, machine_page
-from impact_damper.pages.render import write_page
+from chatterjee1995.workflow.job import Job
+from impact_damper.plot.pages.machine import FIGURES, machine_page
+from impact_damper.plot.pages.render import write_page
 
 job = Job(snakemake)
 for name in job["names"]:

@@ -7,10 +7,10 @@ job continues.
 import shutil
 from pathlib import Path
 
-from impact_damper.workflow.job import Job
-from impact_damper.machine.hertz import HertzContact
-from impact_damper.machine.machine import Machine
-from impact_damper.stages.machines import design_damper
+from chatterjee1995.workflow.job import Job
+from impact_damper.design.design_damper import design_damper
+from impact_damper.model.hertz import HertzContact
+from impact_damper.model.machine import Machine
 
 job = Job(snakemake)
 steps = Path(job.output).with_suffix("") / "steps"

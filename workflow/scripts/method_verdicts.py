@@ -1,8 +1,8 @@
 """Verdicts on integrators by tolerance: do they find the right motion near known orbits?"""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.method_verdicts import make_scene, verdicts
-from impact_damper.system.parameters import Damper
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.methods.method_verdicts import make_scene, verdicts
+from impact_damper.model.parameters import Damper
 
 job = Job(snakemake)
 scenes = {}

@@ -1,7 +1,7 @@
 """Runs of the controller that switches the damper to leave the resonance (figures 13 to 16)."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.migration import trials
+from chatterjee1995.workflow.job import Job
+from impact_damper.motions.migration import trials
 
 job = Job(snakemake)
 job.save(

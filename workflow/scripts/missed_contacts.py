@@ -1,7 +1,7 @@
 """Contacts near grazing that integrators miss, counted over random flights of the loose mass."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.missed_contacts import missed_contacts
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.methods.missed_contacts import missed_contacts
 
 job = Job(snakemake)
 job.save(

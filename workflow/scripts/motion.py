@@ -1,6 +1,6 @@
 """A steady motion over its period (paper: figure 4)."""
 
-from impact_damper.workflow.job import Job
+from chatterjee1995.workflow.job import Job
 from impact_damper.motions.steady import steady_orbit
 
 job = Job(snakemake)

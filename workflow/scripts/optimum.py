@@ -1,7 +1,7 @@
 """Largest displacement against clearance, and its optimum (paper: figures 6, 7 and 11)."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.optimum import clearance_sweep
+from chatterjee1995.workflow.job import Job
+from impact_damper.orbits.clearance_sweep import clearance_sweep
 
 job = Job(snakemake)
 job.save(

@@ -3,8 +3,8 @@
 Migration leaves the resonance by switching the damper on and off; suppression leaves it on.
 """
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.release_dampers import release_dampers
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.stages.release_dampers import release_dampers
 
 job = Job(snakemake)
 job.save(

@@ -1,8 +1,8 @@
 """Policies of migration control compared: rules that say when to switch the damper off."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.release_policies import release_policies
-from impact_damper.system.parameters import Damper
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.stages.release_policies import release_policies
+from impact_damper.model.parameters import Damper
 
 job = Job(snakemake)
 job.save(

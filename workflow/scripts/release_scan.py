@@ -1,7 +1,7 @@
 """Motions that follow when the damper is switched off, over frequency (paper: figure 14)."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.release_scan import release_scan
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.stages.release_scan import release_scan
 
 job = Job(snakemake)
 job.save(

@@ -1,7 +1,7 @@
 """Motions over frequency, from random starts (paper: figures 2, 5, 8 and 10)."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.response import frequency_response
+from chatterjee1995.workflow.job import Job
+from impact_damper.motions.response import frequency_response
 
 job = Job(snakemake)
 job.save(

@@ -1,7 +1,7 @@
 """Rigid impacts compared with compliant contact, over frequency and contact stiffness."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.rigid_limit import rigid_limit
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.stages.rigid_limit import rigid_limit
 
 job = Job(snakemake)
 for entry in job.entries():

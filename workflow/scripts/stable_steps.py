@@ -1,7 +1,7 @@
 """The quiet motion by fixed-step methods, over contact stiffness and step."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.stable_steps import stable_steps
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.methods.stable_steps import stable_steps
 
 job = Job(snakemake)
 job.save(

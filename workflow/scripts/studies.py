@@ -7,10 +7,10 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from impact_damper.workflow.job import Job
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.stages.studies import study_chunk
+from chatterjee1995.stages.study_grid import gather_chunks
 from impact_damper.data.datasets import save
-from impact_damper.stages.studies import study_chunk
-from impact_damper.stages.study_grid import gather_chunks
 
 job = Job(snakemake)
 chunks = list(snakemake.input.chunks)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.studies import study_chunk
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.stages.studies import study_chunk
 
 job = Job(snakemake)
 job.save(

@@ -1,7 +1,7 @@
 """Runs from the one-third subharmonic with the damper switched on (paper: figures 5 and 8)."""
 
-from impact_damper.workflow.job import Job
-from impact_damper.stages.subharmonic import subharmonic_suppression
+from chatterjee1995.workflow.job import Job
+from chatterjee1995.stages.subharmonic import subharmonic_suppression
 
 job = Job(snakemake)
 job.save(

@@ -9,8 +9,8 @@ import xarray as xr
 
 from impact_damper.data.variables import VARIABLES
 from impact_damper.data.whole_files import BrokenFileError, check_length, whole_netcdf
-from impact_damper.system.bounds import shown
-from impact_damper.system.parameters import Damper, Oscillator, pick
+from impact_damper.model.bounds import shown
+from impact_damper.model.parameters import Damper, Oscillator, pick
 
 SOURCE = "impact-damper"
 
@@ -88,6 +88,12 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
 def flag(name, meaning) -> int:
     """Return the stored number of a named value: `flag("outcome", "settled")` is 1."""
     return VARIABLES[name].flags[meaning]
+
+
+def named(data, name) -> str:
+    """Return the meaning of a flag of a dataset."""
+    flags = VARIABLES[name].flags
+    return next(meaning for meaning, value in flags.items() if value == int(data[name]))
 
 
 def decode(values) -> xr.DataArray:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from scipy.special import gammaincinv, ndtri  # `scipy.stats` takes half a second to import
 
-from impact_damper.system.bounds import LEAD
+from impact_damper.model.bounds import LEAD
 
 # Labels of the numbers that `wilson` and `escape_rate` return.
 BOUNDS = ["share", "lower", "upper"]

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from impact_damper.machine.units import with_unit
-from impact_damper.system.bounds import shown
+from impact_damper.model.bounds import shown
+from impact_damper.model.units import with_unit
 from impact_damper.theory.free_oscillator import free_folds, maximum_response
 
 

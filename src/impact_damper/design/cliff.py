@@ -21,11 +21,11 @@ from impact_damper.design.choose import middle_gap
 from impact_damper.design.compare import compare
 from impact_damper.design.deviations import choose_with_tolerances
 from impact_damper.design.outcomes import Case, are_quiet, run
+from impact_damper.model.families import family_of
 from impact_damper.orbits.branches import Branch, follow_branch
 from impact_damper.orbits.orbit import STROBE, Orbit
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.system.families import family_of
 
 # An edge is an end of a range of quiet gaps.
 # BISECTIONS: number of bisections between two compared gaps, of which only one is quiet.

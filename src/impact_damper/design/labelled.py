@@ -9,11 +9,11 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import SOURCE, flag
+from impact_damper.data.results import shown_variable
 from impact_damper.data.shares import BOUNDS
 from impact_damper.design.choose import Comparison
 from impact_damper.design.masses import is_best
 from impact_damper.design.tolerances import VARIED
-from impact_damper.machine.results import shown_variable
 
 # Ends of a range or of a confidence interval.
 SIDES = ["lower", "upper"]

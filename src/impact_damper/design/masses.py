@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.design.compare import coarse_comparison, compare
+from impact_damper.design.costs import measured_costs
 from impact_damper.design.outcomes import Case, run
 from impact_damper.design.screen import gap_span
 from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.performance.costs import measured_costs
 
 # Masses divided by the nominal mass.
 MASSES = (0.5, 0.7, 1.4, 2.0)

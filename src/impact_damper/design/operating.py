@@ -15,9 +15,9 @@ import numpy as np
 from impact_damper.data.datasets import flag
 from impact_damper.design.outcomes import Case, are_quiet, run
 from impact_damper.design.tolerances import VARIED
-from impact_damper.edges.maps import map_edges
+from impact_damper.model.bounds import RESTITUTION_RANGE
+from impact_damper.orbits.edge_maps import map_edges
 from impact_damper.orbits.shooting import shoot
-from impact_damper.system.bounds import RESTITUTION_RANGE
 
 # CELLS: largest number of cells along each axis of a map; fewer for a task with few candidates.
 # CELL_STARTS: starts in a cell.

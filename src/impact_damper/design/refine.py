@@ -14,15 +14,15 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq, root_scalar
 
-from impact_damper.orbits.quiet_orbits import find_quiet_orbit
-from impact_damper.orbits.sensitivity import Sensitivity, sensitivity
-from impact_damper.system.packed import (
+from impact_damper.model.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
     DESIGN,
     INVERSE_MASS_RATIO,
     SIMPLE,
 )
+from impact_damper.orbits.quiet_orbits import find_quiet_orbit
+from impact_damper.orbits.sensitivity import Sensitivity, sensitivity
 
 # Accuracy of the logarithms of gaps.
 ACCURACY = 1e-10

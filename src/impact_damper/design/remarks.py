@@ -6,10 +6,10 @@ the amplitude of the force, or what causes it, as a multiple of the nominal valu
 
 import numpy as np
 
-from impact_damper.contact.contact_law import contact
 from impact_damper.data.datasets import flag
 from impact_damper.data.design_ranges import known_range, stable_range
 from impact_damper.design.restitutions import best_of
+from impact_damper.theory.contact_law import contact
 
 # In the model the dashpot of a wall may pull the loose mass at the end of a contact. A remark is
 # made if the same wall without pull has a restitution that is larger by more than this fraction.

@@ -16,8 +16,8 @@ from impact_damper.design.kept_steps import KeptSteps
 from impact_damper.design.labelled import restitutions_dataset
 from impact_damper.design.screen import gap_span
 from impact_damper.design.task import Task
-from impact_damper.machine.machine import describe_si
-from impact_damper.system.bounds import shown
+from impact_damper.model.bounds import shown
+from impact_damper.model.machine import describe_si
 
 # Number of restitutions that are tried, evenly spaced over the range.
 COUNT = 5

@@ -18,9 +18,9 @@ import numpy as np
 from impact_damper.design.outcomes import Case, run
 from impact_damper.design.refine import BestOrbit, refine
 from impact_damper.design.task import LEAST_GAP, spread
-from impact_damper.literature.slow_invariant_manifold import VibroImpactAbsorber
+from impact_damper.model.packed import CLEARANCE
 from impact_damper.orbits.quiet_orbits import dominant_root, is_symmetric_pair, quiet_orbits
-from impact_damper.system.packed import CLEARANCE
+from impact_damper.theory.slow_invariant_manifold import VibroImpactAbsorber
 
 # The map holds the quiet orbits at several gaps and frequencies.
 # MOST_GAP: largest gap, divided by the largest gap of rule (18) in the band.

@@ -1,8 +1,8 @@
 """Contact stiffness of a damper before its design, from radius and materials."""
 
 from impact_damper.design.task import Task
-from impact_damper.machine.hertz import HertzContact
-from impact_damper.machine.machine import Machine
+from impact_damper.model.hertz import HertzContact
+from impact_damper.model.machine import Machine
 
 # Dimensionless contact stiffness that completes a task here. Any allowed value would do.
 TYPICAL = 2000.0

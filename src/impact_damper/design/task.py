@@ -15,10 +15,7 @@ import numpy as np
 from impact_damper.data.shares import starts_needed
 from impact_damper.design.band import checked_band, grid_over, resonance_of, resonances_within
 from impact_damper.design.tolerances import NOMINAL, TOLERANCES, VARIED, checked_tolerances
-from impact_damper.machine.dampers import MachineDamper
-from impact_damper.machine.machine import Machine
-from impact_damper.machine.units import check_si
-from impact_damper.system.bounds import (
+from impact_damper.model.bounds import (
     MASS_RATIO_RANGE,
     RESTITUTION_RANGE,
     SEED_RANGE,
@@ -27,9 +24,12 @@ from impact_damper.system.bounds import (
     check_number,
     shown,
 )
-from impact_damper.system.checks import check_starts
-from impact_damper.system.packed import pack
-from impact_damper.system.settling import Settling, check_settling
+from impact_damper.model.checks import check_starts
+from impact_damper.model.dampers import MachineDamper
+from impact_damper.model.machine import Machine
+from impact_damper.model.packed import pack
+from impact_damper.model.settling import Settling, check_settling
+from impact_damper.model.units import check_si
 from impact_damper.theory.free_oscillator import balance_amplitudes
 
 # Least gap that a design considers, divided by the gap of rule (18).

@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 
-from impact_damper.machine.units import check_si
-from impact_damper.system.bounds import shown
+from impact_damper.model.bounds import shown
+from impact_damper.model.units import check_si
 
 # VARIED: names of the quantities. "stiffness", "damping" and "force" belong to the machine.
 # NOMINAL: factors of these quantities without a deviation.

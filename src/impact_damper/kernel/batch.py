@@ -17,7 +17,7 @@ from impact_damper.kernel.by_address import by_address
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import no_return
 from impact_damper.kernel.memory import aligned, pointer
-from impact_damper.system import packed
+from impact_damper.model import packed
 
 LANES = 16
 # Largest number of trajectories in a pool. With this number the longest queue nearly always fills

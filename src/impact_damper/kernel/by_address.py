@@ -35,7 +35,7 @@ def compiled(function):
     numba.core.ccallback.CFunc
         The compiled kernel. `call_at` takes its `address`.
     """
-    with own_cache():
+    with own_cache(function.py_func):
         return numba.cfunc(signature_of(function), **SETTINGS)(function.py_func)
 
 

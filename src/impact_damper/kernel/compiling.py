@@ -5,28 +5,32 @@
     inlined      compiled as part of its callers and not by itself
 
 numba compiles a cached function again after an edit of the file that defines it, but not after an
-edit of a function that it calls. Therefore the cache is a folder whose name is the digest of all
-modules that a kernel can depend on.
+edit of a function that it calls. Therefore each module has a folder of its own, whose name is the
+digest of all modules that its kernels can depend on.
 """
 
 import os
 import tempfile
 from contextlib import contextmanager
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 import numba
 import platformdirs
 
-from impact_damper.kernel import source_digest
 from impact_damper.kernel.progress import show_progress
+from impact_damper.kernel.sources import kernel_digest
 
 
-def _cache_directory() -> Path:
-    """Return the folder of compiled kernels, a temporary one if the usual one is not writable."""
+@cache
+def cache_directory(*paths) -> Path:
+    """Return the folder of the compiled kernels of the modules `paths`.
+
+    It is a temporary folder if the usual one is not writable.
+    """
     chosen = os.environ.get("NUMBA_CACHE_DIR")
     root = Path(chosen) if chosen else platformdirs.user_cache_path("impact-damper")
-    path = root / source_digest()
+    path = root / kernel_digest(*paths)
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError:
@@ -34,18 +38,21 @@ def _cache_directory() -> Path:
     return path
 
 
-CACHE_DIRECTORY = _cache_directory()
+# Folder of the generated modules and of their kernels, which depend on this room alone.
+CACHE_DIRECTORY = cache_directory()
 
 
 @contextmanager
-def own_cache():
-    """Let numba cache the functions that are decorated within this context in CACHE_DIRECTORY.
+def own_cache(function):
+    """Let numba cache a function that is decorated within this context in the folder of its module.
 
     numba chooses the folder of a function when the function is decorated. At its end the context
     restores the user's setting of the folder.
     """
+    path = Path(function.__code__.co_filename)
+    generated = path.is_relative_to(CACHE_DIRECTORY)
     before = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(CACHE_DIRECTORY)
+    numba.config.CACHE_DIR = str(CACHE_DIRECTORY if generated else cache_directory(path))
     try:
         yield
     finally:
@@ -66,7 +73,7 @@ def kernel(function, **options):
     With `no_cfunc_wrapper` numba compiles no wrapper for calls from C, which saves a tenth of the
     compile time.
     """
-    with own_cache():
+    with own_cache(function):
         return numba.njit(no_cfunc_wrapper=True, **SETTINGS | options)(function)
 
 

@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel, kernel_only
-from impact_damper.system.packed import (
+from impact_damper.model.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
     COUNT,

@@ -13,7 +13,7 @@ Z1 is the displacement of the primary mass, and Z2 its displacement relative to 
 from itertools import chain
 
 from impact_damper.kernel import recurrence
-from impact_damper.system import packed
+from impact_damper.model import packed
 
 # Rows of a step, in this order:
 # packed.NAMES    the packed parameters

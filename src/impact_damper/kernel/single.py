@@ -15,8 +15,8 @@ from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.memory import CACHE_LINE, aligned, pointer
 from impact_damper.kernel.series import rows
-from impact_damper.system import packed
-from impact_damper.system.packed import CLEARANCE
+from impact_damper.model import packed
+from impact_damper.model.packed import CLEARANCE
 
 _ONE = instances.instance(1)
 constant_series = _ONE.constant_series

@@ -12,13 +12,13 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from tqdm import tqdm
 
+from impact_damper.model import packed
+from impact_damper.model.bounds import check_count
+from impact_damper.model.packed import FREQUENCY
+from impact_damper.model.settling import Settling
 from impact_damper.motions.records import MOTION, first_collisions, measure
 from impact_damper.motions.settling import settle_many
 from impact_damper.motions.undecided import name_undecided
-from impact_damper.system import packed
-from impact_damper.system.bounds import check_count
-from impact_damper.system.packed import FREQUENCY
-from impact_damper.system.settling import Settling
 
 # Number of motions in one call of a kernel by a thread.
 CHUNK = 128

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.motions import ensemble, strobe_map, traces
-from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import balance_amplitudes, maximum_response
 
 # Number of phases at which starts with the amplitudes of harmonic balance are placed.

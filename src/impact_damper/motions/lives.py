@@ -15,11 +15,11 @@ import numpy as np
 
 from impact_damper.data.datasets import flag
 from impact_damper.data.shares import escape_rate
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import CHAOTIC, MOTION, UNRESOLVED
 from impact_damper.motions.settling import settle_many
 from impact_damper.motions.watch import NEAR
-from impact_damper.system.packed import FREQUENCY
 
 # Z1 and Z1' of the first state of a run differ by at most APART from the state of the motion.
 APART = 1e-4

@@ -10,9 +10,9 @@ Symbols are as in `system.parameters`.
 
 import numpy as np
 
+from impact_damper.model.packed import CLEARANCE
 from impact_damper.motions import ensemble
 from impact_damper.motions.strobe_map import distance, flow, polish, strobe_time
-from impact_damper.system.packed import CLEARANCE
 
 # Longest period of an orbit, in forcing cycles.
 LONGEST = 5

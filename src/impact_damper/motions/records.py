@@ -14,10 +14,10 @@ from impact_damper.kernel.compiling import inlined, kernel
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.kernel.single import X, assign, side_of, step, workspace
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
 from impact_damper.motions.extrema import extremum
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
 from impact_damper.motions.traces import series_of_step
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # A harmonic below PHASELESS times the harmonic of Z1 is a rounding error, so it has no phase.
 PHASELESS = 1e-9

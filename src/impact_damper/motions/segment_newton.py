@@ -9,7 +9,7 @@ import numpy as np
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.single import assign, side_of, workspace
 from impact_damper.kernel.tangents import advance
-from impact_damper.system.packed import CLEARANCE, COUNT, FREQUENCY
+from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
 
 # NUDGE       change of the parameter forward and backward in the central difference
 # BENT        largest difference of the forward and the backward difference, divided by their sum.

@@ -23,11 +23,11 @@ from impact_damper.kernel.single import (
     workspace,
 )
 from impact_damper.kernel.tangents import advance
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
 from impact_damper.motions.extrema import PIECES, extremum, turning_time
 from impact_damper.motions.records import SAMPLES
 from impact_damper.motions.strobe_map import STROBE
 from impact_damper.motions.traces import record_beginning, series_of_step
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 
 @kernel

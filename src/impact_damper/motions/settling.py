@@ -22,9 +22,9 @@ from impact_damper.kernel.batch import (
 )
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import assign, side_of
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
-from impact_damper.system.packed import FREQUENCY
 
 
 @kernel

@@ -11,8 +11,7 @@ import warnings
 import numpy as np
 
 from impact_damper.data.datasets import PHASES, dataset
-from impact_damper.motions import traces
-from impact_damper.system.bounds import (
+from impact_damper.model.bounds import (
     FARTHEST,
     FASTEST,
     MOST_RADIUS,
@@ -23,9 +22,10 @@ from impact_damper.system.bounds import (
     check_number,
     shown,
 )
-from impact_damper.system.checks import check_numbers
-from impact_damper.system.packed import FREQUENCY, pack
-from impact_damper.system.parameters import describe
+from impact_damper.model.checks import check_numbers
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import describe
+from impact_damper.motions import traces
 
 # Largest number of samples of a motion, which stay in memory.
 MOST_SAMPLES = 10**7

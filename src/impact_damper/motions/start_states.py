@@ -29,12 +29,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from impact_damper.model.bounds import FREQUENCY_RANGE, RADIUS_RANGE, check_number
+from impact_damper.model.families import FORCING
+from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.motions import strobe_map, traces
 from impact_damper.motions.free_motions import free_motions
 from impact_damper.motions.simulate import random_states
-from impact_damper.system.bounds import FREQUENCY_RANGE, RADIUS_RANGE, check_number
-from impact_damper.system.families import FORCING
-from impact_damper.system.packed import FREQUENCY, pack
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds
 from impact_damper.theory.single_harmonic import impacting_solutions
 

@@ -7,13 +7,13 @@ forcing frequency, and T the time.
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import describe
+from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import tabulate
 from impact_damper.motions.simulate import COMPONENTS, check_state, simulate, start_of
 from impact_damper.motions.strobe_map import STROBE
-from impact_damper.system.packed import FREQUENCY, pack
-from impact_damper.system.parameters import describe
-from impact_damper.system.settling import check_settling
 
 
 def steady_motion(

@@ -15,7 +15,7 @@ from impact_damper.kernel.compiling import inlined, kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import assign, side_of, workspace
 from impact_damper.kernel.tangents import advance
-from impact_damper.system.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
+from impact_damper.model.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
 
 # Phase W T of the strobe.
 STROBE = math.pi / 2

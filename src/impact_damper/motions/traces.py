@@ -11,7 +11,7 @@ from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.kernel.single import LENGTH, Q, X, assign, polynomial, side_of, step, workspace
-from impact_damper.system.packed import CLEARANCE
+from impact_damper.model.packed import CLEARANCE
 
 # Number of steps of a trace in one call of its kernel, which takes a fraction of a second.
 STEPS_AT_ONCE = 50_000

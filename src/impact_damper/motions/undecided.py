@@ -17,6 +17,7 @@ import numpy as np
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.equation import forcing_amplitude, has_escaped
 from impact_damper.kernel.single import side_of, workspace
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
 from impact_damper.motions.records import (
     CHAOTIC,
     DIVERGED,
@@ -30,7 +31,6 @@ from impact_damper.motions.records import (
 from impact_damper.motions.rotation_numbers import find_rotation
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # Largest number of forcing cycles of the first block.
 FIRST = 1500

@@ -18,6 +18,7 @@ import numpy as np
 
 from impact_damper.kernel.compiling import inlined, kernel_only
 from impact_damper.kernel.equation import energy, forcing_amplitude, has_escaped
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
 from impact_damper.motions.growth import BLOCK, RECENT, exponent, follow_tangent
 from impact_damper.motions.records import (
     AT_REST,
@@ -36,7 +37,6 @@ from impact_damper.motions.strobe_map import (
     repeats_sooner,
     speed_weight,
 )
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # LONGEST_PERIOD  longest period of an orbit that is searched for, in forcing cycles
 # RING            number of strobe states that are stored for this search

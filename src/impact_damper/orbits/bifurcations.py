@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.orbits import between
 from impact_damper.orbits.continuation import Point
-from impact_damper.system.packed import FREQUENCY
 
 # A place is a distance along the branch from the beginning of the step.
 # FINE: largest tolerance of the place of a bifurcation, divided by the length of the step.

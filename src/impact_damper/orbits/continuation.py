@@ -22,16 +22,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.motions.segment_newton import (
-    NUDGE,
-    correction,
-    slopes_of_ends,
-)
+from impact_damper.model.packed import CLEARANCE
+from impact_damper.motions.segment_newton import NUDGE, correction, slopes_of_ends
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit
 from impact_damper.orbits.shooting import orbit_of
-from impact_damper.system.packed import CLEARANCE
 
 # Newton's method. The size of a correction is the largest change of an unknown.
 # NEWTON: largest number of corrections.

@@ -13,10 +13,10 @@ import numpy as np
 
 from impact_damper.kernel.single import side_of, workspace
 from impact_damper.kernel.tangents import advance
+from impact_damper.model.packed import DAMPING, DASHPOT, FREQUENCY, INVERSE_MASS_RATIO
 from impact_damper.motions import records, traces
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
-from impact_damper.system.packed import DAMPING, DASHPOT, FREQUENCY, INVERSE_MASS_RATIO
 
 # Phases W T, radian: a forcing cycle, and the strobe, at which states are compared.
 TURN = 2 * math.pi

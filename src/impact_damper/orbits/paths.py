@@ -27,8 +27,8 @@ from impact_damper.kernel.single import (
     workspace,
 )
 from impact_damper.kernel.tangents import step_with_tangents
+from impact_damper.model.packed import CLEARANCE
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
-from impact_damper.system.packed import CLEARANCE
 
 # Number of points of a step, including its ends. In a step in contact the phase of the contact's
 # oscillation grows by up to 3.5 radian, and the phase of a product of two such oscillations by up

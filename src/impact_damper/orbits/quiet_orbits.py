@@ -15,11 +15,11 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import flag
+from impact_damper.model import packed
 from impact_damper.orbits.compliant_orbits import CONTACTS, SYMMETRIC
 from impact_damper.orbits.grid_following import Grid
 from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import shoot
-from impact_damper.system import packed
 
 # Phase W T of the states, far from contacts. Contacts lie between about -0.2 and pi/2, and half a
 # cycle later.

@@ -20,10 +20,10 @@ import numpy as np
 
 from impact_damper.kernel.single import side_of, workspace
 from impact_damper.kernel.tangents import advance
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.segment_runs import flow_all, list_turns, separate, survey
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.paths import follow_path
-from impact_damper.system.packed import FREQUENCY
 
 # Multipliers whose moduli differ by more than the factor APART are separated by orthogonal
 # iteration. Multipliers of similar moduli are eigenvalues of products of small blocks.

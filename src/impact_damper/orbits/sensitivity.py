@@ -16,10 +16,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from impact_damper.model.packed import COUNT, DESIGN, FREQUENCY, design_slopes
 from impact_damper.orbits.orbit import TURN, Orbit
 from impact_damper.orbits.paths import POINTS, Path, follow_path
 from impact_damper.orbits.variations import Variations
-from impact_damper.system.packed import COUNT, DESIGN, FREQUENCY, design_slopes
 
 # Two extrema of |Z1|, two moduli of multipliers, or two multipliers count as equal if they differ
 # relatively by less than EQUAL.

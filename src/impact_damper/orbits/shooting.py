@@ -14,10 +14,10 @@ from functools import reduce
 
 import numpy as np
 
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, flow_map
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import STROBE, TURN, Orbit
-from impact_damper.system.packed import FREQUENCY
 
 # Newton's method.
 # ITERATIONS: largest number of corrections.

@@ -23,11 +23,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions import traces
 from impact_damper.motions.rotation_numbers import birkhoff_average, find_rotation
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.orbit import TURN, Orbit
-from impact_damper.system.packed import FREQUENCY
 
 # Measurement of the growth.
 # AMPLITUDES: amplitudes of the motions.

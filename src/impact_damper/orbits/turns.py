@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
 from impact_damper.orbits.paths import POINTS
 from impact_damper.orbits.sensitivity import path_of
 from impact_damper.orbits.variations import Variations
-from impact_damper.system.packed import CLEARANCE, FREQUENCY
 
 # Distance along the tangent of a branch over which the change of a height is estimated.
 SHIFT = 1e-10

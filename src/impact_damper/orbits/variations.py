@@ -33,8 +33,7 @@ from impact_damper.kernel.equation import (
     spring_slope,
     spring_slope_changes,
 )
-from impact_damper.orbits.paths import INTEGRALS, POINTS, Path
-from impact_damper.system.packed import (
+from impact_damper.model.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
     COUNT,
@@ -43,6 +42,7 @@ from impact_damper.system.packed import (
     FREQUENCY,
     INVERSE_MASS_RATIO,
 )
+from impact_damper.orbits.paths import INTEGRALS, POINTS, Path
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,6 @@ __all__ = ["basins", "branch", "design", "migration", "orbit", "response", "shar
 
 
 def __getattr__(name):
-    from impact_damper.system.names import nearest
+    from impact_damper.model.names import nearest
 
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}{nearest(name, __all__)}")

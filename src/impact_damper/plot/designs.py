@@ -4,11 +4,11 @@ A quiet motion is a small motion with damper. A start is a random initial state;
 to a quiet motion.
 """
 
-from impact_damper.figures.machines.cliff import share_panel, size_panel
-from impact_damper.figures.machines.response import response_panel
-from impact_damper.figures.optimum import sweeps_panel
-from impact_damper.figures.style import CURVES
 from impact_damper.plot.drawing import axes_for, dataset_in, datasets_in, key, looks
+from impact_damper.plot.machine_figures.cliff import share_panel, size_panel
+from impact_damper.plot.machine_figures.response import response_panel
+from impact_damper.plot.panels.optimum import sweeps_panel
+from impact_damper.plot.panels.style import CURVES
 
 
 def sweep(data, *, ax=None):

@@ -7,8 +7,8 @@ import numpy as np
 import xarray as xr
 from matplotlib import pyplot
 
-from impact_damper.figures.style import COLUMNS, style
-from impact_damper.system.bounds import shown
+from impact_damper.model.bounds import shown
+from impact_damper.plot.panels.style import COLUMNS, style
 
 
 def datasets_in(data, takes, words) -> list[xr.Dataset]:

@@ -8,15 +8,15 @@ from dataclasses import fields
 
 import numpy as np
 
+from impact_damper.data.arguments import takes_machine
 from impact_damper.data.datasets import damper_of, has_damper, oscillator_of, parameters_of
-from impact_damper.figures.basins import draw_plane
-from impact_damper.figures.migration import draw_run
-from impact_damper.figures.motion import phase_panel, time_panel
-from impact_damper.figures.style import axis_label
-from impact_damper.machine.arguments import takes_machine
-from impact_damper.machine.machine import Machine
+from impact_damper.model.machine import Machine
 from impact_damper.motions.simulate import simulate
 from impact_damper.plot.drawing import axes_for, dataset_in, key, looks
+from impact_damper.plot.panels.basins import draw_plane
+from impact_damper.plot.panels.migration import draw_run
+from impact_damper.plot.panels.motion import phase_panel, time_panel
+from impact_damper.plot.panels.style import axis_label
 
 
 def orbit(data, *, ax=None):

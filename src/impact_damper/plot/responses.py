@@ -6,13 +6,13 @@ A start is an initial state; the share of a motion is the fraction of starts tha
 import numpy as np
 
 from impact_damper.data.datasets import flag, has_damper, parameters_of
-from impact_damper.figures.branches import draw_orbits, runs
-from impact_damper.figures.harmonic_balance import draw_band, draw_free
-from impact_damper.figures.response import response_panel
-from impact_damper.figures.shares import shares_panel
-from impact_damper.figures.style import BLUE, ROLES, axis_label, tex
+from impact_damper.model.parameters import SYMBOLS
 from impact_damper.plot.drawing import axes_for, dataset_in, datasets_in, key, looks
-from impact_damper.system.parameters import SYMBOLS
+from impact_damper.plot.panels.branches import draw_orbits, runs
+from impact_damper.plot.panels.harmonic_balance import draw_band, draw_free
+from impact_damper.plot.panels.response import response_panel
+from impact_damper.plot.panels.shares import shares_panel
+from impact_damper.plot.panels.style import BLUE, ROLES, axis_label, tex
 
 # Look of the settled motions in a sweep of steady motions.
 SETTLED = {

@@ -24,9 +24,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from impact_damper.system.bounds import HARMONIC_RANGE, check_count
-from impact_damper.system.packed import pack
-from impact_damper.system.parameters import SPRING_POWER
+from impact_damper.model.bounds import HARMONIC_RANGE, check_count
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import SPRING_POWER
 from impact_damper.theory import fourier
 
 

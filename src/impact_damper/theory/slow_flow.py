@@ -12,7 +12,7 @@ Symbols are as in `system.parameters`.
 
 import numpy as np
 
-from impact_damper.system.checks import check_frequency
+from impact_damper.model.checks import check_frequency
 from impact_damper.theory.single_harmonic import contact_amplitude
 
 # A motion whose growth rate has a modulus of at most MARGIN counts as marginally stable.

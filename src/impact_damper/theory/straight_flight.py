@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from impact_damper.system.bounds import check_number
-from impact_damper.system.parameters import check_damper
+from impact_damper.model.bounds import check_number
+from impact_damper.model.parameters import check_damper
 
 # Number of impulses q that are compared before the minimum of max |x| is refined.
 GRID = 65

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.system.packed import COUNT, NAMES
+from impact_damper.model.packed import COUNT, NAMES
 
 TOLERANCE = 1e-20
 PROGRAM = Path(__file__).with_name("motion.c")

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from impact_damper.system.packed import FREQUENCY
+from impact_damper.model.packed import FREQUENCY
 from references import extended
 
 # Step of the difference quotients. Near a grazing the distances to the wall are only 1e-10.

@@ -38,8 +38,8 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from impact_damper.system.packed import FREQUENCY, pack
-from impact_damper.system.parameters import Damper, Oscillator, describe, pick
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import Damper, Oscillator, describe, pick
 from references import extended
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.system.packed import (
+from impact_damper.model.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
     COUNT,
@@ -18,7 +18,7 @@ from impact_damper.system.packed import (
     INVERSE_MASS_RATIO,
     pack,
 )
-from impact_damper.system.parameters import Damper, Oscillator, pick
+from impact_damper.model.parameters import Damper, Oscillator, pick
 from references import extended
 
 PERIODS = 3  # forcing cycles of a run

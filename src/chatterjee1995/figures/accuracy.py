@@ -1,0 +1,173 @@
+"""Error against counted work, for each method on each test case (figure kind `accuracy`).
+
+A test case, called scene in the code, is one motion with its parameters, initial state and length.
+A method is an integrator, or a model that solves for a periodic orbit directly.
+"""
+
+from itertools import cycle
+
+import numpy as np
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from chatterjee1995.methods.methods import COMPARED, METHODS, colour_of, name_and_mode
+from chatterjee1995.methods.words import method_in_words
+from impact_damper.data.datasets import parameters_of
+from impact_damper.data.variables import VARIABLES
+from impact_damper.plot.panels.style import (
+    BLACK,
+    GREY,
+    PALE,
+    SKY,
+    figure,
+    legend,
+    letter_panels,
+    style,
+)
+
+CAPTION = """
+Error against work in floating-point operations. A line joins runs with different tolerances or, for
+harmonic balance, with different numbers of harmonics. Open marker: wrong number of contacts; for
+chaos, an error smaller than its standard error. Plus: the run failed. Dashed: required accuracy.
+Reference: a program in 80-bit arithmetic; for chaos, a longer run.
+"""
+
+# Colour, marker and line of models that solve for an orbit directly.
+ORBIT_LOOKS = {
+    "rigid": (GREY, "s", "none"),
+    "rigid_mended": (GREY, "D", "none"),
+    "rigid_balance": (SKY, "P", "none"),
+    "full_balance": (SKY, "X", "none"),
+    "many_harmonics": (SKY, "h", "-"),
+    "shooting": (BLACK, "*", "none"),
+}
+# Marker and line of integrators, by whether they locate contacts.
+LOOKS = {True: ("^", "-"), False: ("v", ":")}
+# Marker and line of Taylor series of other orders than the package uses.
+OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]
+# Names of the values of the variable `run_status`, for complete runs.
+ENDED = ("ok", "missed_contacts", "invented_contacts")
+# Quantity of the required accuracy -> variable or statistic of the dataset, and label of the axis.
+QUANTITIES = {
+    "amplitude": ("amplitude_error", r"Relative error of max $|Z_1|$"),
+    "state": ("state_error", "Error of the state at the end"),
+    "contact_time": ("contact_time_error", "Error of contact times"),
+    "contacts": ("state_error", "Error of the state at the end"),
+    "contact_rate": ("contact_rate", "Relative error of contacts a cycle"),
+    "displacement": ("displacement", r"Relative error of mean max $|Z_1|$"),
+    "exponent": ("exponent", "Relative error of the Lyapunov exponent"),
+}
+FINEST = 1e-16  # smallest error drawn: below the rounding error of a double
+DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
+
+
+@style()
+def draw_accuracy(*, accuracy):
+    """Draw error against counted work: a panel for each test case, a colour and marker per method.
+
+    Parameters
+    ----------
+    accuracy : list of xarray.Dataset
+        Datasets of the stage accuracy.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    rows = -(-len(accuracy) // 2)
+    drawn = figure("double", 1.5 + 2.4 * rows)
+    panels = drawn.subplots(rows, min(2, len(accuracy)), squeeze=False).ravel()
+    for axes, data in zip(panels, accuracy, strict=False):
+        _panel(axes, data)
+    for axes in panels[len(accuracy) :]:
+        axes.set_axis_off()
+    letter_panels(panels[: len(accuracy)])
+    for axes in panels[max(0, len(accuracy) - 2) : len(accuracy)]:
+        axes.set_xlabel("Floating-point operations")
+    legend(drawn, 4)
+    return drawn
+
+
+def _panel(axes, data):
+    """Draw the panel of one test case."""
+    made = parameters_of(data)
+    quantity, allowed = made["accuracy"]["quantity"], made["accuracy"]["within"]
+    chaotic = made["motion"] == "chaotic"
+    error, bars = (
+        _errors(axes, data, quantity) if chaotic else (data[QUANTITIES[quantity][0]].values, None)
+    )
+    error = np.maximum(error, FINEST)
+    meanings, status = VARIABLES["run_status"].flags, data["run_status"].values
+    ended = np.isin(status, [meanings[each] for each in ENDED])
+    right = status == meanings["ok"]
+    low, high = (1e-4, 1.0) if chaotic else (10 ** np.floor(np.log10(np.min(error[ended]))), 30)
+    work = data["operations"].values
+    for method, role in _roles(data).items():
+        of = data["method"].values == method
+        _method(axes, role, work, error, bars, of & ended & right, of & ended & ~right)
+        stopped = work[of & ~ended & (work > 0)]
+        if len(stopped) > 0:
+            looks = {"color": role[1], "markersize": 4, "clip_on": False}
+            top = np.full(len(stopped), high)
+            axes.plot(stopped, top, role[2], markerfacecolor="none", **looks)
+            axes.plot(stopped, top, "+", color=BLACK, markersize=7, clip_on=False)
+    if quantity == "contacts":
+        axes.text(
+            0.02,
+            0.86,
+            "errors above 1: the motion left the orbit",
+            transform=axes.transAxes,
+            fontsize=7,
+        )
+    else:
+        axes.axhline(allowed, color=BLACK, linestyle="--", linewidth=0.9, label="required accuracy")
+    axes.plot([], [], "o", color=GREY, markerfacecolor="none", label=DOUBTFUL)
+    axes.plot([], [], "+", color=BLACK, label="no result")
+    axes.set(xscale="log", yscale="log", ylim=(low, high))
+    axes.yaxis.set_major_locator(LogLocator(numticks=8))
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_minor_formatter(NullFormatter())
+    decades = np.log10(work[work > 0])
+    axes.set_xlim(10 ** np.floor(decades.min()), 10 ** np.ceil(decades.max()))
+    axes.set_ylabel(QUANTITIES[quantity][1])
+    axes.set_title(made["scene"].replace("_", " "), loc="right", fontsize=8)
+
+
+def _errors(axes, data, quantity):
+    """Shade the error of the reference; return errors and standard errors of a chaotic case."""
+    truth = float(data["reference_average"].sel(statistic=quantity))
+    average = data["average"].sel(statistic=quantity).values
+    doubt = float(data["reference_average_error"].sel(statistic=quantity)) / truth
+    axes.axhspan(1e-9, doubt, color=PALE, zorder=0, label="error of the reference")
+    bars = data["average_error"].sel(statistic=quantity).values / truth
+    return np.abs(average / truth - 1), bars
+
+
+def _method(axes, role, work, error, bars, good, bad):
+    """Draw the complete runs of one method; doubtful ones have open markers.
+
+    `good` and `bad` are masks of the runs with a right and with a wrong number of contacts. `bars`
+    holds the standard errors of a chaotic case, otherwise None.
+    """
+    label, color, marker, line = role
+    looks, ended = {"color": color, "markersize": 4}, good | bad
+    if bars is None:
+        joined = np.where(good, error, np.nan)[ended]
+        axes.plot(work[ended], joined, color=color, linestyle=line, linewidth=0.7)
+    else:
+        unsure = error <= bars
+        good, bad = good & ~unsure, bad | (good & unsure)
+    axes.plot(work[good], error[good], marker, markerfacecolor=color, label=label, **looks)
+    axes.plot(work[bad], error[bad], marker, markerfacecolor="none", alpha=0.5, **looks)
+
+
+def _roles(data):
+    """Return label, colour, marker and line of each method, in the order of the legend."""
+    roles = {"taylor": (METHODS["taylor"].title, colour_of("taylor"), "o", "-")}
+    further = sorted(set(data["method"].values) - {*COMPARED["accuracy"], *ORBIT_LOOKS})
+    for name, (marker, line) in zip(further, cycle(OTHER_ORDERS)):
+        roles[name] = (method_in_words(name), colour_of("taylor"), marker, line)
+    for label in COMPARED["accuracy"]:
+        if label not in roles:
+            name, located = name_and_mode(label)
+            roles[label] = (method_in_words(label), colour_of(name), *LOOKS[located])
+    return roles | {name: (method_in_words(name), *look) for name, look in ORBIT_LOOKS.items()}

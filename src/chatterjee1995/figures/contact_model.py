@@ -1,0 +1,101 @@
+"""Accuracy of the contact model against restitution and load (figure kind `contact_model`).
+
+The contact model is a spring and a damper in the wall, chosen for an intended restitution. The load
+on a contact is the acceleration that all forces except the contact force cause.
+"""
+
+import numpy as np
+from matplotlib.colors import LogNorm
+from matplotlib.ticker import FuncFormatter
+
+from impact_damper.data.datasets import flag
+from impact_damper.plot.panels.maps import contours, key, marked, mesh
+from impact_damper.plot.panels.style import (
+    BLACK,
+    PALE,
+    PALE_ORANGE,
+    VERMILION,
+    axis_label,
+    figure,
+    legend,
+    letter_panels,
+    style,
+)
+
+CAPTION = """
+Error of the restitution of a contact against the intended restitution e and the load: the
+acceleration g that presses the masses together, divided by natural frequency of the contact and
+approach speed. Left: contact ends at zero penetration (appendix B); right: at zero force. Markers:
+contacts in simulated motions.
+"""
+
+# Rules for the end of a contact, and titles of their panels.
+RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
+LINES = {0.01: "solid", 0.05: "dotted"}  # error -> line of its contour
+# The load axis is linear below this value and logarithmic above.
+LINEAR = 1e-3
+# Looks of the contacts of motions, in the order of the coordinate `size` of the dataset.
+MOTIONS = (
+    {"color": BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},
+    {"color": VERMILION, "marker": "_", "markersize": 5.0, "markeredgewidth": 0.5},
+)
+
+
+@style()
+def draw_contact_model(*, contact_model):
+    """Draw the error of the realised restitution, for both exit rules.
+
+    Parameters
+    ----------
+    contact_model : list of xarray.Dataset
+        Datasets of the stage contact_model. Their maps are equal; the contacts of all are drawn.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    drawn = figure("double", 4.0)
+    panels = drawn.subplots(1, 2, sharex=True, sharey=True)
+    data = contact_model[0]
+    x, y = data["restitution"].values, data["load"].values
+    norm = LogNorm(1e-3, 1)
+    for axes, (rule, words) in zip(panels, RULES.items(), strict=True):
+        cell = data.sel(exit_rule=rule)
+        error = np.abs(cell["realised_restitution"].values / x - 1)
+        cells = mesh(axes, x, y, np.maximum(error, norm.vmin), norm)
+        for level, line in LINES.items():
+            contours(axes, x, y, error, level, line)
+        back = cell["contact_verdict"].values == flag("contact_verdict", "falls_back")
+        marked(axes, x, y, back, PALE_ORANGE)
+        axes.set_yscale("symlog", linthresh=LINEAR)
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.set_title(words)
+        axes.set_xlabel(axis_label(data["restitution"]))
+    label = "|realised $e$ / intended $e$ $-$ 1|"
+    drawn.colorbar(cells, ax=panels, label=label, extend="both")
+    for case in contact_model:
+        draw_contacts(panels[0], case)
+    for level, line in LINES.items():
+        panels[0].plot([], [], color=BLACK, linestyle=line, label=f"error of {100 * level:g} %")
+    key(panels[0], "the contact does not end", PALE, "////")
+    key(panels[0], "the loose mass falls back", PALE_ORANGE)
+    panels[0].set_ylabel(r"Load in contact, $g/(\omega_n v_0)$")
+    letter_panels(panels)
+    legend(drawn, 3)
+    return drawn
+
+
+def draw_contacts(axes, data):
+    """Draw the contacts of the simulated motions, at the restitution of their damper."""
+    used = data["used"].values[data["contact_used"].values]
+    size = data["contact_size"].values
+    load = data["contact_load"].values
+    for place in reversed(range(len(MOTIONS))):
+        chosen = size == place
+        axes.plot(
+            used[chosen],
+            load[chosen],
+            linestyle="none",
+            label=f"contacts of the {data['size'].values[place]} simulated motions",
+            **MOTIONS[place],
+        )

@@ -1,0 +1,97 @@
+"""Share of contacts near grazing that integrators miss (figure kind `missed_contacts`)."""
+
+import numpy as np
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from chatterjee1995.methods.methods import METHODS
+from impact_damper.data.shares import missed_share
+from impact_damper.plot.panels.maps import edges
+from impact_damper.plot.panels.style import (
+    BLACK,
+    SKY,
+    VERMILION,
+    axis_label,
+    figure,
+    legend,
+    letter_panels,
+    style,
+)
+
+CAPTION = """
+Colour: share of random flights of the loose mass whose contact a method does not notice, because no
+step ends beyond the wall. Depth: distance by which the flight would go beyond the wall. Solid line:
+median error of the method's motion. Dashed: depth at which constant steps would miss half of the
+contacts. Dots: a contact is reported where none occurs. Crosses: failed runs.
+"""
+
+COLUMNS = 4  # panels side by side
+
+
+@style()
+def draw_missed_contacts(*, missed_contacts):
+    """Draw the share of contacts missed, one panel for each method, and a colour bar.
+
+    Parameters
+    ----------
+    missed_contacts : list of xarray.Dataset
+        One dataset of the stage missed_contacts.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    (data,) = missed_contacts
+    count = data.sizes["integrator"]
+    rows = -(-(count + 1) // COLUMNS)
+    drawn = figure("double", 0.8 + 1.9 * rows)
+    panels = drawn.subplots(rows, COLUMNS, sharex=True).ravel()
+    for k, (axes, name) in enumerate(zip(panels, data["integrator"].values, strict=False)):
+        image = _panel(axes, data, name)
+        axes.set_title(METHODS[name].title, loc="right", fontsize=8)
+        if METHODS[name].fixed:
+            axes.set_ylabel("Steps a cycle")
+        elif k % COLUMNS == 0:
+            axes.set_ylabel(axis_label(data["method_tolerance"]))
+        if k + COLUMNS >= count:
+            axes.set_xlabel("Depth beyond the wall")
+            axes.xaxis.set_tick_params(labelbottom=True)
+    for axes in panels[count:]:
+        axes.set_axis_off()
+    place = panels[-1].inset_axes((0.1, 0.55, 0.85, 0.08))
+    bar = drawn.colorbar(image, cax=place, orientation="horizontal")
+    bar.set_label("Share of contacts missed")
+    first = panels[0]
+    first.plot([], [], color=BLACK, linestyle="--", label="half missed by constant steps")
+    first.plot([], [], ".", color=SKY, label="contact reported, none occurs")
+    letter_panels(panels[:count])
+    legend(drawn, 3)
+    return drawn
+
+
+def _panel(axes, data, name):
+    """Draw the panel of one method, and return the image of the shares of missed contacts."""
+    of, depths, fixed = data.sel(integrator=name), data["depth"].values, METHODS[name].fixed
+    y = data["fixed_steps"].values if fixed else data["method_tolerance"].values
+    image = axes.pcolormesh(
+        edges(depths),
+        edges(y),
+        missed_share(of),
+        cmap="cividis_r",
+        vmin=0,
+        vmax=1,
+        rasterized=True,
+    )
+    axes.plot(of["motion_error"], y, color=VERMILION, label="median error of the motion")
+    if fixed:
+        expected = data["expected_unseen"].values
+        axes.contour(depths, y, expected, [0.5], colors=BLACK, linestyles="--", linewidths=1.1)
+    i, j = np.nonzero(of["spurious_count"].values)
+    axes.plot(depths[j], y[i], ".", color=SKY, markersize=2.2, markeredgewidth=0)
+    failed = of["passage_count"].sel(contact_outcome="failed").values
+    i, j = np.nonzero(failed)
+    if len(i) > 0:
+        axes.plot(depths[j], y[i], "x", color=VERMILION, markersize=3, label="some runs failed")
+    axes.set(xscale="log", yscale="log", xlim=edges(depths)[[0, -1]], ylim=edges(y)[[0, -1]])
+    axes.xaxis.set_major_locator(LogLocator(numticks=5))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    return image

@@ -1,0 +1,275 @@
+"""The schematics of the paper: figures 1, 9, 12, 17 and B1."""
+
+from itertools import pairwise
+
+import numpy as np
+from matplotlib.patches import Circle, Polygon
+
+from impact_damper.plot.panels.schematic_parts import (
+    arrow,
+    coordinate,
+    dashpot,
+    dimension,
+    filled,
+    ground,
+    letter,
+    mass,
+    node,
+    sheet,
+    spring,
+    stroke,
+    wheels,
+)
+from impact_damper.plot.panels.style import (
+    BLACK,
+    BLUE,
+    GREY,
+    PALE,
+    PALE_ORANGE,
+    PALE_SKY,
+    VERMILION,
+    WHITE,
+    style,
+)
+
+CAPTION = ""  # a schematic has no more than the title and the remark of the configuration
+
+
+def carriage(axes):
+    """Draw the primary mass on its rail, with springs and dashpot on the left and the force."""
+    ground(axes, (0.35, 2.5), (0.35, 0.3))
+    ground(axes, (0.35, 0.3), (6.75, 0.3))
+    mass(axes, 2.05, 0.46, 3.9, 1.86)
+    wheels(axes, (2.65, 5.35), 0.3)
+    spring(axes, 0.35, 2.05, 2.03)
+    arrow(axes, (0.97, 1.85), (1.43, 2.21))
+    spring(axes, 0.35, 2.05, 1.39)
+    dashpot(axes, 0.35, 2.05, 0.75)
+    for y, symbol in ((2.31, "$k_1$"), (1.59, "$k_l$"), (0.97, "$c_1$")):
+        letter(axes, 1.2, y, symbol)
+    arrow(axes, (5.95, 1.39), (6.6, 1.39), "outline", color=VERMILION)
+    letter(axes, 6.36, 1.58, r"$F\/\cos\,\omega t$", color=VERMILION)
+    letter(axes, 2.27, 2.12, "$m_1$")
+    coordinate(axes, 2.05, 2.55, "$x_1$")
+
+
+def slot(axes, contact):
+    """Draw the slot with the loose mass midway between two contacts, each drawn by `contact`."""
+    mass(axes, 2.5, 0.66, 3.0, 1.46, WHITE)
+    wheels(axes, (3.85, 4.15), 0.66, 0.04)
+    mass(axes, 3.68, 0.74, 0.64, 0.90, PALE_SKY)
+    letter(axes, 4.0, 1.19, "$m_2$")
+    for wall, plate, side in ((2.5, 3.15, 3.68), (5.5, 4.85, 4.32)):
+        contact(axes, wall, plate)
+        stroke(axes, [(plate, 0.88), (plate, 1.5)])
+        dimension(axes, *sorted((plate, side)), 1.80, "$d/2$", 1.7)
+    stroke(axes, [(4.0, 1.7), (4.0, 2.47)], "fine", color=GREY, linestyle=(0, (8, 2, 2, 2)))
+    coordinate(axes, 4.0, 2.55, "$x_2$")
+    letter(axes, 5.5, 2.55, "$y = x_1 - x_2$", color=BLUE)
+
+
+def elastic_contact(axes, wall, plate):
+    """Draw a contact spring k2 between a wall of the slot and a plate."""
+    spring(axes, wall, plate, 1.19, 4)
+    letter(axes, (wall + plate) / 2, 1.41, "$k_2$")
+
+
+def inelastic_contact(axes, wall, plate):
+    """Draw a contact spring k2 and a dashpot c2 in parallel between a wall and a plate."""
+    spring(axes, wall, plate, 1.39, 4)
+    dashpot(axes, wall, plate, 0.99, 0.16)
+    letter(axes, (wall + plate) / 2, 1.59, "$k_2$")
+    letter(axes, (wall + plate) / 2, 0.80, "$c_2$")
+
+
+@style()
+def elastic_model():
+    """Return figure 1: primary mass with a loose mass between two contact springs k2."""
+    axes = sheet("double", 2.75)
+    carriage(axes)
+    slot(axes, elastic_contact)
+    return axes.figure
+
+
+@style()
+def inelastic_model():
+    """Return figure 9: as figure 1, with a dashpot c2 parallel to each contact spring."""
+    axes = sheet("double", 2.75)
+    carriage(axes)
+    slot(axes, inelastic_contact)
+    return axes.figure
+
+
+def place(u, v, level):
+    """Return sheet coordinates in inches, shape (n, 2), of points of a plane in perspective.
+
+    u points to the right and v into the page; `level` is the height of this horizontal plane.
+    """
+    u, v = np.broadcast_arrays(np.atleast_1d(u), v)
+    return np.column_stack((0.25 + u + 0.5 * v, level + 0.6 * v))
+
+
+def region(axes, u, v, level, color):
+    """Draw a filled region of a plane."""
+    axes.add_patch(Polygon(place(u, v, level), **filled(color)))
+
+
+def attractor(axes, centre, radius, level, color, **keywords):
+    """Draw a closed orbit: a circle in a plane."""
+    angle = np.linspace(0, 2 * np.pi, 200)
+    points = place(centre[0] + radius * np.cos(angle), centre[1] + radius * np.sin(angle), level)
+    stroke(axes, points, color=color, **keywords)
+
+
+def approach(axes, start, centre, radius, level, color, rate, **keywords):
+    """Draw a trajectory that spirals from a start onto a circle, with an arrow head.
+
+    `rate` is the decrease of the logarithm of its distance from the circle in a radian.
+    """
+    offset = np.subtract(start, centre)
+    turned = np.linspace(0, 2 * np.pi, 300)
+    angle = np.arctan2(offset[1], offset[0]) + turned
+    distance = radius + (np.hypot(*offset) - radius) * np.exp(-rate * turned)
+    points = place(
+        centre[0] + distance * np.cos(angle), centre[1] + distance * np.sin(angle), level
+    )
+    stroke(axes, points, "detail", color=color, **keywords)
+    arrow(axes, points[44], points[50], color=color)
+
+
+def passage(axes, low, high, edge, words, upward):
+    """Draw a switching of the damper: a vertical line between two planes, dashed where hidden.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    low, high : tuple of float
+        Ends of the line, one in each plane; inches.
+    edge : float
+        Height below which the line is visible; inches.
+    words : str
+    upward : bool
+        Direction of the arrow.
+    """
+    x = low[0]
+    ends = [(x, low[1] + 0.03), (x, edge)]
+    stroke(axes, [(x, edge), high], "detail", linestyle=(0, (2, 2)))
+    arrow(axes, *(ends if upward else ends[::-1]))
+    axes.text(x + 0.1, edge - 0.33, words, va="center")
+
+
+def state(axes, position, symbol, shift):
+    """Draw a state of the oscillator as a dot, with its symbol moved by `shift`."""
+    axes.add_patch(Circle(position, 0.032, color=BLACK, zorder=4))
+    letter(axes, *np.add(position, shift), symbol)
+
+
+def triad(axes, x, y):
+    """Draw the axes of the planes and the vertical axis."""
+    for end, symbol, shift in (
+        ((x + 0.34, y), "$Z_1$", (0.12, 0)),
+        ((x + 0.2, y + 0.24), "$Z_1\u2032$", (0.09, 0.09)),
+        ((x, y + 0.48), r"$\mathbf{Z}_\mathrm{c}$", (0, 0.12)),
+    ):
+        arrow(axes, (x, y), end, "fine")
+        letter(axes, *np.add(end, shift), symbol)
+
+
+def planes(axes, off, on):
+    """Draw the planes of states without the damper (two basins) and with the damper (one)."""
+    right = 5.3
+    v = np.linspace(0, 2, 100)
+    border = 2.5 + 0.22 * np.sin(2.6 * v)
+    for edge, color in ((0, PALE_ORANGE), (right, PALE_SKY)):
+        region(axes, [*border, edge, edge], [*v, 2, 0], off, color)
+    region(axes, [0, right, right, 0], [0, 0, 2, 2], on, PALE)
+    for level, u, basin in (
+        (off, 0.5, r"$B(A_\mathrm{ud})$"),
+        (off, 4.7, r"$B(A_\mathrm{d})$"),
+        (on, 4.7, r"$B(A_\mathrm{c})$"),
+    ):
+        letter(axes, *place(u, 1.75, level)[0], basin)
+    for level, words, symbols in (
+        (off, "Damper off", r"$(\mathbf{Z}, \theta)$"),
+        (on, "Damper on", r"$(\mathbf{Z}, \theta, \mathbf{Z}_\mathrm{c})$"),
+    ):
+        axes.text(5.85, level + 0.2, words)
+        axes.text(5.85, level + 0.02, symbols)
+
+
+@style()
+def migration_scheme():
+    """Return figure 12: migration from one attractor of the free oscillator to another."""
+    axes = sheet("double", 3.6)
+    off, on = 0.15, 2.1
+    bad, goal, damped = (1.35, 1.0), (4.35, 1.0), (2.95, 1.0)
+    first, release = (0.5, 0.7), (3.3, 0.65)
+    planes(axes, off, on)
+    attractor(axes, damped, 0.5, off, GREY, linestyle=(0, (1, 1.5)))
+    for centre, radius, level, color, name in (
+        (bad, 0.55, off, VERMILION, r"$A_\mathrm{ud}$"),
+        (goal, 0.34, off, BLUE, r"$A_\mathrm{d}$"),
+        (damped, 0.5, on, BLACK, r"$A_\mathrm{c}$"),
+    ):
+        attractor(axes, centre, radius, level, color)
+        letter(axes, *place(*centre, level)[0], name, color=color)
+    approach(axes, first, bad, 0.55, off, VERMILION, 0.4, linestyle=(0, (4, 2)))
+    approach(axes, first, damped, 0.5, on, BLACK, 1.6)
+    approach(axes, release, goal, 0.34, off, BLUE, 0.8)
+    (low, high), (back, leaving) = (
+        [place(*spot, level)[0] for level in (off, on)] for spot in (first, release)
+    )
+    passage(axes, low, high, on, "damper switched on", True)
+    passage(axes, back, leaving, on, "damper switched off", False)
+    state(axes, low, r"$P_1^{\/\mathrm{r}}$", (-0.13, -0.09))
+    state(axes, high, "$P_1$", (-0.12, 0.11))
+    state(axes, leaving, "$P_2$", (0.13, -0.11))
+    state(axes, back, r"$P_2^{\/\mathrm{r}}$", (-0.05, -0.17))
+    triad(axes, 0.15, 2.83)
+    return axes.figure
+
+
+@style()
+def algorithm():
+    """Return figure 17: the loop of migration control."""
+    axes = sheet("single", 5.06)
+    x, side, width, margin = 1.17, 2.84, 1.76, 0.1
+    chain = [
+        (4.89, 0.24, "Start", "end"),
+        (4.34, 0.42, "Run with the damper off\nuntil the motion settles", "step"),
+        (3.43, 0.96, "On the\nnon-resonance\nbranch?", "question"),
+        (2.29, 0.80, "Switchings\nat their limit?", "question"),
+        (1.42, 0.42, "Switch the damper on,\nloose mass drawn at random", "step"),
+        (0.78, 0.42, "Run until the motion settles,\nor for a stated time", "step"),
+        (0.23, 0.24, "Switch it off at a random phase", "step"),
+    ]
+    for y, height, words, shape in chain:
+        node(axes, x, y, 0.7 if shape == "end" else width, height, words, shape)
+    for (y, height, _, shape), (below, depth, _, _) in pairwise(chain):
+        arrow(axes, (x, y - height / 2), (x, below + depth / 2))
+        if shape == "question":
+            axes.text(x + 0.12, y - height / 2 - 0.1, "no", ha="center", va="center")
+    for y, words in ((3.43, "Reached"), (2.29, "Not reached")):
+        node(axes, side, y, 0.92, 0.3, words, "end")
+        arrow(axes, (x + width / 2, y), (side - 0.46, y))
+        axes.text(x + width / 2 + 0.14, y + 0.1, "yes", ha="center", va="center")
+    stroke(axes, [(x - width / 2, 0.23), (margin, 0.23), (margin, 4.34)], "detail")
+    arrow(axes, (margin, 4.34), (x - width / 2, 4.34))
+    return axes.figure
+
+
+@style()
+def impact_pair():
+    """Return figure B1: two masses in contact through a spring k2 and a dashpot c2."""
+    axes = sheet("single", 1.4)
+    ground(axes, (0.1, 0.2), (3.3, 0.2))
+    for left, symbol, displacement in ((0.25, "$m_1$", "$X_1$"), (2.3, "$m_2$", "$X_2$")):
+        wheels(axes, (left + 0.2, left + 0.65), 0.2, 0.06)
+        mass(axes, left, 0.32, 0.85, 0.68, PALE if left < 1 else PALE_SKY)
+        letter(axes, left + 0.425, 0.66, symbol)
+        coordinate(axes, left, 1.2, displacement)
+    spring(axes, 1.1, 2.3, 0.85)
+    dashpot(axes, 1.1, 2.3, 0.48)
+    letter(axes, 1.7, 1.05, "$k_2$")
+    letter(axes, 1.7, 0.68, "$c_2$")
+    return axes.figure

@@ -1,0 +1,81 @@
+"""Accuracy of the quiet motion by fixed-step methods, against stiffness and step.
+
+Figure kind `stable_steps`.
+"""
+
+import numpy as np
+
+from chatterjee1995.methods.methods import METHODS
+from impact_damper.data.datasets import parameters_of
+from impact_damper.plot.panels.style import (
+    GREY,
+    WHITE,
+    axis_label,
+    curve,
+    figure,
+    legend,
+    letter_panels,
+    parameter_label,
+    style,
+)
+
+CAPTION = """
+Points: largest step with which a fixed-step method, started on the exact quiet orbit, keeps the
+largest displacement within 1 or 10 %. All smaller steps tested do so too. The step is multiplied
+by the natural frequency of a contact. Dotted: limit of linear stability. No point: no step tested
+was small enough.
+"""
+
+LINEAR = "linear stability limit"
+# Looks of the lines in the order of the accuracies in the dataset, and of the linear limit.
+LINES = {
+    "within 1 %": {"marker": "o", "markerfacecolor": WHITE, "linestyle": (0, (4, 2))},
+    "within 10 %": {"marker": "s"},
+    LINEAR: {"linestyle": (0, (1, 1.2)), "linewidth": 0.9},
+}
+
+
+@style()
+def draw_stable_steps(*, stable_steps):
+    """Draw the largest step that keeps the motion against contact stiffness, a panel per damper.
+
+    Parameters
+    ----------
+    stable_steps : list of xarray.Dataset
+        Datasets of the stage stable_steps.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    drawn = figure("double", 3.9)
+    panels = drawn.subplots(1, len(stable_steps), sharey=True, squeeze=False)[0]
+    for axes, data in zip(panels, stable_steps, strict=True):
+        for index, name in enumerate(data["fixed_method"].values):
+            _draw_method(axes, data.sel(fixed_method=name), index, METHODS[name].title)
+        words = parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
+        axes.set(xscale="log", yscale="log", xlabel=axis_label(data["contact_stiffness"]))
+        axes.set_title(words)
+        # fixed, because a panel may have no points
+        low, high = (edge(data["contact_stiffness"].values) for edge in (np.min, np.max))
+        axes.set_xlim(low / 2, high * 2)
+        tested = data["scaled_step"].values
+        axes.set_ylim(np.nanmin(tested[tested > 0]), np.nanmax(tested))
+    panels[0].set_ylabel(axis_label(stable_steps[0]["scaled_step"]))
+    for words, look in LINES.items():
+        panels[0].plot([], [], color=GREY, label=words, **look)
+    letter_panels(panels)
+    legend(drawn, 4)
+    return drawn
+
+
+def _draw_method(axes, data, index, title):
+    """Draw the largest steps of one method for each accuracy, and its linear stability limit."""
+    looks = dict(zip(data["accuracy"].values, list(LINES.values())[:2], strict=True))
+    for accuracy, look in looks.items():
+        step = data["stable_step"].sel(accuracy=accuracy) * data["contact_frequency"]
+        axes.plot(data["contact_stiffness"], step, color=curve(index)["color"], **look)
+    axes.plot([], [], color=curve(index)["color"], label=title)
+    if data["linear_limit"] > 0:
+        look = LINES[LINEAR] | {"color": curve(index)["color"]}
+        axes.axhline(float(data["linear_limit"]), **look)

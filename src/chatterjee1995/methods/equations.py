@@ -1,0 +1,73 @@
+"""The equations of motion for integrators that evaluate the rate (time derivative) of the state.
+
+These are equations (3), (4) and (20) to (24) of the paper. The state is a tuple (Z1, Z1', Z2, Z2'),
+the displacement of the primary mass and its displacement relative to the loose mass, with their
+velocities. The contact force, of a spring and a dashpot, acts while |Z2| exceeds the clearance. A
+contact therefore ends at zero penetration, and the dashpot's force jumps when the contact begins
+and when it ends.
+"""
+
+from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.equation import external_force, spring
+from impact_damper.model.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    DAMPING,
+    DASHPOT,
+    INVERSE_MASS_RATIO,
+)
+
+
+@kernel
+def wall_at(p, z):
+    """Return the wall in contact at a position z = Z2: -1, 1, or 0 within the clearance."""
+    if z > p[CLEARANCE]:
+        return 1
+    if z < -p[CLEARANCE]:
+        return -1
+    return 0
+
+
+@kernel
+def rate(p, side, t, y):
+    """Return the time derivative of the state (Z1, Z1', Z2, Z2') at the time t.
+
+    `side` is the wall in contact: -1, 1, or 0 for none.
+    """
+    return rate_under(p, side, external_force(p, t), y)
+
+
+@kernel_only
+def rate_under(p, side, drive, y):
+    """Return the time derivative of the state under the external force `drive`."""
+    x, v, z, w = y
+    force = p[CONTACT_STIFFNESS] * (z - side * p[CLEARANCE]) + p[DASHPOT] * w if side != 0 else 0.0
+    a = drive - p[DAMPING] * v - spring(p, x) - force
+    return v, a, w, a - p[INVERSE_MASS_RATIO] * force
+
+
+@kernel_only
+def rate_by_position(p, drive, y):
+    """Return the time derivative of the state, with contact if |Z2| exceeds the clearance.
+
+    Integrators that do not locate contacts use this function.
+    """
+    return rate_under(p, wall_at(p, y[2]), drive, y)
+
+
+@kernel
+def moved(y, h, k):
+    """Return the state y + h k, with a step h and a rate k."""
+    return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3]
+
+
+@kernel_only
+def largest_within(x, v, x_end, v_end, h):
+    """Return the largest |Z1| over a step h if Z1' changes linearly.
+
+    x and v are Z1 and Z1' at the beginning of the step, x_end and v_end at its end.
+    """
+    largest = max(abs(x), abs(x_end))
+    if v * v_end < 0.0:
+        largest = max(largest, abs(x + 0.5 * h * v * v / (v - v_end)))
+    return largest

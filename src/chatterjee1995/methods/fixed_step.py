@@ -1,0 +1,213 @@
+"""Fixed-step methods: Heun, velocity Verlet, the classical Runge-Kutta method, Runge-Kutta-Merson.
+
+Contacts are not located. Each evaluation of the rate (time derivative of the state) adds the
+contact force if the position Z2 is beyond a wall.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass. A
+strobe is the time in each cycle at which the forcing has the phase W T = pi/2.
+"""
+
+import math
+
+import numpy as np
+
+from chatterjee1995.methods.equations import largest_within, moved, rate_by_position
+from chatterjee1995.methods.runs import Integrator
+from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.equation import external_force
+from impact_damper.model.packed import FREQUENCY
+
+NAMES = ("heun", "verlet", "runge_kutta_4", "merson")
+HEUN, VERLET, RUNGE_KUTTA_4, MERSON = range(4)
+
+# Largest product h omega of step h and frequency omega for which the computed motion of an undamped
+# linear oscillator does not grow. At this product |R(i h omega)| = 1 with the stability function R,
+# the factor of a step for y' = z y/h. For Merson's method R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 +
+# z^5/144.
+STABILITY_LIMIT = {
+    "heun": 0.0,
+    "verlet": 2.0,
+    "runge_kutta_4": math.sqrt(8.0),
+    "merson": math.sqrt(12.0),
+}
+# A run has diverged once |Z1| + |Z1'| + |Z2'| exceeds BEYOND.
+BEYOND = 1e3
+# Largest number of steps in one call of a compiled function, unless one forcing cycle takes more.
+# Ctrl-C takes effect only after a call.
+STEPS_AT_ONCE = 10**6
+
+
+@kernel
+def forcing(p, t, h):
+    """Return the external force at t, t + h/3, t + h/2 and t + h, a tuple of four numbers."""
+    return (
+        external_force(p, t),
+        external_force(p, t + h / 3.0),
+        external_force(p, t + 0.5 * h),
+        external_force(p, t + h),
+    )
+
+
+@kernel_only
+def heun_step(p, drives, h, y):
+    """Return the state after a step of Heun's method, order 2."""
+    k1 = rate_by_position(p, drives[0], y)
+    k2 = rate_by_position(p, drives[3], moved(y, h, k1))
+    return moved(moved(y, 0.5 * h, k1), 0.5 * h, k2)
+
+
+@kernel_only
+def verlet_step(p, drives, h, y):
+    """Return the state after a step of velocity Verlet, order 2.
+
+    Forces at the end of the step are computed with a speed extrapolated linearly.
+    """
+    k1 = rate_by_position(p, drives[0], y)
+    x = y[0] + h * (y[1] + 0.5 * h * k1[1])
+    z = y[2] + h * (y[3] + 0.5 * h * k1[3])
+    k2 = rate_by_position(p, drives[3], (x, y[1] + h * k1[1], z, y[3] + h * k1[3]))
+    return x, y[1] + 0.5 * h * (k1[1] + k2[1]), z, y[3] + 0.5 * h * (k1[3] + k2[3])
+
+
+@kernel_only
+def runge_kutta_4_step(p, drives, h, y):
+    """Return the state after a step of the classical Runge-Kutta method, order 4."""
+    k1 = rate_by_position(p, drives[0], y)
+    k2 = rate_by_position(p, drives[2], moved(y, 0.5 * h, k1))
+    k3 = rate_by_position(p, drives[2], moved(y, 0.5 * h, k2))
+    k4 = rate_by_position(p, drives[3], moved(y, h, k3))
+    y = moved(moved(y, h / 6.0, k1), h / 3.0, k2)
+    return moved(moved(y, h / 3.0, k3), h / 6.0, k4)
+
+
+@kernel_only
+def merson_step(p, drives, h, y):
+    """Return the state after a step of Runge-Kutta-Merson, order 4 with five evaluations."""
+    k1 = rate_by_position(p, drives[0], y)
+    k2 = rate_by_position(p, drives[1], moved(y, h / 3.0, k1))
+    k3 = rate_by_position(p, drives[1], moved(moved(y, h / 6.0, k1), h / 6.0, k2))
+    k4 = rate_by_position(p, drives[2], moved(moved(y, h / 8.0, k1), 0.375 * h, k3))
+    k5 = moved(moved(y, 0.5 * h, k1), -1.5 * h, k3)
+    k5 = rate_by_position(p, drives[3], moved(k5, 2.0 * h, k4))
+    return moved(moved(moved(y, h / 6.0, k1), 2.0 * h / 3.0, k4), h / 6.0, k5)
+
+
+@kernel
+def one_step(method, p, drives, h, y):
+    """Return the state after a step of the method with an index in `NAMES`.
+
+    `drives` is the result of `forcing` for the step.
+    """
+    if method == HEUN:
+        return heun_step(p, drives, h, y)
+    if method == VERLET:
+        return verlet_step(p, drives, h, y)
+    if method == RUNGE_KUTTA_4:
+        return runge_kutta_4_step(p, drives, h, y)
+    return merson_step(p, drives, h, y)
+
+
+@kernel
+def run_fixed(method, p, start, t, steps, strobes, largest):
+    """Run with a whole number of equal steps in each forcing cycle.
+
+    Parameters
+    ----------
+    method : int
+        Index in `NAMES`.
+    p : array, shape (packed.COUNT,)
+        Packed parameters (`packed.pack`).
+    start : array, shape (4,)
+        Initial state.
+    t : float
+        Time of the initial state.
+    steps : int
+        Steps in a forcing cycle.
+    strobes, largest : array, shapes (n, 4) and (n,)
+        Receive the state at the end of each of n cycles and the largest |Z1| in each cycle. If the
+        run diverges (`BEYOND`), the entries from this cycle on are NaN.
+
+    Returns
+    -------
+    int
+        Number of cycles completed before a divergence; n without one.
+    """
+    h = 2.0 * math.pi / p[FREQUENCY] / steps
+    y = (start[0], start[1], start[2], start[3])
+    strobes[:] = np.nan
+    largest[:] = np.nan
+    # The forcing is the same in each cycle. Computing it in each cycle would double the run time.
+    drives = np.empty((steps, 4))
+    for i in range(steps):
+        drives[i, 0], drives[i, 1], drives[i, 2], drives[i, 3] = forcing(p, t + i * h, h)
+    for k in range(len(strobes)):
+        most = 0.0
+        for i in range(steps):
+            before = y
+            now = drives[i, 0], drives[i, 1], drives[i, 2], drives[i, 3]
+            y = one_step(method, p, now, h, before)
+            most = max(most, largest_within(before[0], before[1], y[0], y[1], h))
+        if not abs(y[0]) + abs(y[1]) + abs(y[3]) < BEYOND:
+            return k
+        strobes[k, 0], strobes[k, 1], strobes[k, 2], strobes[k, 3] = y
+        largest[k] = most
+    return len(strobes)
+
+
+@kernel
+def fixed_ends(method, p, start, t, step, ends):
+    """Fill `ends` (m, 5) with time and state after each of m equal steps from `start`."""
+    y = (start[0], start[1], start[2], start[3])
+    for i in range(len(ends)):
+        y = one_step(method, p, forcing(p, t + i * step, step), step, y)
+        ends[i, 0] = t + (i + 1) * step
+        ends[i, 1], ends[i, 2], ends[i, 3], ends[i, 4] = y
+
+
+class FixedStep(Integrator):
+    """A method of `NAMES` with equal steps.
+
+    Parameters
+    ----------
+    name : str
+        One of `NAMES`.
+    """
+
+    def __init__(self, name):
+        self.number = NAMES.index(name)
+        self.stability_limit = STABILITY_LIMIT[name]
+
+    def _run(self, p, start, begin, periods, steps):
+        strobes, largest = np.full((periods, 4), np.nan), np.full(periods, np.nan)
+        at_once = max(STEPS_AT_ONCE // int(steps), 1)
+        for first in range(0, periods, at_once):
+            part = slice(first, first + at_once)
+            done = run_fixed(self.number, p, start, begin, steps, strobes[part], largest[part])
+            if done < len(strobes[part]):
+                break
+            start = strobes[part][-1]
+        return strobes, largest
+
+    def strobes(self, p, start, begin, periods, resolution, locate=False):
+        return self._run(p, start, begin, periods, resolution)[0]
+
+    def largest_displacements(self, p, start, begin, periods, steps):
+        return self._run(p, start, begin, periods, steps)[1]
+
+    def flight(self, p, state, end, resolution, time):
+        ends = np.empty((resolution, 5))
+        fixed_ends(self.number, p, state, 0.0, end / resolution, ends)
+        if not np.abs(ends[:, 1:]).max() < BEYOND:
+            return None
+        return self._seen(p, np.concatenate([[[0.0, *state]], ends]), time)
+
+    def _seen(self, p, ends, time):
+        """Return |Z2| at the ends of the steps, and |Z2| at `time`.
+
+        `ends`, shape (n, 5), are the times and states at the ends of the steps. |Z2| at `time` is
+        computed by an extra step that ends at this time.
+        """
+        last = ends[ends[:, 0] <= time][-1]
+        there = np.empty((1, 5))
+        fixed_ends(self.number, p, last[1:].copy(), last[0], time - last[0], there)
+        return np.abs(ends[:, 3]), abs(there[0, 3])

@@ -1,0 +1,277 @@
+"""Models that compute a steady motion, and the number of operations of each model.
+
+A steady motion is a periodic motion of one forcing cycle. Most models solve for it instead of
+integrating from a state. If a harmonic balance has several solutions, the solution nearest to the
+initial state of the test case is taken, which favours the model. Numbers in brackets are equations
+of the paper. The counted work of a model is its number of floating-point operations:
+
+- Rigid balance (14): the eigenvalues of the companion matrices of a polynomial of degree 6 and of
+  its derivative, with 10 n^3 operations for n eigenvalues, and the search for roots of the
+  polynomial between its extrema.
+- Full balance (7): BALANCE_EVALUATIONS evaluations of the equation with BALANCE_OPERATIONS each,
+  and the eigenvalues of a companion matrix of degree BALANCE_DEGREE. These numbers were measured in
+  the search for all roots in the test cases. Without a damper: the eigenvalues for two cubics.
+- Many harmonics: for each Newton step with n unknowns and N harmonics, 2/3 n^3 + 4 n^2 operations
+  for the linear systems, 8 n^2 to fill the matrix, and 5 M log2(M) for each Fourier transform of M
+  values (two with M = 16 N and three with M = 4 N). The balances with fewer harmonics, whose
+  solutions are first guesses, are included.
+- Rigid impacts and shooting: Newton's method integrates the motion and its four variational
+  equations over a cycle, once for each iteration, by steps of the Taylor series. The balance with
+  `methods.START_HARMONICS`, whose solution is the first guess, is included.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
+"""
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from chatterjee1995.methods.rigid_impacts import MOST_IMPACTS, rebound, rigid_map
+from chatterjee1995.methods.rigid_orbits import mended_orbit, mended_walls, rigid_orbit
+from chatterjee1995.methods.runs import Run, stopped
+from chatterjee1995.methods.taylor_runs import (
+    FLIGHT,
+    MEETING,
+    all_steps,
+    counted,
+    step_work,
+    steps_work,
+)
+from impact_damper.kernel.single import step, workspace
+from impact_damper.model.packed import CLEARANCE, DASHPOT, FREQUENCY, pack
+from impact_damper.model.parameters import SPRING_POWER
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
+from impact_damper.orbits.shooting import find_orbit
+from impact_damper.theory import fourier, single_harmonic
+from impact_damper.theory.free_oscillator import free_solutions
+from impact_damper.theory.harmonic_solutions import Solution, solve, state_of
+from impact_damper.theory.many_harmonics import Balance
+
+# See the module's docstring.
+BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
+# Largest distance of the state of a rigid orbit from the first guess.
+REACH = 10.0
+
+
+class Model(NamedTuple):
+    """A steady motion computed by a model.
+
+    Attributes
+    ----------
+    status : str
+        "ended", "failed" or "not_applicable".
+    operations : float
+        Counted work.
+    state : numpy.ndarray, shape (4,)
+        Z1, Z1', Z2, Z2' at W T = pi/2.
+    contact_phases : numpy.ndarray
+        W T in [0, 2 pi) at which contacts begin.
+    displacement : float
+        max |Z1|.
+    """
+
+    status: str
+    operations: float
+    state: np.ndarray
+    contact_phases: np.ndarray
+    displacement: float
+
+
+def rigid(p, restitution, start, t, periods, tolerance):
+    """Return the `Run` with rigid walls from the state `start` at the time t.
+
+    The phase W T is pi/2 at this time. Flights are integrated by the Taylor series. The field
+    `peaks` of the run holds only the largest |Z1| in each forcing cycle, and `peak_times` the
+    middles of the cycles.
+    """
+    p = p.copy()
+    p[DASHPOT] = 0.0
+    y, none, work = start.copy(), np.empty((0, 4)), workspace()
+    period, counts = 2 * math.pi / p[FREQUENCY], [0, 0, 0]
+    began, peaks = [], []
+    for k in range(periods):
+        _, _, impacts, _, _, largest = rigid_map(p, restitution, y, tolerance)
+        peaks.append(largest)
+        if impacts == MOST_IMPACTS:
+            return stopped("failed", steps_work(counts))
+        now, end = t, t + period
+        while now < end:
+            length, side = step(p, y, 0, now, end - now, tolerance, work)
+            now = end if length >= end - now else now + length
+            counts[FLIGHT if side == 0 else MEETING] += 1
+            if side != 0:
+                began.append(now + k * period)
+                rebound(p, restitution, y, none, now)
+    middles = t + period * (np.arange(periods) + 0.5)
+    peaks = np.array(peaks)
+    done = steps_work(counts), y, np.array(began), middles, peaks, float(np.max(peaks))
+    return Run("ended", *done)
+
+
+def without(status, work=0.0):
+    """Return a `Model` without a motion. The status says why there is none."""
+    return Model(status, work, np.full(4, np.nan), np.empty(0), np.nan)
+
+
+def of_coefficients(balance, coefficients, work):
+    """Return the `Model` of the harmonic-balance solution with given Fourier coefficients."""
+    state = state_of(Solution(balance, coefficients, "", 0, 0.0))
+    rows = balance.contacts(coefficients)
+    phases = rows[:, 1] if balance.damper is not None else np.empty(0)
+    largest = fourier.largest(coefficients[0], balance.harmonics)
+    return Model("ended", work, state, phases, largest)
+
+
+def nearest(models, state):
+    """Return the model whose Z1 and Z1' are nearest to those of `state`, or None without models."""
+    return min(models, key=lambda each: np.max(np.abs(each.state - state)[:2]), default=None)
+
+
+def rigid_balance(oscillator, damper, frequency, state):
+    """Return the `Model` by balance of one harmonic with rigid walls, equations (13) and (14)."""
+    if damper is None or damper.restitution != 1:
+        return without("not_applicable")
+    work = 10 * (6**3 + 5**3) + 6 * 10 * 12
+    roots = single_harmonic.rigid_solutions(oscillator, damper, frequency)
+    models = []
+    for a, phase, pulling in zip(roots.amplitude, roots.phase, roots.pulling, strict=True):
+        if not pulling:
+            turn = np.exp(1j * (np.pi / 2 + phase)) * np.array([1, 1j * frequency])
+            at = np.concatenate([a * turn.real, damper.clearance * turn.real])
+            touching = np.array([-phase, np.pi - phase]) % (2 * np.pi)
+            models.append(Model("ended", work, at, touching, abs(a)))
+    return nearest(models, state) or without("failed", work)
+
+
+def single_terms(oscillator, damper, frequency):
+    """Return a list of the complex amplitudes of all solutions with one harmonic.
+
+    Each has the shape (2, 1), for Z1 and Z2, or (1, 1) if `damper` is None. They solve equation (7)
+    with the restitution 1, or the cubic equation of the oscillator without a damper.
+    """
+    if damper is None:
+        solutions = free_solutions(oscillator, frequency)
+        sizes = solutions.amplitude[:, None]
+    else:
+        elastic = replace(damper, restitution=1.0)
+        solutions = single_harmonic.impacting_solutions(oscillator, elastic, frequency)
+        sizes = np.stack([solutions.amplitude, solutions.relative_amplitude], axis=1)
+    return [
+        size[:, None] * np.exp(1j * phase) / 2
+        for size, phase in zip(sizes, solutions.phase, strict=True)
+    ]
+
+
+def full_balance(oscillator, damper, frequency, state):
+    """Return the `Model` by balance of one harmonic (`single_terms`)."""
+    if damper is not None and damper.restitution != 1:
+        return without("not_applicable")
+    coefficients, work = nearest_term(oscillator, damper, frequency, state)
+    if coefficients is None:
+        return without("failed", work)
+    balance = Balance(oscillator, damper, frequency, 1)
+    return of_coefficients(balance, coefficients, work)
+
+
+def nearest_term(oscillator, damper, frequency, state):
+    """Return the solution of `single_terms` nearest to `state`, or None, and the work.
+
+    The work is the number of operations to find all solutions.
+    """
+    work = BALANCE_EVALUATIONS * BALANCE_OPERATIONS + 10 * BALANCE_DEGREE**3
+    if damper is None:
+        work = 2 * 10 * 3**3
+    terms = single_terms(oscillator, damper, frequency)
+
+    def away(coefficients):
+        turned = 2j * coefficients[0, 0] * np.array([1, 1j * frequency])
+        return np.max(np.abs(turned.real - state[:2]))
+
+    return min(terms, key=away, default=None), work
+
+
+def many_harmonics(oscillator, damper, frequency, state, highest):
+    """Return a dictionary of models by harmonic balance, keyed by their highest harmonic.
+
+    The highest harmonics are 3, 7, 15, ... up to `highest`. The first guess of Newton's method is
+    the last solution that converged, and for harmonic 3 the solution with one harmonic.
+    """
+    coefficients, work = nearest_term(oscillator, damper, frequency, state)
+    models = {}
+    if coefficients is None:
+        return models
+    count = 3
+    while count <= highest:
+        balance = Balance(oscillator, damper, frequency, count)
+        solution = solve(balance, coefficients)
+        work += solution.iterations * newton_work(balance)
+        if solution.status == "converged":
+            coefficients = solution.coefficients
+            models[count] = of_coefficients(balance, coefficients, work)
+        else:
+            models[count] = without("failed", work)
+        count = 2 * count + 1
+    return models
+
+
+def newton_work(balance):
+    """Return the number of operations of one step of Newton's method with many harmonics."""
+    n, top = int(np.sum(balance.kept)), balance.highest
+    transforms = 2 * _transform(16 * top) + 3 * _transform((SPRING_POWER + 1) * top)
+    return 2 / 3 * n**3 + 12 * n**2 + transforms
+
+
+def _transform(samples):
+    return 5 * samples * math.log2(samples)
+
+
+def rigid_impacts(oscillator, damper, frequency, start):
+    """Return a dictionary of two models: "rigid" walls, and corrected walls ("rigid_mended").
+
+    The corrected walls (`contact.rigid_orbits`) account for the duration of a contact. Their error
+    is of the order 1/r1, with the contact stiffness r1. The first guess of Newton's method is the
+    model `start`.
+    """
+    models = {"rigid": without("not_applicable"), "rigid_mended": without("not_applicable")}
+    if damper is None:
+        return models
+    work = start.operations
+    orbit, _ = rigid_orbit(oscillator, damper, frequency, start.state, REACH)
+    if orbit is None:
+        return dict.fromkeys(models, without("failed", work))
+    p = pack(oscillator, damper, frequency)
+    run = rigid(p, damper.restitution, orbit.state, strobe_time(p), 1, POLISH_TOLERANCE)
+    each = run.operations / step_work(FLIGHT) * step_work(FLIGHT, 4)
+    work += orbit.maps * each
+    phases = _phases(p, run)
+    models["rigid"] = Model("ended", work, orbit.state, phases, orbit.displacement)
+    better, _ = mended_orbit(oscillator, damper, frequency, orbit, REACH)
+    if better is None:
+        return models | {"rigid_mended": without("failed", work)}
+    p[CLEARANCE], restitution = mended_walls(oscillator, damper, orbit)
+    run = rigid(p, restitution, better.state, strobe_time(p), 1, POLISH_TOLERANCE)
+    phases = _phases(p, run)
+    work += better.maps * each
+    model = Model("ended", work, better.state, phases, better.displacement)
+    return models | {"rigid_mended": model}
+
+
+def _phases(p, run):
+    return p[FREQUENCY] * run.contact_times % (2 * math.pi)
+
+
+def shooting(oscillator, damper, frequency, start):
+    """Return the `Model` by shooting with the Taylor series, with the first guess `start`."""
+    p = pack(oscillator, damper, frequency)
+    orbit = find_orbit(p, start.state)
+    begin = strobe_time(p)
+    steps, _ = all_steps(p, start.state, begin, 1, POLISH_TOLERANCE)
+    each = steps_work(counted(steps), 4)
+    work = start.operations + orbit.maps * each
+    if not orbit.converged:
+        return without("failed", work)
+    phases = p[FREQUENCY] * orbit.contacts[:, 1] % (2 * math.pi) if orbit.touching else np.empty(0)
+    largest = float(orbit.record["maximum_displacement"])
+    return Model("ended", work, orbit.strobe_states[0], phases, largest)

@@ -1,0 +1,128 @@
+"""Passages: flights of the loose mass without walls, whose largest |Z2| is known.
+
+They are test cases for integrators that detect contacts. |Z2| is the distance of the loose mass
+from the middle of the gap. A wall that is placed slightly nearer than the largest |Z2| is touched
+once, for a short time. A wall that is placed slightly further away is not touched. A method that
+computes the distance to the wall only at the ends of its steps can hardly distinguish the two
+cases.
+
+Z1 is the displacement of the primary mass.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.instances import FLIGHT_ORDER
+from impact_damper.kernel.single import X, polynomial, step, workspace
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
+
+# Number of parts of a step. In each part one extremum of Z2 can be found.
+PIECES = 16
+# Tolerance of the Taylor series.
+TOLERANCE = 1e-15
+
+
+class Passage(NamedTuple):
+    """A flight without walls over one forcing cycle from T = 0.
+
+    Attributes
+    ----------
+    state : numpy.ndarray, shape (4,)
+        Z1, Z1', Z2, Z2' at T = 0.
+    time, extremum, curvature : float
+        Time at which |Z2| is largest, the largest |Z2|, and |Z2''| at that time.
+    """
+
+    state: np.ndarray
+    time: float
+    extremum: float
+    curvature: float
+
+
+@kernel
+def largest_of_flight(p, y, t, end):
+    """Return the time and value of the largest |Z2| of a flight over [t, end], and |Z2''| there.
+
+    Each step of the Taylor series is divided into PIECES parts. In a part in which Z2' changes its
+    sign, bisection finds the extremum to rounding. If |Z2| is largest at an end of the flight,
+    0 is returned in place of |Z2''|. y, the state at t, is replaced by the state at the end.
+    """
+    work = workspace()
+    flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
+    c = np.zeros(FLIGHT_ORDER + 1)
+    at, largest, bend = t, abs(y[2]), 0.0
+    while t < end:
+        offset, drift = y[2] - y[0], y[3] - y[1]
+        length, _ = step(p, y, flight, t, end - t, TOLERANCE, work)
+        # The assignment of a whole array would take 2 s longer to compile.
+        for k in range(FLIGHT_ORDER + 1):
+            c[k] = work[X + k]
+        c[0] += offset
+        c[1] += drift
+        for i in range(PIECES):
+            low, high = length * i / PIECES, length * (i + 1) / PIECES
+            left, right = polynomial(c, FLIGHT_ORDER, low)[1], polynomial(c, FLIGHT_ORDER, high)[1]
+            if left * right > 0.0:
+                continue
+            for _ in range(60):
+                middle = 0.5 * (low + high)
+                if left * polynomial(c, FLIGHT_ORDER, middle)[1] > 0.0:
+                    low = middle
+                else:
+                    high = middle
+            value = abs(polynomial(c, FLIGHT_ORDER, low)[0])
+            if value > largest:
+                at, largest, bend = t + low, value, 0.0
+                for k in range(FLIGHT_ORDER, 1, -1):
+                    bend = bend * low + k * (k - 1) * c[k]
+        t = end if length >= end - t else t + length
+    if abs(y[2]) > largest:
+        return t, abs(y[2]), 0.0
+    return at, largest, abs(bend)
+
+
+def without_walls(p):
+    """Return a copy of the packed parameters with the walls infinitely far away."""
+    flying = p.copy()
+    flying[CLEARANCE] = math.inf
+    return flying
+
+
+def draw_passages(p, count, radius, deepest, seed):
+    """Return random passages over one forcing cycle, and the number of flights drawn to find them.
+
+    The initial states are uniform in a ball of the given radius. A flight is kept as a passage if
+    |Z2| at its beginning and at its end is at least `deepest` below the largest |Z2|. Then the
+    largest |Z2| is an extremum, and a wall that is nearer by up to `deepest` is not touched at the
+    beginning and at the end.
+
+    Parameters
+    ----------
+    p : numpy.ndarray, shape (packed.COUNT,)
+        Packed parameters; those of the damper have no effect.
+    count : int
+        Number of passages.
+    radius, deepest : float
+        Radius of the ball, and largest depth of a passage beyond a wall.
+    seed : int
+
+    Returns
+    -------
+    list of Passage, int
+    """
+    random = np.random.default_rng(seed)
+    flying = without_walls(p)
+    passages, drawn = [], 0
+    while len(passages) < count:
+        drawn += 1
+        direction = random.standard_normal(4)
+        size = radius * random.random() ** 0.25
+        state = size * direction / np.linalg.norm(direction)
+        y = state.copy()
+        time, extremum, bend = largest_of_flight(flying, y, 0.0, 2 * math.pi / p[FREQUENCY])
+        if extremum - max(abs(state[2]), abs(y[2])) > deepest and extremum > 2 * deepest:
+            passages.append(Passage(state, time, extremum, bend))
+    return passages, drawn

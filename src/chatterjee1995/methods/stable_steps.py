@@ -1,0 +1,286 @@
+"""The largest steps with which fixed-step methods keep the quiet motion, for each stiffness r1.
+
+The quiet motion, for which a damper is designed, has period 1 and two contacts per cycle. A method
+keeps it if its computed motion stays close. Every run starts on the exact quiet orbit and takes
+equal steps h, a whole number of them in each cycle, without locating contacts. The linear stability
+of a method limits h omega_c, where omega_c = sqrt(r1 (1 + 1/rm)) is the natural frequency of an
+undamped contact and rm the mass ratio.
+
+Z1 is the displacement of the primary mass and W T the phase of the forcing.
+"""
+
+import itertools
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from chatterjee1995.methods.methods import COMPARED, integrators
+from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.model.bounds import (
+    MOST_STEPS_RANGE,
+    PERIODS_RANGE,
+    STIFFNESS_RANGE,
+    check_count,
+)
+from impact_damper.model.checks import check_increasing, check_numbers
+from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
+from impact_damper.model.parameters import check_damper, describe
+from impact_damper.model.settling import Settling
+from impact_damper.motions import ensemble
+from impact_damper.motions.following import StrobeOrbit
+from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.orbits.compliant_orbits import compliant_orbit
+from impact_damper.orbits.grid_following import Grid
+from impact_damper.theory.free_oscillator import main_solutions
+
+LABELS = COMPARED["stable_steps"]
+# A run keeps the quiet motion with an accuracy if max |Z1| of every cycle differs relatively by at
+# most this number from that of the exact orbit.
+ACCURACIES = (0.01, 0.1)
+# Orbits are followed in r1.
+# FACTOR: largest factor between neighbouring r1.
+# REACH: largest distance of an orbit's state from the predicted state.
+FACTOR = 10.0**0.0625
+REACH = 0.2
+# Local error allowed in the exact orbits, the reference of the runs.
+EXACT = 1e-13
+# A stable step is reported only if at least this number of the smallest steps tested keep the quiet
+# motion.
+CONFIRMED = 4
+# The largest stable step falls as a power of r1. The exponent is fitted to r1 from STIFF on, where
+# contacts are much shorter than a cycle.
+STIFF = 1e3
+
+
+def quiet_state(p):
+    """Return the state at W T = pi/2 of the quiet motion, or None if a run leads to another motion.
+
+    At the start of the run the primary mass is at rest and the loose mass crosses the gap.
+    """
+    start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
+    record = ensemble.settle(p[None], start, Settling(), from_strobe=True)[0]
+    if is_settled(record) and record["period"] == 1 and record["contacts"] == 2:
+        return record["state"].copy()
+    return None
+
+
+def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
+    """Return quiet orbits at increasing r1, followed from the quiet motion at the damper's own r1.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+    frequency : float
+        W.
+    stiffnesses : sequence of float
+        Increasing values of r1.
+
+    Returns
+    -------
+    list of CompliantOrbit or None
+        One for each stiffness; None if the orbit could not be followed to this stiffness.
+
+    Raises
+    ------
+    ArithmeticError
+        If the damper has no quiet motion.
+    """
+    state = quiet_state(pack(oscillator, damper, frequency))
+    if state is None:
+        raise ArithmeticError(
+            f"damper = {damper!r}: has no quiet motion at frequency = {frequency:g}, from which "
+            "the stiffness is varied"
+        )
+
+    def correct(point, guess):
+        each = replace(damper, contact_stiffness=float(point[0]))
+        return compliant_orbit(pack(oscillator, each, frequency), guess, REACH, tolerance=EXACT)
+
+    own = damper.contact_stiffness
+    stiffer = [value for value in stiffnesses if value >= own]
+    softer = [value for value in stiffnesses[::-1] if value < own]
+    found = {}
+    for targets in (stiffer, softer):
+        cells = _in_steps(own, targets)
+        grid = Grid(cells[:, None], correct)
+        grid.put((0,), StrobeOrbit(state, complex(np.nan)))
+        grid.spread()
+        found |= {cells[cell]: orbit for cell, orbit in grid.orbits.items() if cell != (0,)}
+    return [found.get(value) for value in stiffnesses]
+
+
+def _in_steps(own, targets):
+    """Return `own`, then all targets in order, with values between them at most FACTOR apart."""
+    cells = [np.array([own])]
+    for before, target in itertools.pairwise([own, *targets]):
+        count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)
+        cells.append(np.geomspace(before, target, count + 1)[1:])
+    return np.concatenate(cells)
+
+
+def _verdict(largest, exact, bound):
+    """Return the largest relative deviation of max |Z1| in any cycle, and the name of a verdict.
+
+    `largest` are the computed max |Z1| of the cycles, and `exact` that of the orbit. A run has
+    escaped if |Z1| exceeds `bound`.
+    """
+    if not np.isfinite(largest).all():
+        return np.inf, "diverged"
+    deviation = np.abs(largest / exact - 1).max()
+    if largest.max() > bound:
+        return deviation, "escaped"
+    for accuracy, name in zip(ACCURACIES, ("within_1_percent", "within_10_percent"), strict=True):
+        if deviation <= accuracy:
+            return deviation, name
+    return deviation, "off"
+
+
+def _largest_step(held, tested, steps):
+    """Return the largest step that keeps the quiet motion, as do all smaller tested steps.
+
+    `held` and `tested` mark the steps that keep it, and the steps that were tested. Return NaN if
+    fewer than CONFIRMED steps remain.
+    """
+    held, steps = held[tested], steps[tested]
+    failing = np.flatnonzero(~held)
+    first = failing[-1] + 1 if len(failing) else 0
+    return steps[first] if first + CONFIRMED <= len(steps) else np.nan
+
+
+def _slope(stiffnesses, steps):
+    """Fit log(1/step) as a linear function of log r1; return its slope and standard error.
+
+    Both are NaN if there are fewer than three points.
+    """
+    use = np.isfinite(steps) & (stiffnesses >= STIFF)
+    if use.sum() < 3:
+        return np.nan, np.nan
+    x, y = np.log(stiffnesses[use]), -np.log(steps[use])
+    (slope, offset), rest = np.polyfit(x, y, 1), x - x.mean()
+    variance = np.sum((y - slope * x - offset) ** 2) / (use.sum() - 2)
+    return slope, math.sqrt(variance / np.sum(rest**2))
+
+
+def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
+    """Return whether fixed-step methods keep the quiet motion, for each stiffness and step.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+        The exact orbits at other stiffnesses are followed from the quiet motion with this damper.
+    frequency : float
+        W.
+    stiffnesses : sequence of float
+        Increasing values of r1.
+    scaled_steps : sequence of float
+        Increasing values of h omega_c; the number of steps in a forcing cycle is rounded up.
+    most_steps : int
+        Runs that would take more steps than this in a forcing cycle are left out.
+    periods : int
+        Forcing cycles of a run.
+
+    Returns
+    -------
+    xarray.Dataset
+        For each (fixed_method, contact_stiffness, scaled_step): `step_verdict`, and
+        `step_deviation`, the largest relative deviation of a cycle's max |Z1| from the exact one,
+        NaN if not run. A run has escaped if |Z1| exceeds half the largest amplitude without damper
+        by harmonic balance at W. For each (fixed_method, contact_stiffness, accuracy):
+        `stable_step`, the largest step h that keeps the accuracy, as do all smaller tested steps,
+        NaN if these are fewer than CONFIRMED; `largest_holding_step`, the largest h that keeps the
+        accuracy, even if a smaller one does not. For each (fixed_method, accuracy): `step_slope`,
+        the slope of log(1/h) over log r1 from r1 = STIFF on, and its standard error.
+
+    Raises
+    ------
+    ArithmeticError
+        If there is no quiet motion.
+    TypeError, ValueError
+        If an argument is not of its kind or out of range.
+    """
+    check_damper(damper)
+    check_count("periods", periods, **PERIODS_RANGE)
+    check_count("most_steps", most_steps, **MOST_STEPS_RANGE)
+    stiffnesses = check_increasing(
+        "stiffnesses", check_numbers("stiffnesses", stiffnesses, **STIFFNESS_RANGE)
+    )
+    scaled = check_increasing("scaled_steps", check_numbers("scaled_steps", scaled_steps, above=0))
+    scaled = scaled[::-1]
+    orbits = orbits_over_stiffness(oscillator, damper, frequency, stiffnesses)
+    contact = np.sqrt(stiffnesses * (1 + 1 / damper.mass_ratio))
+    period = 2 * math.pi / frequency
+    counts = np.ceil(period * contact[:, None] / scaled).astype(int)
+    tested = counts <= most_steps
+    bound = 0.5 * np.max(main_solutions(oscillator, frequency).amplitude)
+    methods = [integrators()[name] for name in LABELS]
+    verdicts, deviations = _cells(methods, orbits, counts, tested, bound, periods)
+    data = {
+        "step_verdict": verdicts,
+        "step_deviation": deviations,
+        "steps_per_period": counts,
+        "linear_limit": np.array([method.stability_limit for method in methods]),
+        "contact_frequency": contact,
+        "reference_displacement": _of(orbits, "displacement"),
+        "orbit_multiplier": [abs(each) for each in _of(orbits, "multiplier")],
+        "free_bound": bound,
+    }
+    data |= _step_data(deviations, tested, period / counts, stiffnesses)
+    made = describe(oscillator, damper) | {"frequency": frequency, "periods": periods}
+    coordinates = {
+        "fixed_method": list(LABELS),
+        "contact_stiffness": stiffnesses,
+        "scaled_step": scaled,
+        "accuracy": list(ACCURACIES),
+    }
+    return dataset(data, coordinates, made, "Largest steps that keep the quiet motion")
+
+
+def _cells(methods, orbits, counts, tested, bound, periods):
+    """Return the verdict and the deviation of each method, orbit and number of steps.
+
+    `counts` are numbers of steps in a cycle, and `tested` marks those that are run.
+    """
+    shape = (len(methods), *counts.shape)
+    verdicts = np.full(shape, flag("step_verdict", "not_run"))
+    deviations = np.full(shape, np.nan)
+    for i, orbit in enumerate(orbits):
+        if orbit is None:
+            verdicts[:, i] = flag("step_verdict", "no_orbit")
+            continue
+        given = orbit.parameters, orbit.state, strobe_time(orbit.parameters), periods
+        for m, method in enumerate(methods):
+            for j in np.flatnonzero(tested[i]):
+                largest = method.largest_displacements(*given, counts[i, j])
+                deviations[m, i, j], name = _verdict(largest, orbit.displacement, bound)
+                verdicts[m, i, j] = flag("step_verdict", name)
+    return verdicts, deviations
+
+
+def _step_data(deviations, tested, sizes, stiffnesses):
+    """Return the largest steps that keep each accuracy, and their slopes as functions of r1."""
+    held = np.stack([deviations <= accuracy for accuracy in ACCURACIES], axis=-1)
+    stable = np.array(
+        [
+            [
+                [_largest_step(each, tested[i], sizes[i]) for each in of_method[i].T]
+                for i in range(len(stiffnesses))
+            ]
+            for of_method in held
+        ]
+    )
+    holding = np.where(held, sizes[:, :, None], -np.inf).max(axis=2)
+    slopes = np.array([[_slope(stiffnesses, row) for row in each.T] for each in stable])
+    return {
+        "stable_step": stable,
+        "largest_holding_step": np.where(np.isfinite(holding), holding, np.nan),
+        "step_slope": slopes[..., 0],
+        "step_slope_error": slopes[..., 1],
+    }
+
+
+def _of(found, name):
+    """Return the attribute `name` of each orbit; NaN for a missing orbit."""
+    return np.array([np.nan if orbit is None else getattr(orbit, name) for orbit in found])

@@ -1,0 +1,305 @@
+"""Map of the errors of single-term harmonic balance, compared with the exact motions.
+
+A cell of the map is one forcing frequency W and one value of a parameter. Numbers in brackets are
+equations of the paper: (7) is harmonic balance with one harmonic and (17) the slow flow, from which
+the stability of its solutions follows. The quiet orbit is the small symmetric periodic motion for
+which a damper is designed. Free means without the damper.
+
+Two questions are answered in each cell. Quiet: is the solution of (7) with the smallest amplitude
+|a| stable by (17), and is the exact quiet orbit stable by its Floquet multipliers? High: is there a
+stable solution of at least half the amplitude of the free resonance, and to which motion does a
+simulation lead that starts from this solution? Harmonic balance describes elastic contact only. For
+a restitution e < 1 its solution for e = 1 is taken.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from chatterjee1995.stages.map_cells import HIGH, NEAR, balance_cells
+from chatterjee1995.variables.balance_map import MAPPED
+from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wall
+from impact_damper.model import packed
+from impact_damper.model.bounds import check_number
+from impact_damper.model.checks import check_increasing
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import Damper, Oscillator, pick
+from impact_damper.model.settling import check_settling
+from impact_damper.motions import ensemble
+from impact_damper.motions.records import MOTION
+from impact_damper.orbits.quiet_orbits import (
+    follow_quiet_orbits,
+    is_symmetric_pair,
+    straight_flight_end,
+)
+from impact_damper.theory.design_rule import peak_frequency
+from impact_damper.theory.harmonic_balance import optimum_clearance
+
+# A chaotic motion is stopped after a number of cycles, the patience (`Settling.patience`). At most
+# CHECKED of the chaotic high motions are run again with LONG times the patience, to see whether the
+# chaos lasts.
+CHECKED = 50
+LONG = 10
+
+
+class _Row(NamedTuple):
+    """Oscillator, damper and forcing frequencies of one row of a map."""
+
+    oscillator: Oscillator
+    damper: Damper
+    frequencies: np.ndarray
+
+
+def balance_map(
+    parameter, values, frequency_ratios, fixed, *, settling=None, workers=1, progress=None
+):
+    """Compare harmonic balance with exact motions over frequency and one parameter.
+
+    Parameters
+    ----------
+    parameter : str
+        Parameter of the rows: damping (h), mass_ratio (rm), clearance (d0) or restitution (e).
+    values : array_like, shape (n,)
+        Increasing values of this parameter, one for each row of the map.
+    frequency_ratios : array_like, shape (m,)
+        Increasing forcing frequencies W, divided by the frequency Wp of the free resonance peak of
+        the row.
+    fixed : dict
+        The other arguments of `Oscillator` and `Damper`. Without `clearance` each row has the
+        clearance of rule (19) of the paper, as a designer would choose.
+    settling : Settling, optional
+    workers : int
+        Threads; the result does not depend on it.
+    progress : str, optional
+        Title of a progress bar.
+
+    Returns
+    -------
+    xarray.Dataset
+        For each (map_value, frequency_ratio), and for the quiet and the high motion: the verdict of
+        harmonic balance, the exact result, and a flag that combines both. For each map_value: the
+        frequencies at which the branch of quiet orbits ends.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    """
+    settling = check_settling(settling)
+    rows = _rows(parameter, values, frequency_ratios, fixed)
+    parameters = np.array(
+        [[pack(row.oscillator, row.damper, w) for w in row.frequencies] for row in rows]
+    )
+    balance = balance_cells(rows)
+    quiet_runs, high_runs = (
+        _run(parameters, starts, settling, workers, progress)
+        for starts in (balance.quiet_start, balance.high_start)
+    )
+    quiet_kind, high_kind = (_kinds(runs, balance.resonance) for runs in (quiet_runs, high_runs))
+    landed = quiet_kind == flag("quiet_run_motion", "quiet")
+    known = np.where(landed[..., None], quiet_runs["state"], np.nan)
+    orbits = follow_quiet_orbits(parameters, known)
+    data = {
+        "map_frequency": parameters[..., FREQUENCY],
+        "map_clearance": [row.damper.clearance for row in rows],
+        "resonance_amplitude": balance.resonance,
+        "straight_flight_end": [_rigid_end(row) for row in rows],
+        "high_long_outcome": _long(parameters, balance.high_start, high_kind, settling, workers),
+    }
+    data |= _quiet_data(balance, quiet_kind, quiet_runs)
+    data |= _orbit_data(balance, orbits, parameters[..., FREQUENCY], frequency_ratios)
+    data |= _high_data(balance, high_kind, high_runs)
+    coordinates = {
+        "map_value": np.asarray(values, float),
+        "frequency_ratio": np.asarray(frequency_ratios, float),
+        "edge": ["lower", "upper"],
+    }
+    made = fixed | {"parameter": parameter} | vars(settling)
+    return dataset(data, coordinates, made, "Harmonic balance against the true motions")
+
+
+def _quiet_data(balance, kinds, runs):
+    return {
+        "balance_quiet": balance.quiet,
+        "balance_quiet_amplitude": balance.quiet_amplitude,
+        "balance_quiet_growth": balance.quiet_growth,
+        "quiet_run_motion": kinds,
+        "quiet_run_exponent": runs["lyapunov_exponent"],
+        "quiet_run_error": runs["lyapunov_error"],
+    }
+
+
+def _orbit_data(balance, orbits, frequency, ratios):
+    truth = _truth(orbits)
+    return {
+        "quiet_orbit": truth,
+        "quiet_orbit_growth": np.log(np.abs(orbits.multiplier)) * frequency / np.pi,
+        "quiet_orbit_displacement": orbits.displacement,
+        "quiet_orbit_harmonic": orbits.harmonic,
+        "quiet_verdict": _quiet_verdict(balance.quiet, truth),
+        "quiet_end": np.interp(orbits.end, np.arange(len(ratios)), ratios),
+        "quiet_end_event": orbits.end_event,
+    }
+
+
+def _high_data(balance, kinds, runs):
+    return {
+        "balance_high": balance.high,
+        "balance_high_amplitude": balance.high_amplitude,
+        "high_run_motion": kinds,
+        "high_run_outcome": runs["outcome"],
+        "high_run_period": runs["period"],
+        "high_run_contacts": runs["contacts"],
+        "high_run_displacement": runs["maximum_displacement"],
+        "high_run_exponent": runs["lyapunov_exponent"],
+        "high_run_error": runs["lyapunov_error"],
+        "high_verdict": _high_verdict(balance, kinds, runs["maximum_displacement"]),
+    }
+
+
+def _rows(parameter, values, ratios, fixed):
+    if parameter not in MAPPED:
+        raise ValueError(f"parameter = {parameter!r}: must be one of {', '.join(MAPPED)}")
+    if parameter in fixed:
+        raise ValueError(f"fixed: must not hold {parameter}, which changes from row to row")
+    values = check_increasing("values", values, least="two")
+    ratios = check_increasing("frequency_ratios", ratios, least="two")
+    check_number("frequency_ratios", ratios[0], above=0.0, why="the forcing is periodic")
+    rows = []
+    for value in values:
+        given = fixed | {parameter: float(value)}
+        own = pick(Oscillator, given)
+        oscillator = Oscillator(**own)
+        given = {name: number for name, number in given.items() if name not in own}
+        if "clearance" not in given:
+            given["clearance"] = optimum_clearance(oscillator, given["mass_ratio"])
+        rows.append(_Row(oscillator, Damper(**given), ratios * peak_frequency(oscillator)))
+    return rows
+
+
+def _run(parameters, starts, settling, workers, progress):
+    """Return a `records.MOTION` for each cell; its outcome is "absent" if the start is NaN."""
+    asked = np.isfinite(starts[..., 0])
+    records = np.zeros(asked.shape, MOTION)
+    records["outcome"] = flag("outcome", "absent")
+    for name in ("maximum_displacement", "lyapunov_exponent", "lyapunov_error", "contacts"):
+        records[name] = np.nan
+    records[asked] = ensemble.settle(
+        parameters[asked], starts[asked], settling, workers=workers, progress=progress
+    )
+    return records
+
+
+def _long(parameters, starts, kinds, settling, workers):
+    """Return the outcome of a longer run of the high motion in each cell.
+
+    Only CHECKED of the chaotic motions, spread over the cells, are run. The other outcomes are
+    "absent".
+    """
+    cells = np.flatnonzero(kinds == flag("high_run_motion", "high_chaotic"))
+    outcome = np.full(kinds.size, flag("high_long_outcome", "absent"))
+    if len(cells):
+        chosen = np.unique(cells[np.linspace(0, len(cells) - 1, CHECKED).astype(int)])
+        patience = LONG * settling.patience
+        longer = replace(settling, patience=patience, limit=max(settling.limit, patience + 100))
+        given = parameters.reshape(-1, packed.COUNT)[chosen], starts.reshape(-1, 4)[chosen]
+        outcome[chosen] = ensemble.settle(*given, longer, workers=workers)["outcome"]
+    return outcome.reshape(kinds.shape)
+
+
+def _kinds(records, resonance):
+    """Return the flag `quiet_run_motion` of each run, the kind of motion in which it ended.
+
+    `resonance` is the largest displacement of the free resonance in each cell.
+    """
+    low = records["maximum_displacement"] < HIGH * resonance
+    quiet = low & is_symmetric_pair(records)
+    outcome = records["outcome"]
+    regular = is_settled(records) | (outcome == flag("outcome", "quasi_periodic"))
+    cases = {
+        "not_run": outcome == flag("outcome", "absent"),
+        "no_contact": touches_no_wall(records),
+        "quiet": is_settled(records) & quiet,
+        "other_low": regular & low,
+        "high": regular,
+        "low_chaotic": (outcome == flag("outcome", "chaotic")) & low,
+        "high_chaotic": outcome == flag("outcome", "chaotic"),
+    }
+    kinds = [flag("quiet_run_motion", name) for name in cases]
+    return np.select(list(cases.values()), kinds, flag("quiet_run_motion", "unresolved"))
+
+
+def _truth(orbits):
+    """Return the flag `quiet_orbit` of each cell: whether the exact orbit is stable or exists.
+
+    A cell without an orbit is "absent" if the branch of orbits is known to end before the cell,
+    otherwise "unresolved".
+    """
+    values = orbits.multiplier
+    columns = np.arange(values.shape[1])
+    ended = np.isin(
+        orbits.end_event,
+        [flag("quiet_end_event", name) for name in ("fold", "contacts_change")],
+    )
+    below = ended[:, :1] & (columns < orbits.end[:, :1])
+    above = ended[:, 1:] & (columns > orbits.end[:, 1:])
+    real = values.imag == 0
+    cases = {
+        "stable": np.abs(values) < 1,
+        "neimark_sacker": np.isfinite(values) & ~real,
+        "fold": real & (values.real > 0),
+        "symmetry_breaking": real & (values.real < 0),
+        "absent": below | above,
+    }
+    kinds = [flag("quiet_orbit", name) for name in cases]
+    return np.select(list(cases.values()), kinds, flag("quiet_orbit", "unresolved"))
+
+
+def _quiet_verdict(balance, truth):
+    """Return the flag `quiet_verdict`, which combines harmonic balance and the exact orbit."""
+    verdict = np.full(balance.shape, flag("quiet_verdict", "unresolved"))
+    cases = {
+        "stable": truth == flag("quiet_orbit", "stable"),
+        "unstable": truth > flag("quiet_orbit", "stable"),
+        "absent": truth == flag("quiet_orbit", "absent"),
+    }
+    for name in ("stable", "unstable", "none"):
+        for true, holds in cases.items():
+            here = (balance == flag("balance_quiet", name)) & holds
+            verdict[here] = flag("quiet_verdict", f"{name}_{true}")
+    return verdict
+
+
+def _high_verdict(balance, kinds, displacement):
+    """Return the flag `high_verdict`, which combines harmonic balance and the simulation."""
+    near = np.abs(displacement / balance.high_amplitude - 1) <= NEAR
+    low = np.isin(
+        kinds, [flag("high_run_motion", n) for n in ("quiet", "other_low", "low_chaotic")]
+    )
+    settled = kinds == flag("high_run_motion", "high")
+    stable = balance.high == flag("balance_high", "stable")
+    none = balance.high == flag("balance_high", "none")
+    chaotic = kinds == flag("high_run_motion", "high_chaotic")
+    silent = kinds == flag("high_run_motion", "no_contact")
+    cases = {
+        "stable_near": stable & settled & near,
+        "stable_far": stable & settled,
+        "stable_chaotic": stable & chaotic,
+        "stable_low": stable & low,
+        "stable_no_contact": stable & silent,
+        "none_settled": none & settled,
+        "none_chaotic": none & chaotic,
+        "none_low": none & low,
+        "none_no_contact": none & silent,
+        "not_run": none & (kinds == flag("high_run_motion", "not_run")),
+    }
+    flags = [flag("high_verdict", name) for name in cases]
+    return np.select(list(cases.values()), flags, flag("high_verdict", "unresolved"))
+
+
+def _rigid_end(row):
+    """Return W/Wp at which the quiet orbit ends by the theory of straight flight."""
+    peak = peak_frequency(row.oscillator)
+    end = straight_flight_end(row.oscillator, row.damper.clearance, row.damper.restitution)
+    return end / peak

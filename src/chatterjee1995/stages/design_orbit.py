@@ -1,0 +1,87 @@
+"""The exact quiet orbit at the design point (peak frequency Wp) of a damper, stable or unstable.
+
+The quiet orbit is the periodic motion for which a damper is designed. It has period 1 and two
+contacts per cycle. The orbit may be unstable, so that no simulation settles on it. With heavy
+damping motions do settle on it. From there the orbit is followed by Newton's method down to the
+damping h of the oscillator.
+
+A start is an initial state.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.model.bounds import SEED_RANGE, check_count
+from impact_damper.model.families import family_of
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import check_damper, describe
+from impact_damper.model.settling import check_settling
+from impact_damper.motions import ensemble
+from impact_damper.motions.start_states import search_starts
+from impact_damper.orbits.branch_datasets import branches_dataset
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.shooting import find_orbit
+from impact_damper.theory.design_rule import peak_frequency
+
+# The heavy damping h is the largest of HEAVY, twice the h of the oscillator, and HEAVY_SHARE Wp.
+HEAVY, HEAVY_SHARE = 2.0, 0.5
+
+
+def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settling=None):
+    """Find the quiet orbit at the peak frequency Wp, and follow it in the damping h.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+    starts, radius
+        Number and radius of the random starts, as in `response.frequency_response`.
+    seed : int
+    settling : Settling, optional
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of `branches.orbit_branch` for the orbits over the damping, from the h of the
+        oscillator up to the heavy damping; `design_orbit_status`, whether the orbit was found and
+        followed down to the h of the oscillator; for each `design_start` the outcome of a run from
+        this start with this h; and `peak_frequency`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If there is no damper, or an argument is out of range.
+    """
+    check_damper(damper)
+    check_count("seed", seed, **SEED_RANGE)
+    settling = check_settling(settling)
+    peak = peak_frequency(oscillator)
+    damping = max(HEAVY, 2 * oscillator.damping, HEAVY_SHARE * peak)
+    heavy = replace(oscillator, damping=min(damping, 10.0))
+    search = search_starts(oscillator, [(damper, peak)], starts, radius, seed, settling)
+    states = np.concatenate([search.random[0], search.placed[0]])
+    branches, status = [], "no_start"
+    p = pack(heavy, damper, peak)
+    records = ensemble.settle(np.tile(p, (len(states), 1)), states, settling)
+    quiet = records[is_settled(records) & (records["period"] == 1) & (records["contacts"] == 2)]
+    if len(quiet):
+        orbit = find_orbit(p, quiet[np.argmin(quiet["maximum_displacement"])]["state"])
+        span = oscillator.damping, heavy.damping
+        family, value, span = family_of(heavy, damper, peak, "damping", span)
+        branches = [follow_branch(family, orbit, value, span)] if orbit.converged else []
+        reached = branches and np.isclose(branches[0].points[0].value, span[0], rtol=1e-9)
+        status = "found" if reached else "not_followed"
+    p = pack(oscillator, damper, peak)
+    runs = ensemble.settle(np.tile(p, (len(states), 1)), states, settling)
+    made = describe(oscillator, damper) | {"parameter": "damping", "frequency": peak}
+    title = "Quiet orbit at the design point over damping"
+    others = {
+        "peak_frequency": peak,
+        "design_orbit_status": flag("design_orbit_status", status),
+        "design_run_outcome": runs["outcome"],
+        "design_run_displacement": runs["maximum_displacement"],
+    } | search.variables()
+    data = branches_dataset(branches, np.exp, made, title)
+    return data.assign(dataset(others, {}, made, title).variables)

@@ -1,0 +1,249 @@
+"""Accuracy of each design rule: the clearance it predicts, compared with the exact optimum.
+
+The optimum is the clearance at which the quiet orbit has the smallest displacement. The quiet orbit
+is the periodic motion for which a damper is designed: it is symmetric and has period 1 and two
+contacts per cycle. Newton's method finds the orbit, stable or unstable. Its first guess is the
+theory of straight flight (`theory.straight_flight`), in which the loose mass flies at constant
+speed between the walls. Clearances d0 are given as the ratio rm W^2 d0/f, with the mass ratio rm,
+the forcing frequency W and the forcing amplitude f. This ratio is 1 by rule (18) of the paper.
+Displacements are given as W^2 Z1/f.
+
+Z1 is the displacement of the primary mass, W T the phase of the forcing, d0 the clearance and r1
+the contact stiffness.
+"""
+
+import itertools
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+from tqdm import tqdm
+
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.model.checks import check_frequencies, check_increasing
+from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
+from impact_damper.model.parameters import Damper, describe
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
+from impact_damper.motions.traces import trace
+from impact_damper.orbits.compliant_orbits import compliant_orbit
+from impact_damper.theory.optimum_clearance import CRITERIA, RULES, rule_ratios
+from impact_damper.theory.straight_flight import flight_of
+
+SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
+# Number of values of Z1 in a cycle for the integral of the first harmonic.
+SAMPLES = 1024
+# Largest asymmetry of a symmetric orbit, divided by the clearance.
+SAME = 1e-4
+# Search for the minimum over the ratio rm W^2 d0/f.
+# STEP, MOST_STEPS: relative step of the search downhill, and largest number of steps.
+# PRECISION: accuracy of the ratio at the minimum.
+STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
+# A minimum is smooth or a kink. A step away from the minimum, by CLOSE, decides: when the step is
+# halved, the rise of the displacement falls to a quarter at a smooth minimum and to half at a kink.
+# KINK is the limit between these two fractions.
+CLOSE, KINK = 1e-3, 0.36
+# Displacement assigned where the motion does not exist, because the search needs a number.
+ABSENT = 1e3
+# Number of impulses of a contact for which the theory of straight flight is evaluated.
+IMPULSES = 400
+
+
+def design_rules(
+    oscillator, mass_ratios, restitutions, contact_stiffnesses, frequencies, *, progress=None
+):
+    """Find the optimum clearance of each damper and frequency of a grid, and the errors of rules.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    mass_ratios, restitutions, contact_stiffnesses, frequencies : sequence of float
+        rm, e, r1 and W, each increasing; every combination is computed.
+    progress : str, optional
+        Label of a progress bar.
+
+    Returns
+    -------
+    xarray.Dataset
+        The criterion of the optimum is the smallest max |Z1| or the smallest first harmonic of Z1.
+        For each criterion: the ratio rm W^2 d0/f at the optimum, the minimum in units of f/W^2, the
+        kind of minimum, stability, and the modulus of the dominant Floquet multiplier. For each
+        `rule`: the ratio rm W^2 d0/f that the rule predicts, and the fraction by which max |Z1| at
+        this ratio exceeds the smallest max |Z1|. The rules:
+
+        - balance, equation (18): 1;
+        - gap_harmonic, pi^2/8: condition (18), derived again for a loose mass that crosses the gap
+          in straight flight;
+        - straight_flight: straight flight between rigid walls, for a machine without damping and
+          stiffness;
+        - elastic: the closed form `straight_flight.elastic_ratios`, which holds for e = 1 only;
+          NaN for e < 1;
+        - flight: straight flight with all corrections, `straight_flight.Flight`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a sequence does not increase or a value is out of range.
+    """
+    given = {
+        name: check_increasing(name, values)
+        for name, values in zip(
+            ("mass_ratios", "restitutions", "contact_stiffnesses"),
+            (mass_ratios, restitutions, contact_stiffnesses),
+            strict=True,
+        )
+    }
+    given["frequencies"] = check_frequencies(frequencies)
+    shape = tuple(len(values) for values in given.values())
+    cells = itertools.product(*given.values())
+    rows = [
+        _cell(oscillator, *values)
+        for values in tqdm(
+            cells, desc=progress, total=np.prod(shape), disable=progress is None, ascii=True
+        )
+    ]
+    names = rows[0]
+    data = {
+        name: np.array([row[name] for row in rows]).reshape(*shape, *np.shape(names[name]))
+        for name in names
+    }
+    coordinates = dict(zip(SWEPT, given.values(), strict=True))
+    coordinates |= {"criterion": list(CRITERIA), "rule": list(RULES)}
+    return dataset(data, coordinates, describe(oscillator), "Rules for the optimum clearance")
+
+
+def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
+    """Return the variables of the dataset for one damper and frequency."""
+    damper = Damper(mass_ratio, 1.0, restitution, contact_stiffness)
+    rules = rule_ratios(oscillator, damper, frequency)
+    motion = QuietMotion(oscillator, damper, frequency)
+    optima = [motion.least(i, rules[i, -1]) for i in range(len(CRITERIA))]
+    ratios = np.array([ratio for ratio, _ in optima])
+    found = [motion.at(ratio) for ratio in ratios]
+    sizes = np.array([values[i] for i, values in enumerate(found)])
+    reached = np.array([motion.at(ratio)[0] for ratio in rules[0]])
+    multiplier = np.array([values[-1] for values in found])
+    stability = ["absent" if np.isnan(m) else "stable" if m < 1 else "unstable" for m in multiplier]
+    return {
+        "best_ratio": ratios,
+        "best_size": np.where(np.isfinite(sizes), sizes, np.nan),
+        "best_kind": [flag("best_kind", kind) for _, kind in optima],
+        "best_multiplier": multiplier,
+        "best_stability": [flag("best_stability", each) for each in stability],
+        "rule_ratio": rules,
+        "rule_excess": np.where(np.isfinite(reached), reached / sizes[0] - 1, np.nan),
+    }
+
+
+class QuietMotion:
+    """The quiet orbit as a function of the ratio rm W^2 d0/f.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+        Its clearance is ignored.
+    frequency : float
+        W.
+    """
+
+    def __init__(self, oscillator, damper, frequency):
+        flight = flight_of(oscillator, damper, frequency)
+        self._parameters = pack(oscillator, damper, frequency)
+        self._forcing = oscillator.forcing_amplitude(frequency)
+        self._unit = self._forcing / (damper.mass_ratio * frequency**2)
+        self._known = {}
+        impulse = np.linspace(0, flight.largest_impulse, IMPULSES + 2)[1:-1]
+        strobe = np.pi / 2 + flight.forced_lag
+        x, speed, _ = flight.motion(strobe, impulse)
+        loose = -impulse / damper.mass_ratio * (1 - 2 / np.pi * (strobe - flight.lag(impulse)))
+        loose_speed = 2 / np.pi * impulse / damper.mass_ratio
+        self._ratios = flight.ratio(impulse)
+        self._states = np.array([x, speed, x - loose, speed - loose_speed])
+        self._states /= np.array([[frequency**2, frequency] * 2]).T / self._forcing
+
+    def at(self, ratio):
+        """Return max |Z1|, the first harmonic of Z1 and the dominant multiplier, as moduli.
+
+        The first two are in units of f/W^2. If the orbit does not exist at this ratio, infinity,
+        infinity and NaN are returned.
+        """
+        if ratio not in self._known:
+            self._known[ratio] = self._orbit(ratio)
+        return self._known[ratio]
+
+    def _orbit(self, ratio):
+        absent = np.inf, np.inf, np.nan
+        if not self._ratios[0] < ratio < self._ratios[-1] or ratio <= 0:
+            return absent
+        p = self._parameters.copy()
+        p[CLEARANCE] = ratio * self._unit
+        guess = np.array([np.interp(ratio, self._ratios, each) for each in self._states])
+        orbit, _ = compliant_orbit(p, guess, p[CLEARANCE] / 2, asymmetry=SAME * p[CLEARANCE])
+        if orbit is None:
+            return absent
+        sizes = orbit.displacement, abs(first_harmonic(p, orbit.state))
+        scale = p[FREQUENCY] ** 2 / self._forcing
+        return *(scale * size for size in sizes), abs(orbit.multiplier)
+
+    def least(self, criterion, guess):
+        """Return the ratio at the local minimum reached downhill from a guess, and its kind.
+
+        Parameters
+        ----------
+        criterion : int
+            0 to minimise max |Z1|, 1 for the first harmonic.
+        guess : float
+
+        Returns
+        -------
+        ratio : float
+            NaN if there is no orbit at the guess.
+        kind : str
+            "smooth" or "kink"; "edge" if the search finds no minimum in MOST_STEPS steps; "jump" if
+            the orbit ends next to the smallest value; "not_found" if there is no orbit at the
+            guess.
+        """
+        middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
+
+        def size(ratio):
+            return self.at(ratio)[criterion]
+
+        if not np.isfinite(size(guess)):
+            return np.nan, "not_found"
+        for _ in range(MOST_STEPS):
+            lower, upper = middle * (1 - STEP), middle * (1 + STEP)
+            lowest = min((middle, lower, upper), key=size)
+            if lowest == middle:
+                break
+            middle = lowest
+        else:
+            return middle, "edge"
+        found = minimize_scalar(
+            lambda ratio: min(size(ratio), ABSENT),
+            bounds=(lower, upper),
+            method="bounded",
+            options={"xatol": PRECISION},
+        ).x
+        if not np.isfinite([size(found - CLOSE), size(found + CLOSE)]).all():
+            return found, "jump"
+        rises = [size(found - h) + size(found + h) - 2 * size(found) for h in (CLOSE, CLOSE / 2)]
+        return found, "kink" if rises[1] > KINK * rises[0] else "smooth"
+
+
+def first_harmonic(p, y) -> complex:
+    """Return the complex amplitude c of Re(c exp(i W T)) in Z1.
+
+    The integral over one period is computed by the trapezoidal rule. At an impact Z1 has a kink,
+    and the error is of second order in the step: below 1e-5 of the change of c by this kink.
+
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+        Packed parameters.
+    y : array, shape (4,)
+        State of an orbit of period 1 at W T = pi/2.
+    """
+    start = strobe_time(p)
+    times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[FREQUENCY] * SAMPLES)
+    states, log = np.empty((SAMPLES + 1, 4)), np.empty((0, 5))
+    trace(p, y.copy(), start, times, POLISH_TOLERANCE, states, log)
+    return 2 * np.mean(states[:-1, 0] * np.exp(-1j * p[FREQUENCY] * times[:-1]))

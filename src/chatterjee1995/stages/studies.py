@@ -1,0 +1,163 @@
+"""Studies: motions from random starts in each cell of a grid of dampers and frequencies.
+
+A start is an initial state. A cell is one combination of mass ratio, clearance, frequency and
+restitution. The cells are numbered in the order of `AXES`, the last axis fastest. A chunk of a
+study is a range of these numbers. The seed and the number of a cell determine its random starts, so
+the results do not depend on the division into chunks. After every few cells the runs are reduced to
+a few numbers per cell, so the memory of a chunk hardly grows with its size.
+
+r1 is the contact stiffness.
+"""
+
+import math
+
+import numpy as np
+
+from chatterjee1995.variables.studies import AXES, OUTCOMES
+from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.model.bounds import RUNS_RANGE, SEED_RANGE, check_count
+from impact_damper.model.checks import check_increasing
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import Damper, describe
+from impact_damper.model.settling import Settling
+from impact_damper.motions import ensemble
+from impact_damper.motions.simulate import random_states
+from impact_damper.motions.start_states import (
+    NO_STARTS,
+    describe_search,
+    warn_if_narrow,
+    wide_starts,
+)
+from impact_damper.orbits.quiet_orbits import is_symmetric_pair
+
+# Results of a cell: number of random starts with each outcome and of those that lead to the quiet
+# orbit; largest displacement of all motions, and smallest one on a quiet orbit.
+CELL = np.dtype(
+    [
+        ("outcome_count", "i4", len(OUTCOMES)),
+        ("quiet_count", "i4"),
+        ("largest_displacement", "f8"),
+        ("quiet_displacement", "f8"),
+    ]
+)
+
+
+def study_chunk(
+    oscillator,
+    axes,
+    cells,
+    *,
+    contact_stiffness=2000.0,
+    starts=8,
+    radius=None,
+    seed=1995,
+    settling=None,
+    workers=1,
+    progress=None,
+):
+    """Return the motions to which random starts lead, in a range of cells of a grid.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    axes : dict
+        Increasing values of mass_ratio (rm), clearance (d0), frequency (W) and restitution (e).
+    cells : tuple of int
+        Numbers of the first cell of the chunk, and of the first cell after the chunk.
+    contact_stiffness : float
+        r1, the same in all cells.
+    starts, radius, seed, settling, workers, progress
+        As in `response.frequency_response`, for each cell.
+
+    Returns
+    -------
+    xarray.Dataset
+        For each `cell`: largest displacement of all motions to which the starts lead; displacement
+        on the quiet orbit, a periodic motion of one cycle with two symmetric contacts; numbers of
+        random starts that lead to the quiet orbit and to each outcome. The coordinates include the
+        axes of the whole grid.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+    """
+    settling = settling or Settling()
+    check_count("starts", starts, **RUNS_RANGE)
+    axes = _checked(axes)
+    shape = [len(values) for values in axes.values()]
+    first = check_count("cells[0]", cells[0], least=0, most=math.prod(shape) - 1)
+    last = check_count("cells[1]", cells[1], least=first + 1, most=math.prod(shape))
+
+    def system(place):
+        values = {name: axis[i] for (name, axis), i in zip(axes.items(), place, strict=True)}
+        frequency = values.pop("frequency")
+        damper = Damper(contact_stiffness=contact_stiffness, **values)
+        return pack(oscillator, damper, frequency), damper
+
+    def starts_of(damper, frequency, cell):
+        if radius is None:
+            return wide_starts(oscillator, damper, frequency, starts, [seed, cell], settling)[:2]
+        return random_states(starts, radius, damper, [seed, cell]), NO_STARTS
+
+    check_count("seed", seed, **SEED_RANGE)
+    # The axes are sorted, so a value out of range is at an end of its axis. It is found here, not
+    # after hours of work.
+    for end in (0, -1):
+        _, damper = system([end] * len(AXES))
+        if radius is not None:
+            random_states(0, radius, damper, seed)
+    if radius is not None:
+        warn_if_narrow(oscillator, axes["frequency"], radius)
+    found, stop = np.empty(last - first, CELL), np.zeros(1, bool)
+
+    def work(part):
+        rows, states = [], []
+        for cell in range(first + part.start, first + part.stop):
+            p, damper = system(np.unravel_index(cell, shape))
+            states.append(np.concatenate(starts_of(damper, p[FREQUENCY], cell)))
+            rows.append(np.tile(p, (len(states[-1]), 1)))
+        runs = ensemble.settle(np.concatenate(rows), np.concatenate(states), settling, stop=stop)
+        ends = np.cumsum([len(row) for row in rows])
+        for k, of_cell in enumerate(np.split(runs, ends[:-1]), part.start):
+            found[k] = _condensed(of_cell, starts)
+
+    # Number of cells that are run together. They have about `ensemble.CHUNK` random starts.
+    together = max(1, ensemble.CHUNK // starts)
+    ensemble.run_chunks(work, last - first, workers, progress, stop, size=together)
+    data = {
+        name: (("cell", "counted_outcome")[: found[name].ndim], found[name]) for name in CELL.names
+    }
+    made = describe(oscillator, settling) | describe_search(starts, radius, seed)
+    made["contact_stiffness"] = contact_stiffness
+    coordinates = axes | {"cell": np.arange(first, last), "counted_outcome": list(OUTCOMES)}
+    return dataset(data, coordinates, made, "Motions from random starts over a grid")
+
+
+def _condensed(runs, starts):
+    """Return the results of the runs in a cell as a row of `CELL`.
+
+    The first `starts` runs are those from random starts. Only these are counted. The others begin
+    on motions without the damper.
+    """
+    sizes = runs["maximum_displacement"]
+    quiet = is_settled(runs) & is_symmetric_pair(runs)
+    return (
+        [np.sum(runs["outcome"][:starts] == flag("outcome", name)) for name in OUTCOMES],
+        np.sum(quiet[:starts]),
+        np.max(sizes),
+        np.min(sizes[quiet]) if quiet.any() else np.nan,
+    )
+
+
+def _checked(axes):
+    """Return the axes as increasing arrays in the order of `AXES`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an axis is missing or unknown, or does not increase.
+    """
+    if not isinstance(axes, dict) or set(axes) != set(AXES):
+        raise TypeError(f"axes = {axes!r}: must be a dictionary of {', '.join(AXES)}")
+    return {name: check_increasing(f"axes[{name!r}]", np.atleast_1d(axes[name])) for name in AXES}

@@ -1,0 +1,316 @@
+"""Tables of motions: outcomes of starts, quasi-periodic motions, shares, and lives of chaos.
+
+A start is a random initial state, and its outcome says how the run from it ended: settled on a
+periodic motion, chaotic, and so on. The share of a motion is the fraction of starts that lead to
+it. The life of chaos is the time until a chaotic motion settles, as transient chaos does.
+"""
+
+import numpy as np
+import pandas as pd
+
+from chatterjee1995.claims import exact_orbits, extract
+from chatterjee1995.claims.claim import Missing
+from chatterjee1995.claims.suppression import high_motions
+from chatterjee1995.tables.columns import parameter_columns
+from impact_damper.data.datasets import flag
+from impact_damper.data.families import families
+from impact_damper.data.variables.orbits import TORUS
+from impact_damper.data.variables.variable import OUTCOME
+
+DAMPER = ("mass_ratio", "clearance", "restitution")
+# Stages whose datasets hold the outcome of each random start and the motion to which it leads.
+SWEPT = ("response", "subharmonic", "optimum")
+# Dimension of the outcomes in datasets of studies: planes of two parameters with random starts.
+COUNTED = "counted_outcome"
+# Stages whose datasets say which motions at neighbouring parameter values are the same.
+MATCHED = ("response", "optimum")
+# A motion is listed if at some value of the parameter at least this share of starts leads to it.
+LISTED = 0.05
+# Rare outcomes, counted together in the column `other`.
+OTHERS = ("diverged", "escaped", "at_rest")
+# Kind of a torus around an orbit with a multiplier outside the unit circle, in addition to the pair
+# of multipliers on the circle. Such tori are not listed.
+UNSTABLE_ORBIT = "of_unstable_orbit"
+# A Lyapunov exponent within this number of standard errors of 0 counts as 0.
+NEUTRAL = 3.0
+
+
+# Columns of the Markdown tables with their heads; the CSV files have all columns.
+SHOWN = {
+    "outcomes": {
+        "stage": "stage",
+        "data": "data",
+        "settled": "settled",
+        "chaotic": "chaotic",
+        "quasi periodic": "quasi-periodic",
+        "non colliding": "no contact",
+        "drifting": "no contact, still drifting",
+        "unresolved": "unresolved",
+        "other": "diverged, escaped or at rest",
+    },
+    "quasi_periodic": {
+        "data": "curve",
+        "rm": "mass ratio rm",
+        "d0": "clearance d0",
+        "W": "forcing frequency Ω",
+        "max |Z1|": "displacement max |Z1|",
+        "starts": "random starts that lead to it",
+        "second frequency": "second frequency",
+        "its error": "error of the second frequency",
+        "rotation number": "rotation number",
+    },
+    "tori": {
+        "data": "curve",
+        "period": "period of the orbit [cycles]",
+        "W": "Neimark-Sacker point at Ω",
+        "angle": "angle of the multiplier [revolutions]",
+        "torus": "torus that splits off",
+        "W of torus": "Ω of the computed torus",
+        "second frequency": "second frequency of this torus",
+        "rotation number at the point": "rotation number, extrapolated to the point",
+        "growth": "growth: change of ln(amplitude) per period of the orbit / amplitude^2",
+    },
+    "chaos": {
+        "data": "curve",
+        "W": "forcing frequency Ω",
+        "max |Z1|": "displacement max |Z1|",
+        "Lyapunov exponent": "Lyapunov exponent",
+        "runs that end": "runs in which chaos ends",
+        "of": "number of runs",
+        "mean life, periods": "mean life [cycles]",
+        "at least": "lower end of its 95 % interval",
+        "at most": "upper end of its 95 % interval",
+    },
+    "shares": {
+        "data": "data",
+        "motion": "motion",
+        "from": "from Ω or d0",
+        "to": "to",
+        "at": "largest share at Ω or d0",
+        "share": "share of starts there",
+        "at least": "lower end of its 95 % interval",
+        "at most": "upper end of its 95 % interval",
+        "not seen, at most": "bound on the share of a motion not seen",
+    },
+}
+# Texts shown in Markdown for cells of the columns `stage` and `torus`.
+STAGES = {
+    "response": "frequency responses",
+    "subharmonic": "starts on the free subharmonic",
+    "optimum": "clearance sweeps",
+    "studies": "planes of two parameters",
+    "balance_map, high run": "starts at the largest solution of harmonic balance",
+}
+TORI = {"stable": "stable", "unstable": "unstable", "unknown": "not found out"}
+# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
+# In columns without a function, underscores become spaces.
+CELLS = {"stage": lambda cell: STAGES.get(cell, cell), "torus": lambda cell: TORI.get(cell, cell)}
+# Neimark-Sacker points of two branches are one point if their parameter values differ by less than
+# SAME_VALUE and their max |Z1| by less than SAME_SIZE.
+SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
+
+
+def outcomes(datasets) -> pd.DataFrame:
+    """Return the numbers of starts with each outcome.
+
+    Unresolved starts are also counted by the sign of their Lyapunov exponent.
+    """
+    rows = []
+    for stage in SWEPT:
+        for name, data in extract.damped(datasets, stage).items():
+            counts = {each: np.sum(data.run_outcome == OUTCOME[each]) for each in OUTCOME}
+            rows.append(_row(stage, name, counts) | _reasons(data))
+    for name, data in datasets.get("studies", {}).items():
+        totals = data.outcome_count.sum([dim for dim in data.outcome_count.dims if dim != COUNTED])
+        counts = {str(each): totals.sel({COUNTED: each}) for each in data[COUNTED].values}
+        rows.append(_row("studies", name, counts))
+    for name, data in datasets.get("balance_map", {}).items():
+        counts = {each: np.sum(data.high_run_outcome == OUTCOME[each]) for each in OUTCOME}
+        rows.append(_row("balance_map, high run", name, counts))
+    return pd.DataFrame(rows)
+
+
+def _row(stage, name, counts):
+    """Return the columns with the number of starts of each outcome."""
+    counts = {each: int(value) for each, value in counts.items() if each != "absent"}
+    shown = {each.replace("_", " "): counts[each] for each in counts if each not in OTHERS}
+    others = sum(counts.get(each, 0) for each in OTHERS)
+    starts = sum(counts.values())
+    return (
+        {"stage": stage, "data": name, "starts": starts}
+        | shown
+        | {
+            "other": others,
+            "unresolved per 2000 starts": 2000 * counts["unresolved"] / starts
+            if starts
+            else np.nan,
+        }
+    )
+
+
+def _reasons(data):
+    """Return the numbers of unresolved starts by the sign of the Lyapunov exponent."""
+    dims = data.run_motion.dims
+    chosen = {"motion": data.run_motion}
+    mean, error = data.lyapunov_exponent.isel(chosen), data.lyapunov_error.isel(chosen)
+    lost = data.run_outcome == flag("run_outcome", "unresolved")
+    size = mean / error
+    return {
+        "unresolved, growing": int((lost & (size > NEUTRAL)).sum(dims)),
+        "unresolved, neutral": int((lost & (np.abs(size) <= NEUTRAL)).sum(dims)),
+        "unresolved, shrinking": int((lost & ~(size >= -NEUTRAL)).sum(dims)),
+    }
+
+
+def quasi_periodic(datasets) -> pd.DataFrame:
+    """Return the quasi-periodic motions with both frequencies and the number of random starts."""
+    rows = []
+    for name, data in extract.damped(datasets, "response").items():
+        for k, j in np.argwhere(extract.is_outcome(data, "quasi_periodic").values):
+            motion = data.isel(frequency=k, motion=j)
+            first, second = float(motion.first_frequency), float(motion.second_frequency)
+            rows.append(
+                {"data": name}
+                | parameter_columns(data, "damping", *DAMPER)
+                | {
+                    "W": float(motion.frequency),
+                    "max |Z1|": float(motion.maximum_displacement),
+                    "starts": int(motion.motion_starts),
+                    "closed curves": round(float(motion.frequency) / first),
+                    "first frequency": f"{first:.10f}",
+                    "second frequency": f"{second:.10f}",
+                    "its error": float(motion.frequency_error),
+                    "rotation number": f"{second / first:.10f}",
+                    "Lyapunov exponent": float(motion.lyapunov_exponent),
+                    "its standard error": float(motion.lyapunov_error),
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def tori(datasets) -> pd.DataFrame:
+    """Return the Neimark-Sacker points at which stable orbits lose their stability, and the tori.
+
+    At such a point a pair of complex multipliers crosses the unit circle, and a torus of
+    quasi-periodic motions splits off. The torus is stable, unstable or of unknown stability. For a
+    stable torus the row holds its frequencies and its rotation number a little beyond the point.
+    """
+    rows = []
+    for name, data in extract.damped(datasets, "branches").items():
+        met = []
+        for k in np.flatnonzero(~data.torus_kind.isin([TORUS["absent"], TORUS[UNSTABLE_ORBIT]])):
+            event = data.isel(event=k)
+            period = int(data.branch_period[int(event.event_branch)])
+            value, size = float(event.event_value), float(event.event_displacement)
+            if any(
+                n == period and abs(w - value) < SAME_VALUE and abs(z - size) < SAME_SIZE
+                for n, w, z in met
+            ):
+                continue
+            met.append((period, value, size))
+            first = float(event.torus_value) / period
+            rows.append(
+                {"data": name}
+                | parameter_columns(data, "damping", *DAMPER)
+                | {
+                    "period": period,
+                    "W": value,
+                    "max |Z1|": size,
+                    "angle": float(event.torus_angle),
+                    "torus": extract.meaning("torus_kind", int(event.torus_kind)),
+                    "growth": float(event.torus_growth),
+                    "W of torus": float(event.torus_value),
+                    "first frequency": first,
+                    "second frequency": first * float(event.torus_number),
+                    "rotation number": float(event.torus_number),
+                    "its error": float(event.torus_error),
+                    "rotation number at the point": float(event.torus_limit),
+                    "rotation number at the point minus angle": float(
+                        event.torus_limit - event.torus_angle
+                    ),
+                }
+            )
+    frame = pd.DataFrame(rows)
+    digits = (
+        "W",
+        "angle",
+        "W of torus",
+        "second frequency",
+        "rotation number",
+        "rotation number at the point",
+    )
+    for column in digits if rows else ():
+        frame[column] = frame[column].map(lambda x: f"{x:.8f}" if np.isfinite(x) else "")
+    return frame.sort_values(["data", "W"], kind="stable") if rows else frame
+
+
+def chaos(datasets) -> pd.DataFrame:
+    """Return the chaotic motions that are violent, with their mean lives.
+
+    A motion is violent if it has contacts and its max |Z1| exceeds half of max |Z1| on the
+    resonance branch without damper at the same W.
+    """
+    rows = []
+    for name, data in extract.damped(datasets, "response").items():
+        try:
+            high = high_motions(data, exact_orbits.free_of(datasets, data))
+        except Missing:
+            continue
+        chosen = (high & extract.is_outcome(data, "chaotic")).transpose("frequency", "motion")
+        for k, j in np.argwhere(chosen.values):
+            motion = data.isel(frequency=k, motion=j)
+            ends = int(motion.life_ends)
+            rows.append(
+                {"data": name}
+                | parameter_columns(data, "damping", *DAMPER)
+                | {
+                    "W": float(motion.frequency),
+                    "max |Z1|": float(motion.maximum_displacement),
+                    "starts": int(motion.motion_starts),
+                    "Lyapunov exponent": float(motion.lyapunov_exponent),
+                    "runs that end": ends,
+                    "of": extract.parameter(data, "life_runs"),
+                    "mean life, periods": float(motion.mean_life),
+                    "at least": float(motion.mean_life_lower),
+                    "at most": float(motion.mean_life_upper),
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def shares(datasets) -> pd.DataFrame:
+    """Return the motions whose share of the starts is at least LISTED at some parameter value."""
+    rows = []
+    for stage in MATCHED:
+        for name, data in extract.damped(datasets, stage).items():
+            dimension = data.run_outcome.dims[0]
+            values, share = data[dimension].values, data.motion_starts.values / data.sizes["start"]
+            for motion in families(data):
+                row, column = np.nonzero(motion.places)
+                most = np.argmax(share[motion.places])
+                if share[row[most], column[most]] >= LISTED:
+                    rows.append(
+                        {"stage": stage, "data": name}
+                        | parameter_columns(data, "damping", "mass_ratio", "restitution")
+                        | {
+                            "motion": _in_words(motion),
+                            "over": dimension,
+                            "from": values[row[0]],
+                            "to": values[row[-1]],
+                            "values": len(row),
+                            "starts": motion.starts,
+                            "of starts at each": data.sizes["start"],
+                            "at": values[row[most]],
+                            "share": share[row[most], column[most]],
+                            "at least": data.share_lower.values[row[most], column[most]],
+                            "at most": data.share_upper.values[row[most], column[most]],
+                            "not seen, at most": float(data.missed_share),
+                        }
+                    )
+    return pd.DataFrame(rows)
+
+
+def _in_words(motion):
+    """Return the period of a periodic motion, or the outcome of another one, as text."""
+    period = f"period {motion.period}" if motion.outcome == "settled" else ""
+    return period or motion.outcome.replace("_", " ")

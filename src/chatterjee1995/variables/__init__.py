@@ -1,0 +1,1 @@
+"""Variables of datasets that only the paper has, a module for each subject."""

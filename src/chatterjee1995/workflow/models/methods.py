@@ -1,0 +1,187 @@
+"""Methods compared: verdicts on integrators, test cases (scenes) with references, settings.
+
+A verdict says whether an integrator finds the motion that exists in truth.
+"""
+
+from pydantic import create_model
+
+from chatterjee1995.methods.methods import (
+    ERRORS,
+    LIMITED,
+    LONGEST_PERIOD,
+    START_HARMONICS,
+    STATISTICS,
+    TOLERANCE_KEYS,
+    VERDICT_PERIODS_RANGE,
+)
+from chatterjee1995.workflow.models.contact import STEPS, TOLERANCES, close_steps
+from chatterjee1995.workflow.models.system import (
+    BOUNDS,
+    COMMON,
+    DAMPER,
+    FREQUENCY,
+    NEEDED,
+    RUN_PERIODS,
+    MaybeWithDamper,
+    WithOscillator,
+    keys_of,
+)
+from impact_damper.command.messages import problem
+from impact_damper.command.section import Section
+from impact_damper.command.values import choice, count, entries, number, several
+from impact_damper.model.bounds import (
+    FARTHEST,
+    HARMONIC_RANGE,
+    METHOD_TOLERANCE_RANGE,
+    PERIODS_RANGE,
+)
+
+COMPONENT = number("component of a state", least=-FARTHEST, most=FARTHEST)
+DECREASING = several(
+    number("tolerance of a method", **METHOD_TOLERANCE_RANGE), "decreasing tolerances", least=1
+)
+EVALUATIONS = count(
+    "evaluations of the equations of motion per forcing cycle", least=1, most=1000000
+)
+ORDER = count("order of the series", least=6, most=60)
+
+
+def state(meaning):
+    """Return the type of a state: displacement and velocity of Z1 and Z2."""
+    return several(COMPONENT, f"Z1, Z1', Z2, Z2': {meaning}", least=4, most=4)
+
+
+class FreeVerdict(Section):
+    """A motion without a damper near an orbit whose stability is known."""
+
+    frequency: FREQUENCY
+    orbit_frequency: number("W at which the orbit is found", **BOUNDS["frequency"])
+    near: state("state close to the orbit at W T = pi/2")
+    period: count(
+        "period of the orbit in forcing cycles, at most the number of states compared at the end",
+        least=1,
+        most=LONGEST_PERIOD,
+    )
+    offset: state("difference between the start of the run and the state of the orbit")
+    periods: count(
+        "forcing cycles of a run, at least the number of states compared", **VERDICT_PERIODS_RANGE
+    )
+    scipy_every: count(
+        "SciPy's slow methods are run at every tolerance whose position in the list is a multiple "
+        "of this number, or never if it is 0",
+        least=0,
+        most=100000,
+    )
+
+
+class DampedVerdict(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), FreeVerdict):
+    """A motion with a damper near an orbit whose stability is known."""
+
+
+class Verdicts(WithOscillator):
+    """Verdicts on integrators, by tolerance, on motions near orbits whose stability is known."""
+
+    tolerances: TOLERANCES
+    steps: STEPS
+    damped: entries(DampedVerdict, least=0)
+    free: entries(FreeVerdict, least=0)
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        yield from close_steps(path, self)
+        if not self.damped and not self.free:
+            reason = "must have an entry, here or in free (scenes to run)"
+            yield problem((*path, "damped"), {}, reason)
+        for name in sorted(self.damped.keys() & self.free.keys()):
+            reason = "must have another name (a damped scene is called the same)"
+            yield problem(
+                (*path, "free", name), self.free[name].model_dump(exclude_unset=True), reason
+            )
+
+
+class Accuracy(Section):
+    """The accuracy required on a scene: a quantity, and its largest acceptable error."""
+
+    quantity: choice("quantity whose error is judged", *ERRORS, *STATISTICS)
+    within: number("largest error accepted, 0 for a number of contacts", least=0, most=1)
+
+
+class Scene(MaybeWithDamper):
+    """Motions on which the errors and the work of methods and models are compared."""
+
+    frequency: FREQUENCY
+    state: state("first state, at W T = pi/2")
+    periods: RUN_PERIODS
+    motion: choice(
+        "steady (a periodic orbit with the period of the forcing), transient or chaotic",
+        "steady",
+        "transient",
+        "chaotic",
+    )
+    accuracy: Accuracy
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        chaotic, batch = self.motion == "chaotic", config.comparison.batch
+        if chaotic and not self.has_damper():
+            reason = "must have a damper (free motions are not chaotic here)"
+            yield problem((*path, "motion"), self.motion, reason)
+        if chaotic and self.periods < 2 * batch:
+            reason = f"must be at least twice comparison.batch = {batch} (errors need two batches)"
+            yield problem((*path, "periods"), self.periods, reason)
+        if chaotic != (self.accuracy.quantity in STATISTICS):
+            reason = f"must be another quantity (the motion is {self.motion})"
+            yield problem((*path, "accuracy", "quantity"), self.accuracy.quantity, reason)
+
+
+Evaluations = create_model(
+    "Evaluations",
+    __base__=Section,
+    __doc__="Numbers of evaluations after which a run of a slow integrator is given up.",
+    **dict.fromkeys(LIMITED, (EVALUATIONS, ...)),
+)
+ByTolerances = create_model(
+    "ByTolerances",
+    __base__=Section,
+    __doc__="Tolerances of the integrators that are compared, by the keys of their registry.",
+    **dict.fromkeys(TOLERANCE_KEYS, (DECREASING, ...)),
+)
+
+
+class Comparison(ByTolerances):
+    """Settings of the methods that are compared on the scenes."""
+
+    orders: several(
+        several(ORDER, "in flight and in contact", least=2, most=2),
+        "orders of the Taylor series in flight and in contact, compared with the package's own",
+        distinct=True,
+    )
+    evaluations: Evaluations
+    harmonics: count(
+        "highest harmonic (Newton's method for the exact orbit begins with "
+        f"{START_HARMONICS} harmonics)",
+        **HARMONIC_RANGE | {"least": START_HARMONICS},
+    )
+    batch: count(
+        "forcing cycles of a batch, a part of a chaotic run (errors follow from the scatter of the "
+        "averages of batches)",
+        least=1,
+        most=100000,
+    )
+    scipy_periods: count(
+        "forcing cycles of a chaotic run by SciPy's methods, at least two batches",
+        **PERIODS_RANGE | {"least": 2},
+    )
+
+    def contradictions(self, path, config):
+        for key in TOLERANCE_KEYS:
+            values = getattr(self, key)
+            if sorted(set(values), reverse=True) != values:
+                reason = "must decrease (each is run once, the loosest first)"
+                yield problem((*path, key), values, reason)
+        if self.scipy_periods < 2 * self.batch:
+            reason = f"must be at least twice batch = {self.batch} (errors need two batches)"
+            yield problem((*path, "scipy_periods"), self.scipy_periods, reason)
+
+
+SECTIONS = {"method_verdicts": Verdicts, "scenes": Scene}

@@ -1,0 +1,133 @@
+"""Chapter of the report: migration control, from one motion to another by switching the damper.
+
+A function with the name of a stage returns the parameters of its job for an entry of the
+configuration.
+"""
+
+from chatterjee1995.workflow.registry.records import PANELS, Kind, Stage, Table
+from chatterjee1995.workflow.registry.values import (
+    damper,
+    grid,
+    oscillator,
+    search,
+    settling,
+    system,
+)
+
+
+def migration(config, name):
+    entry = config["migration"][name]
+    return system(config, entry) | {
+        "frequency": entry["frequency"],
+        "controller": config["controller"] | {"longest_hold": entry["longest_hold"]},
+        "seed": config["seed"],
+        "settling": settling(config),
+    }
+
+
+def release_scan(config, name):
+    entry = config["release_scan"][name]
+    return system(config, entry) | {
+        "frequencies": grid(entry["frequencies"], config["points"]["scanned"]),
+        "search": search(config, "scan_starts"),
+        "releases": config["controller"]["releases"],
+        "lifetime": entry["lifetime"],
+        "settling": settling(config),
+    }
+
+
+def basins(config, name):
+    entry = config["basins"][name]
+    return system(config, entry) | {
+        "frequency": entry["frequency"],
+        "plane": {key: entry[key] for key in ("displacement", "velocity", "cells")},
+        "settling": settling(config),
+    }
+
+
+def release_policies(config, name):
+    entry = config["release_policies"][name]
+    keys = ("frequencies", "noisy_frequencies", "trials", "tested", "cells")
+    return {
+        "oscillator": oscillator(config, entry["oscillator"]),
+        "dampers": [damper(config, each) for _, each in sorted(entry["dampers"].items())],
+        "policies": {key: entry[key] for key in keys} | {"seed": config["seed"]},
+        "settling": settling(config),
+    }
+
+
+def release_dampers(config, name):
+    entry = config["release_dampers"][name]
+    keys = ("frequencies", "mass_ratios", "clearances", "restitutions", "cut")
+    more = ("trials", "starts", "cells")
+    return {
+        "oscillator": oscillator(config, entry["oscillator"]),
+        "dampers": {key: entry[key] for key in keys},
+        "numbers": {key: entry[key] for key in more} | {"seed": config["seed"]},
+        "settling": settling(config),
+    }
+
+
+TITLE = "Migration control"
+STAGES = (
+    Stage("migration", "migration", migration),
+    Stage("release_scan", "release_scan", release_scan),
+    Stage("basins", "basins", basins),
+    Stage("release_policies", "release_policies", release_policies),
+    Stage("release_dampers", "release_dampers", release_dampers),
+)
+KINDS = (
+    Kind("migration", ("migration",), PANELS.format("migration")),
+    Kind("release", ("migration",)),
+    Kind("basins", ("basins",), PANELS.format("basins"), damper=False, most=4),
+    Kind("release_policies", ("release_policies",), most=1),
+    Kind("release_disturbances", ("release_policies",), most=1),
+    Kind("release_dampers", ("release_dampers",), damper=False, most=1),
+)
+TABLES = (
+    Table(
+        "migration",
+        "chatterjee1995.tables.migration",
+        ("migration",),
+        "Destinations of releases, and outcomes, switchings and times of migration control.",
+    ),
+    Table(
+        "release_scan",
+        "chatterjee1995.tables.migration",
+        ("release_scan",),
+        "Frequencies at which releases of each damped motion lead to each free motion.",
+    ),
+    Table(
+        "release_policies",
+        "chatterjee1995.tables.policies",
+        ("release_policies",),
+        "When to switch the damper off: success and cycles of each policy, and the bound of a "
+        "controller that knows the future.",
+    ),
+    Table(
+        "release_predictions",
+        "chatterjee1995.tables.policies",
+        ("release_policies",),
+        "Predictions of the release set, tested with releases that were not used to build it, and "
+        "time of the policy by state compared with release at a random phase.",
+    ),
+    Table(
+        "release_disturbances",
+        "chatterjee1995.tables.policies",
+        ("release_policies",),
+        "Success of the policy by state under noise, delay and a wrong model, with the best "
+        "margin.",
+    ),
+    Table(
+        "release_dampers",
+        "chatterjee1995.tables.policies",
+        ("release_dampers",),
+        "The best clearance for migration by state, and for suppression, at each mass ratio.",
+    ),
+    Table(
+        "release_answers",
+        "chatterjee1995.tables.policies",
+        ("release_dampers",),
+        "The best damper for migration by state, and whether it is the best for suppression.",
+    ),
+)

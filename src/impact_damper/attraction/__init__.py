@@ -1,1 +1,0 @@
-"""Basins of attraction: the motion that each state leads to, and the boundaries between basins."""

@@ -1,0 +1,1 @@
+"""The command `impact-damper`, and the YAML files that describe machines."""

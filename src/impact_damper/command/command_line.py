@@ -1,0 +1,289 @@
+"""The command `impact-damper`: designs, simulations and reports for a machine in a YAML file."""
+
+import json
+import sys
+import warnings
+from importlib.metadata import version
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+MachineFile = Annotated[
+    Path, typer.Argument(exists=True, dir_okay=False, help="YAML file of machine, damper and band.")
+]
+Gap = Annotated[str, typer.Option(help='Full play of the loose mass, such as "3 mm".')]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
+Workers = Annotated[int, typer.Option(min=1, help="Threads; the result does not depend on it.")]
+# Exit code after Ctrl-C.
+INTERRUPTED = 130
+
+
+def tell_version(asked: bool):
+    """Print the version and exit if the option `--version` is given."""
+    if asked:
+        print(version("impact-damper"))
+        raise typer.Exit
+
+
+@app.callback()
+def main(
+    _: Annotated[
+        bool,
+        typer.Option("--version", callback=tell_version, is_eager=True, help="Print the version."),
+    ] = False,
+):
+    """Impact dampers for machines in SI units.
+
+    A YAML file describes machine, damper and band of frequencies. It must hold at least:
+
+    \b
+    machine: {mass: 12 kg, linear_stiffness: 2e5, damping_ratio: 0.5 %, force: 40}
+    damper: {mass: 0.6 kg, restitution: 0.7, contact_stiffness: 2e7}
+    band: [20 Hz, 21 Hz]
+
+    Plain numbers are in kg, N/m, N, m and Hz.
+
+    The documentation, "Describe a machine in a file", lists all keys.
+    """
+
+
+@app.command()
+def design(
+    machine_file: MachineFile,
+    output: Annotated[Path, typer.Option(help="Folder for data, page and kept steps.")] = "design",
+    workers: Workers = 2,
+    as_json: AsJson = False,
+):
+    """Find the gap to build, and how sure this choice is.
+
+    A design takes minutes. The same command continues an interrupted design.
+    """
+    from impact_damper.data.datasets import decode, save
+    from impact_damper.design.design_damper import design_damper
+
+    given = read(machine_file)
+    band = given["band"]
+    found = design_damper(
+        machine(given),
+        **given["damper"],
+        band=(band["first"], band["last"]),
+        frequencies=band["points"],
+        **{key: given[key] for key in ("candidates", "starts", "share", "tolerances")},
+        displacement_limit=given.get("displacement_limit"),
+        contact=hertz_contact(given),
+        workers=workers,
+        progress=not as_json,
+        folder=output / "steps",
+    )
+    output.mkdir(parents=True, exist_ok=True)
+    save(found, output / "design.nc")
+    page = write_report(found, machine_file.stem, output / "design.nc", output)
+    words = json.loads(found.attrs["conclusion"])
+    numbers = {
+        "design_gap_mm": float(found["design_gap"]),
+        "design_choice": decode(found["design_choice"]).item(),
+        "promise": decode(found["promise"]).item(),
+        "displacement_limit_mm": float(found["displacement_limit"]),
+        "conclusion": words,
+        "page": str(page),
+        "data": str(output / "design.nc"),
+    }
+    tell(as_json, [*words, f"The page: {page}"], numbers)
+
+
+@app.command()
+def simulate(
+    machine_file: MachineFile,
+    frequency: Annotated[str, typer.Option(help='Forcing frequency, such as "24 Hz".')],
+    gap: Gap = None,
+    state: Annotated[
+        str, typer.Option(help="Initial x, x', z, z'; z is relative to the loose mass.")
+    ] = "0, 0, 0, 0",
+    periods: Annotated[float, typer.Option(help="Length in forcing cycles.")] = 200,
+    output: Annotated[Path, typer.Option(help="NetCDF file of the motion.")] = None,
+    as_json: AsJson = False,
+):
+    """Integrate one motion, without the damper if no gap is given."""
+    import numpy as np
+
+    from impact_damper.data.arguments import takes_machine
+    from impact_damper.motions import simulate as motions
+
+    given = read(machine_file)
+    motion = takes_machine(motions.simulate)(
+        machine(given),
+        damper(given, gap),
+        quantity(frequency),
+        tuple(map(quantity, state.split(","))),
+        periods=periods,
+    )
+    last = motion["displacement"].values[-len(motion["time"]) // 10 :]
+    largest = float(np.abs(last).max())
+    contacts = motion.sizes["contact"]
+    words = [
+        f"Largest displacement in the last tenth of {periods:g} periods: {largest:.4g} mm.",
+        f"Contacts: {contacts}.",
+    ]
+    numbers = {"largest_displacement_mm": largest, "contacts": contacts}
+    tell(as_json, words + kept(motion, output), numbers)
+
+
+@app.command()
+def response(
+    machine_file: MachineFile,
+    gap: Gap = None,
+    starts: Annotated[int, typer.Option(min=1, help="Random starts at each frequency.")] = 96,
+    output: Annotated[Path, typer.Option(help="NetCDF file of the response.")] = None,
+    workers: Workers = 2,
+    as_json: AsJson = False,
+):
+    """Find all motions over the band, without the damper if no gap is given."""
+    import numpy as np
+
+    from impact_damper.data.arguments import takes_machine
+    from impact_damper.data.datasets import is_settled
+    from impact_damper.model.units import si_value
+    from impact_damper.motions.response import frequency_response
+
+    given = read(machine_file)
+    band = given["band"]
+    ends = (si_value("band", band[end], "frequency") for end in ("first", "last"))
+    found = takes_machine(frequency_response)(
+        machine(given),
+        damper(given, gap),
+        np.linspace(*ends, band["points"]),
+        starts=starts,
+        workers=workers,
+        progress=None if as_json else "response",
+    )
+    rows = []
+    for i, hertz in enumerate(found["frequency"].values):
+        each = found.isel(frequency=i)
+        exists = each["outcome"] >= 0
+        sizes = each["maximum_displacement"].values[exists]
+        settled = is_settled(each)[exists]
+        rows.append(
+            {
+                "frequency_hz": float(hertz),
+                "settled_mm": sorted(float(x) for x in sizes[settled]),
+                "other_mm": sorted(float(x) for x in sizes[~settled]),
+            }
+        )
+    words = ["Hz        largest displacement of each motion, mm (in brackets if not periodic)"]
+    for row in rows:
+        sizes = [f"{x:.4g}" for x in row["settled_mm"]] + [f"({x:.4g})" for x in row["other_mm"]]
+        words.append(f"{row['frequency_hz']:<9.4g} {'  '.join(sizes)}")
+    tell(as_json, words + kept(found, output), {"response": rows})
+
+
+@app.command()
+def report(
+    data: Annotated[Path, typer.Argument(exists=True, help="design.nc of `impact-damper design`.")],
+    output: Annotated[
+        Path, typer.Option(help="Folder for the page; by default the folder of the design.")
+    ] = None,
+    as_json: AsJson = False,
+):
+    """Write the page of a finished design again, from its data."""
+    from impact_damper.data.datasets import load
+
+    found = load(data)
+    if "promise" not in found:
+        title = found.attrs["title"]
+        raise ValueError(f"{data}: must be the design.nc of a design; its title is {title}")
+    page = write_report(found, data.stem, data, output or data.parent)
+    tell(as_json, [f"The page: {page}"], {"page": str(page)})
+
+
+def read(path):
+    """Return the content of a machine's YAML file, as `machine_file.read_machine_file` does.
+
+    Here and below modules are imported where they are used, so that `--help` answers fast.
+    """
+    from impact_damper.command.machine_file import read_machine_file
+
+    return read_machine_file(path)
+
+
+def machine(given):
+    """Return the machine of a file's content."""
+    from impact_damper.model.machine import Machine
+
+    return Machine(**given["machine"])
+
+
+def hertz_contact(given):
+    """Return the contact after Hertz's theory, or None if the file has no key `contact`."""
+    from impact_damper.model.hertz import HertzContact
+
+    ball = given.get("contact")
+    return HertzContact.of_ball(**ball) if ball else None
+
+
+def damper(given, gap):
+    """Return the damper with a gap, or None without a gap.
+
+    If the contact stiffness is not given, it is computed as the command `design` does.
+    """
+    from impact_damper.design.stiffness import contact_stiffness_of
+
+    if gap is None:
+        return None
+    owner, values = machine(given), given["damper"]
+    band = given["band"]["first"], given["band"]["last"]
+    stiffness = contact_stiffness_of(
+        owner, values["mass"], band, values.get("contact_stiffness"), hertz_contact(given)
+    )
+    return owner.damper(**values | {"contact_stiffness": stiffness}, gap=quantity(gap))
+
+
+def quantity(text):
+    """Return the number that a text holds, or the text itself if it has a unit."""
+    try:
+        return float(text)
+    except ValueError:
+        return text.strip()
+
+
+def write_report(data, name, file, folder):
+    """Write the page of a design, kept in a file, into a folder; return the path of the page."""
+    from impact_damper.plot.pages.machine import FIGURES, machine_page
+    from impact_damper.plot.pages.render import write_page
+
+    write_page(machine_page(name, data, file.name), FIGURES, data, folder)
+    return folder / "index.html"
+
+
+def kept(data, output):
+    """Save a dataset if a file is given; return a list with the line that reports it, or []."""
+    if output is None:
+        return []
+    from impact_damper.data.datasets import save
+
+    save(data, output)
+    return [f"The data: {output}"]
+
+
+def tell(as_json, words, numbers):
+    """Print lines for people, or one JSON object."""
+    print(json.dumps(numbers) if as_json else "\n".join(words))
+
+
+def run():
+    """Run the command; a wrong argument ends it with a message but no traceback."""
+    warnings.showwarning = lambda message, *rest: print(f"Warning: {message}", file=sys.stderr)
+    try:
+        app()
+    except (TypeError, ValueError, OSError) as error:
+        sys.exit(f"Error: {error}")
+    except SystemExit as end:
+        if end.code == INTERRUPTED:
+            words = "Finished steps of a design are kept; the same command continues the design."
+            print(f"\nInterrupted. {words}", file=sys.stderr)
+        raise

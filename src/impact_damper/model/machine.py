@@ -1,0 +1,311 @@
+"""A machine on a spring, with its excitation, in SI units."""
+
+import math
+from dataclasses import dataclass, fields
+from functools import cached_property
+
+from impact_damper.model.bounds import DAMPING_RANGE, FREQUENCY_RANGE, shown
+from impact_damper.model.dampers import MachineDamper
+from impact_damper.model.names import names_arguments
+from impact_damper.model.parameters import Oscillator
+from impact_damper.model.scales import Scales, static_deflection
+from impact_damper.model.units import check_si, convert, physical, with_unit
+
+EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
+# Largest damping ratio for which `Machine.oscillator` approximates the force of a moving base over
+# a range of frequencies. The relative error is then below 2e-4 up to 5 times the natural frequency.
+LIGHT = 0.02
+# Largest damping ratio. At 1, critical damping, the machine no longer vibrates.
+MOST_DAMPING = 0.99
+
+
+@names_arguments
+@dataclass(frozen=True, kw_only=True)
+class Machine:
+    """A mass on a spring and a dashpot with its excitation, in SI units.
+
+    Each value is a number in the SI unit, text with units such as "12 kg", or a quantity of pint;
+    the fields hold numbers. The restoring force at the deflection x is
+    linear_stiffness x + cubic_stiffness x^3. Give either the damping ratio or the damping, and one
+    excitation.
+
+    The public functions of the package that take an oscillator take a machine too. Their
+    frequencies are then in Hz, states in m and m/s, and the datasets they return in mm, Hz, N, m/s
+    and s.
+
+    Attributes
+    ----------
+    mass : float
+        kg, without the loose mass of a damper.
+    linear_stiffness, cubic_stiffness : float
+        N/m and N/m^3. A negative cubic stiffness softens the spring.
+    damping_ratio : float
+        Damping divided by the critical damping for the linear stiffness, at most MOST_DAMPING.
+    damping : float
+        Coefficient of the dashpot, N s/m.
+    force : float
+        Amplitude of a harmonic force, N; 0 for an unforced decay.
+    base_displacement, base_acceleration : float
+        Amplitude of a harmonic motion of the base, m or m/s^2; the spring must be linear. All
+        displacements are then measured in a frame at rest and not relative to the base, because the
+        loose mass of a damper feels no force from the base. Spring and dashpot exert a force of
+        amplitude A sqrt(k^2 + c^2 w^2) on the machine, with the displacement A of the base; A =
+        a/w^2 if the acceleration a is given.
+    unbalance : float
+        Mass times eccentricity of a rotating unbalance, kg m; its force is unbalance w^2.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is missing or out of range, or if two values exclude each other.
+
+    Examples
+    --------
+    >>> machine = Machine(
+    ...     mass="12 kg", linear_stiffness=2e5, damping_ratio="0.5 %", force="40 N"
+    ... )
+    >>> machine.damper(mass="0.6 kg", gap="3 mm", restitution=0.8, contact_stiffness=2e7).gap
+    0.003
+    """
+
+    mass: float = physical("mass", least=1e-15, most=1e15)
+    linear_stiffness: float = physical("stiffness", least=0, most=1e30, default=0.0)
+    cubic_stiffness: float = physical("cubic_stiffness", least=-1e30, most=1e30, default=0.0)
+    damping_ratio: float | None = physical(
+        "number",
+        above=0,
+        most=MOST_DAMPING,
+        why="at 1, critical damping, nothing vibrates; 1 per cent is 0.01 or '1 %'",
+        default=None,
+    )
+    damping: float | None = physical("damping", above=0, default=None)
+    force: float | None = physical("force", least=0, most=1e15, default=None)
+    base_displacement: float | None = physical("displacement", above=0, most=1e3, default=None)
+    base_acceleration: float | None = physical("acceleration", above=0, most=1e9, default=None)
+    unbalance: float | None = physical("unbalance", above=0, most=1e15, default=None)
+
+    def __post_init__(self):
+        convert(self)
+        self._check_spring()
+        self._check_damping()
+        given = [name for name in EXCITATIONS if getattr(self, name) is not None]
+        if len(given) != 1:
+            names = " and ".join(given) or "none of them"
+            raise ValueError(
+                f"excitation = {names}: must be one of {', '.join(EXCITATIONS)}, and one alone"
+            )
+        if given[0].startswith("base") and self.cubic_stiffness:
+            instead = "force" if given == ["base_acceleration"] else "unbalance"
+            raise ValueError(
+                f"cubic_stiffness = {with_unit(self.cubic_stiffness, 'N/m^3')}: must be 0 with "
+                f"{given[0]} (relative to the base, the loose mass would feel the base's "
+                "acceleration too; in a frame at rest the spring's force would not be harmonic). "
+                f"Without a damper, mass times {given[0]} as {instead} gives the motion relative "
+                "to the base"
+            )
+
+    def _check_spring(self):
+        if self.linear_stiffness == 0 and self.cubic_stiffness <= 0:
+            raise ValueError(
+                f"linear_stiffness = {with_unit(0.0, 'N/m')}: must be greater than 0 N/m with "
+                f"cubic_stiffness = {with_unit(self.cubic_stiffness, 'N/m^3')} (without a force "
+                "that restores it the machine drifts away)"
+            )
+
+    def _check_damping(self):
+        if (self.damping_ratio is None) == (self.damping is None):
+            raise ValueError("damping: must be given, or damping_ratio in its place, and not both")
+        critical = 2 * math.sqrt(self.linear_stiffness * self.mass)
+        if self.damping_ratio is not None and not critical:
+            raise ValueError(
+                f"damping_ratio = {self.damping_ratio:g}: must be left out without linear_stiffness"
+                ", for damping in N s/m (there is no critical damping)"
+            )
+        if self.damping is not None and critical:
+            why = f"{MOST_DAMPING:g} of critical damping, near which nothing vibrates"
+            check_si("damping", self.damping, "damping", most=MOST_DAMPING * critical, why=why)
+        bounds = self.scales.range_to_si(DAMPING_RANGE, "damping")
+        check_si("damping", self.viscous_damping, "damping", **bounds)
+
+    @property
+    def viscous_damping(self) -> float:
+        """Coefficient c of the dashpot, N s/m."""
+        if self.damping is not None:
+            return self.damping
+        return 2 * self.damping_ratio * math.sqrt(self.linear_stiffness * self.mass)
+
+    @property
+    def natural_frequency(self) -> float:
+        """Frequency of small unforced, undamped vibrations, Hz; 0 without linear stiffness."""
+        return math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
+
+    @cached_property
+    def scales(self) -> Scales:
+        """Scales with which the dimensionless equations describe the machine.
+
+        The length is the geometric mean of the static deflection and the displacement at resonance.
+        With this length small motions, large motions and useful gaps are all of the order 1. In
+        these scales omega_l^2 + |k3| = 1. Without a force the static deflection is replaced by the
+        deflection at which the linear and the cubic part of the spring's force are equal, or by 1
+        mm if the spring has only one part.
+        """
+        stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
+        length = math.sqrt(self._static_deflection() * self.resonant_displacement)
+        return Scales(length, math.sqrt(self.mass / (stiffness + cubic * length**2)), self.mass)
+
+    def _static_deflection(self):
+        """Return the deflection under the force, m.
+
+        For an unbalance it is unbalance over mass, for a moving base the displacement of the base
+        or the deflection under the base's acceleration.
+        """
+        stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
+        if self.force:
+            return static_deflection(self.force, stiffness, cubic)
+        if self.unbalance is not None:
+            return self.unbalance / self.mass
+        if self.base_displacement is not None:
+            return self.base_displacement
+        if self.base_acceleration is not None:
+            return self.base_acceleration * self.mass / stiffness
+        return math.sqrt(stiffness / cubic) if stiffness and cubic else 1e-3
+
+    @property
+    def resonant_displacement(self) -> float:
+        """Displacement of a linear machine at resonance, m: the static deflection times m w/c.
+
+        It is at least the static deflection. With a hardening spring the true displacement is
+        smaller. w^2 is the stiffness at the static deflection divided by the mass.
+        """
+        static = self._static_deflection()
+        stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
+        return static * max(1.0, math.sqrt(stiffness * self.mass) / self.viscous_damping)
+
+    @property
+    def static_force(self) -> float:
+        """Force that holds the machine at its static deflection, N; 0 without excitation."""
+        if self.force is not None:
+            return self.force
+        x = self._static_deflection()
+        return self.linear_stiffness * x + abs(self.cubic_stiffness) * x**3
+
+    def oscillator(self, frequency=None) -> Oscillator:
+        """Return the dimensionless oscillator: the machine in its scales.
+
+        Parameters
+        ----------
+        frequency : float, optional
+            Forcing frequency, Hz. With a moving base the force of the oscillator then holds for
+            this frequency alone. Without this argument the force is approximated by
+            A (k + c^2 w^2/(2 k)), with A = a/w^2 for `base_acceleration`. Its relative error is
+            (2 damping_ratio w/wn)^4/8 at the angular frequency w; wn is the natural one.
+
+        Raises
+        ------
+        ValueError
+            If the base moves, no frequency is given, and this approximation does not hold.
+        """
+        scales = self.scales
+        force, unbalance, shaker = self.forcing(frequency)
+        return Oscillator(
+            damping=scales.from_si(self.viscous_damping, "damping"),
+            linear_frequency=math.sqrt(scales.from_si(self.linear_stiffness, "stiffness")),
+            cubic=scales.from_si(self.cubic_stiffness, "cubic_stiffness"),
+            force=scales.from_si(force, "force"),
+            unbalance=scales.from_si(unbalance, "unbalance"),
+            shaker=scales.from_si(shaker, "shaker"),
+        )
+
+    def forcing(self, frequency=None) -> tuple[float, float, float]:
+        """Return F (N), U (kg m) and V (N/s^2) of the amplitude F + U w^2 + V/w^2 of the force.
+
+        The argument is as for `oscillator`.
+        """
+        if self.force is not None:
+            return self.force, 0.0, 0.0
+        if self.unbalance is not None:
+            return 0.0, self.unbalance, 0.0
+        stiffness, damping = self.linear_stiffness, self.viscous_damping
+        if frequency is not None:
+            angular = 2 * math.pi * frequency
+            amplitude = self.base_displacement or self.base_acceleration / angular**2
+            return amplitude * math.hypot(stiffness, damping * angular), 0.0, 0.0
+        ratio = damping / (2 * math.sqrt(stiffness * self.mass))
+        given = "base_acceleration" if self.base_displacement is None else "base_displacement"
+        why = f"for a range of frequencies with {given}: the force is approximated"
+        check_si("damping_ratio", ratio, "number", most=LIGHT, why=why)
+        softness = damping**2 / (2 * stiffness)
+        if self.base_displacement is None:
+            return self.base_acceleration * softness, 0.0, self.base_acceleration * stiffness
+        return self.base_displacement * stiffness, self.base_displacement * softness, 0.0
+
+    def check_frequency(self, name, value) -> float:
+        """Return a forcing frequency in Hz, or raise an error that names the allowed range."""
+        bounds = self.scales.range_to_si(FREQUENCY_RANGE, "frequency")
+        return check_si(name, value, "frequency", **bounds, why=FREQUENCY_RANGE["why"])
+
+    def damper(self, *, mass, gap=None, clearance_each_side=None, **contact) -> MachineDamper:
+        """Return a damper for this machine.
+
+        Parameters
+        ----------
+        mass : float, str or pint.Quantity
+            kg.
+        gap : float, str or pint.Quantity, optional
+            Full play of the loose mass from wall to wall, m.
+        clearance_each_side : float, str or pint.Quantity, optional
+            Half of the gap, from the centred loose mass to either wall, m; in place of `gap`.
+        contact
+            The other arguments of `MachineDamper`: restitution, contact_stiffness or contact.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If a value is out of range, in general or for this machine.
+        """
+        if (gap is None) == (clearance_each_side is None):
+            raise ValueError(
+                "gap: must be given, the full play, or clearance_each_side in its place, and not "
+                "both"
+            )
+        if "each side" in getattr(gap, "attrs", {}).get("long_name", ""):
+            raise ValueError(
+                f"gap = {gap.item():g} {gap.units}: must be the full play; for a clearance of a "
+                "dataset, which is the clearance on each side, use clearance_each_side"
+            )
+        if gap is None:
+            name = "clearance_each_side"
+            gap = 2 * check_si(name, clearance_each_side, "clearance", above=0)
+        damper = MachineDamper(mass=mass, gap=gap, **contact)
+        damper.check_for(self)
+        return damper
+
+
+def check_fit(machine, damper):
+    """Raise TypeError or ValueError unless the damper fits the machine."""
+    if not isinstance(machine, Machine):
+        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
+    if not isinstance(damper, MachineDamper):
+        raise TypeError(f"damper = {shown(damper)}: must be a MachineDamper, by machine.damper")
+    damper.check_for(machine)
+
+
+def describe_si(machine, damper=None) -> dict:
+    """Return the given values of a machine and its damper, keyed by name, in SI units.
+
+    The mass of the damper is called `damper_mass`, its gap is the full play.
+    """
+    found = {
+        each.name: getattr(machine, each.name)
+        for each in fields(machine)
+        if getattr(machine, each.name) is not None
+    }
+    if damper is not None:
+        found |= {
+            "damper_mass": damper.mass,
+            "gap": damper.gap,
+            "restitution": damper.restitution,
+        }
+        if damper.contact_stiffness is not None:
+            found["contact_stiffness"] = damper.contact_stiffness
+    return found

@@ -1,0 +1,231 @@
+"""Physical quantities in SI units, from numbers, texts such as "0.4 mm", and quantities of pint.
+
+pint takes a third of a second to import, so it is imported only where a text or a quantity of pint
+is given. This module imports no NumPy either, since Snakemake reads it at every dry run.
+"""
+
+import math
+import numbers
+import re
+from dataclasses import field, fields
+from functools import cache
+from typing import NamedTuple
+
+from impact_damper.model.bounds import check_number, shown
+
+
+class Quantity(NamedTuple):
+    """A kind of physical quantity.
+
+    Attributes
+    ----------
+    unit : str
+        SI unit of plain numbers.
+    length, time, mass : int
+        Exponents of the dimensions.
+    shown : str
+        Unit in datasets, if it differs from `unit`.
+    factor : float
+        Value of 1 `unit` in the unit of datasets, such as 1000 for m in mm.
+    """
+
+    unit: str
+    length: int = 0
+    time: int = 0
+    mass: int = 0
+    shown: str = ""
+    factor: float = 1.0
+
+    @property
+    def label(self) -> str:
+        """Unit in datasets, "1" for a number."""
+        return self.shown or self.unit or "1"
+
+
+# Keyed by name. The field `quantity` of a registered variable is one of these names.
+QUANTITIES = {
+    "number": Quantity(""),
+    "mass": Quantity("kg", mass=1),
+    "displacement": Quantity("m", length=1, shown="mm", factor=1e3),
+    "clearance": Quantity("m", length=1, shown="mm", factor=1e3),
+    "time": Quantity("s", time=1),
+    "frequency": Quantity("Hz", time=-1),
+    "rate": Quantity("1/s", time=-1),
+    "sweep_rate": Quantity("Hz/s", time=-2),
+    "velocity": Quantity("m/s", length=1, time=-1),
+    "acceleration": Quantity("m/s^2", length=1, time=-2),
+    "force": Quantity("N", length=1, time=-2, mass=1),
+    "stiffness": Quantity("N/m", time=-2, mass=1),
+    "cubic_stiffness": Quantity("N/m^3", length=-2, time=-2, mass=1),
+    "damping": Quantity("N s/m", time=-1, mass=1),
+    "unbalance": Quantity("kg m", length=1, mass=1),
+    "shaker": Quantity("N/s^2", length=1, time=-4, mass=1),
+    "pressure": Quantity("Pa", length=-1, time=-2, mass=1),
+    "impulse": Quantity("N s", length=1, time=-1, mass=1),
+    "energy": Quantity("J", length=2, time=-2, mass=1),
+    "power": Quantity("W", length=2, time=-3, mass=1),
+    "impulse_noise": Quantity("N^2 s", length=2, time=-3, mass=2),
+}
+# Text may hold only a number and units with powers. pint would evaluate any expression, which could
+# take arbitrarily long.
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
+TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")
+LONGEST_TEXT = 80
+# Text with two numbers joined by an operator, such as "0.05 kg * 40 mm".
+CALCULATION = re.compile(r"\s*[\d.][^*/·+]*[*/·+]\s*[\d.].*")
+
+
+def si_value(name, value, quantity) -> float:
+    """Return a physical quantity as a number in its SI unit.
+
+    Frequencies are in Hz. Angular frequencies with a unit ("188 rad/s", "1800 rpm") are divided by
+    2 pi, which pint by itself does not do.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for messages.
+    value : float, str, pint.Quantity or xarray.DataArray
+        A number in the SI unit, text with units, a quantity of any registry of pint, or a single
+        value of a dataset in the unit of its attribute `units`.
+    quantity : str
+        A key of QUANTITIES.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the value is none of these, not finite, or of another quantity.
+    """
+    value = _from_dataset(value)
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
+        return check_number(name, value)
+    unit = QUANTITIES[quantity].unit
+    allowed = f"must be a number in {unit}, or text with a unit such as {unit}"
+    if not unit:
+        allowed = 'must be a number, or text such as "0.5 %"'
+    if isinstance(value, str):
+        parts = TEXT.fullmatch(value) if len(value) <= LONGEST_TEXT else None
+        if parts is None:
+            raise ValueError(f"{name} = {shown(value)}: {allowed}{wrong_unit(value, quantity)}")
+        number, text = float(parts[1]), parts[2] or ""
+    elif hasattr(value, "magnitude") and hasattr(value, "units"):
+        number, text = value.magnitude, str(value.units)
+        if isinstance(number, bool) or not isinstance(number, numbers.Real):
+            raise TypeError(f"{name} = {shown(value)}: {allowed}")
+    else:
+        raise TypeError(f"{name} = {shown(value)}: {allowed}")
+    factor = _factor(text, unit)
+    if factor is None:
+        raise ValueError(f"{name} = {shown(str(value))}: {allowed}{wrong_unit(value, quantity)}")
+    return check_number(name, float(number) * factor)
+
+
+def wrong_unit(value, quantity) -> str:
+    """Return a remark in brackets on the wrong unit of a value, or "" if the unit is not wrong.
+
+    The arguments are as in `si_value`.
+    """
+    if not isinstance(value, str) or len(value) > LONGEST_TEXT or not QUANTITIES[quantity].unit:
+        return ""
+    parts = TEXT.fullmatch(value)
+    if parts is None:
+        product = CALCULATION.fullmatch(value)
+        return " (write the result of the calculation, as one number with a unit)" * bool(product)
+    unit = parts[2]
+    if unit is None:
+        return " (this text has no unit)"
+    if _factor(unit, unit) is None:
+        return f" ({unit} is no known unit)"
+    target = QUANTITIES[quantity].unit
+    return "" if _factor(unit, target) else f" ({unit} cannot be converted to {target})"
+
+
+def _from_dataset(value):
+    """Return a single value of a dataset as text with its unit; return other values unchanged."""
+    if getattr(value, "ndim", None) != 0 or hasattr(value, "magnitude"):
+        return value
+    units = getattr(value, "attrs", {}).get("units")
+    if units is None:
+        return value.item()
+    return f"{value.item()!r} {units}".removesuffix(" 1")
+
+
+@cache
+def _factor(text, unit):
+    """Return the factor from a unit to an SI unit; None if unknown or of another quantity."""
+    import pint
+
+    registry = _registry()
+    try:
+        one = registry.Quantity(1.0, registry.Unit(text)).to_root_units()
+        target = registry.Quantity(1.0, registry.Unit(unit)).to_root_units()
+        factor = (one / target).to_root_units()
+    except (pint.PintError, AttributeError, ValueError, TypeError):
+        return None
+    turns = 2 * math.pi if unit in ("Hz", "Hz/s") and "radian" in str(one.units) else 1.0
+    return factor.magnitude / turns if factor.dimensionless else None
+
+
+@cache
+def _registry():
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def check_si(name, value, quantity, *, above=None, least=None, most=None, why="") -> float:
+    """Return a physical quantity in its SI unit, or raise an error with the bounds in that unit.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As in `si_value`, or if the value is outside the bounds.
+    """
+    number, unit = si_value(name, value, quantity), QUANTITIES[quantity].unit
+    if (
+        (above is None or number > above)
+        and (least is None or number >= least)
+        and (most is None or number <= most)
+    ):
+        return number
+    bounds = {"greater than": above, "at least": least, "at most": most}
+    allowed = [
+        f"{word} {with_unit(bound, unit)}" for word, bound in bounds.items() if bound is not None
+    ]
+    reason = f" ({why})" if why else ""
+    given = shown(value) if isinstance(value, str) else with_unit(number, unit)
+    raise ValueError(f"{name} = {given}: must be {' and '.join(allowed)}{reason}")
+
+
+def with_unit(value, unit) -> str:
+    """Return a number with its unit as text."""
+    return f"{value:.6g} {unit}".rstrip()
+
+
+def physical(quantity, **others):
+    """Return a dataclass field for a physical quantity.
+
+    `others` are bounds as in `check_si`, in SI units, and `default`.
+    """
+    default = {key: others.pop(key) for key in ("default",) if key in others}
+    return field(metadata={"quantity": quantity, "bounds": others}, **default)
+
+
+def convert(part) -> None:
+    """Replace the fields of a frozen dataclass made by `physical` by numbers in SI units.
+
+    A field whose default is None may keep the value None.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As in `check_si`.
+    """
+    for each in fields(part):
+        value = getattr(part, each.name)
+        if "quantity" in each.metadata and not (value is None and each.default is None):
+            number = check_si(
+                each.name, value, each.metadata["quantity"], **each.metadata["bounds"]
+            )
+            object.__setattr__(part, each.name, number)

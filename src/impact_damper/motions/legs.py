@@ -1,0 +1,180 @@
+"""Legs of a run of migration control: the motions between two switchings of the damper.
+
+A leg begins when the damper is switched, at any phase of the forcing. Z1 and Z1' are continuous at
+the switching. A leg ends at the first strobe at which the motion is near a stable orbit, or after a
+given number of strobes. A strobe is the time in each forcing cycle at which the forcing has the
+phase W T = pi/2 (`motions.strobe_map`). The state is not moved onto the orbit, so that a run is one
+continuous motion.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass and d0
+the clearance.
+"""
+
+import math
+
+import numpy as np
+
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.equation import has_escaped
+from impact_damper.kernel.single import assign, side_of, workspace
+from impact_damper.kernel.tangents import advance
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
+from impact_damper.motions.records import ESCAPED, NEVER, UNRESOLVED, measure
+from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
+from impact_damper.motions.traces import trace
+from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
+
+# An orbit captures a run after the last strobe at which the run differs from the orbit by more than
+# CAPTURE in Z1 or Z1'.
+CAPTURE = 0.1
+# Forcing cycles in one call of a compiled function. Ctrl-C takes effect only after a call, so a
+# call must take no more than a fraction of a second.
+STROBES_AT_ONCE = 50_000
+
+
+class Stopped(Exception):
+    """Raised in a thread whose run another thread has ended."""
+
+
+def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
+    """Run a motion from any phase of the forcing until it is near a stable orbit.
+
+    The run ends at the latest at strobe number `limit`, counted from 0.
+
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+        Packed parameters.
+    y : array, shape (4,)
+        State at the beginning, replaced by the last state.
+    ahead : float
+        Forcing cycles from the beginning to the first strobe.
+    strobe : float
+        Number of the first strobe of this leg, counted from the first strobe of the first leg.
+    tolerance : float
+        Largest local error of a step.
+    limit : int
+        Number of the last strobe, counted from 0.
+    path : array, shape (limit + 2, 5)
+        Receives a row for the beginning and for each strobe: time in forcing cycles, then the
+        state.
+    out : records.MOTION
+        Receives outcome, period and periods_run, and the state on the orbit if the motion settled.
+    stop : array of bool, shape (1,)
+        Another thread may set this flag to end the run.
+
+    Raises
+    ------
+    Stopped
+        If `stop[0]` is true.
+    """
+    out["outcome"], out["period"], out["maximum_displacement"] = UNRESOLVED, 0, np.nan
+    path[0, 0], path[0, 1:] = strobe - ahead, y
+    t = strobe_time(p)
+    begin = t - ahead * 2.0 * math.pi / p[FREQUENCY]
+    side, near, ring = side_of(p, y), NEAR, np.empty((RING, 4))
+    side, _, _ = advance(p, y, np.empty((0, 4)), side, begin, t, tolerance, workspace())
+    for first in range(0, limit + 1, STROBES_AT_ONCE):
+        if stop[0]:
+            raise Stopped
+        last = min(first + STROBES_AT_ONCE, limit + 1)
+        side, near = run_strobes(
+            p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out
+        )
+        if out["outcome"] != UNRESOLVED:
+            break
+
+
+@kernel
+def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
+    """Do the part of `run` from strobe `first` to the strobe before `last`.
+
+    Return the wall in contact (-1, 1, or 0 for none), and the distance from an orbit below which
+    Newton's method is tried next.
+    """
+    work = workspace()
+    none = np.empty((0, 4))
+    for k in range(first, last):
+        path[k + 1, 0] = strobe + k
+        assign(path[k + 1, 1:], y)
+        assign(ring[k % RING], y)
+        out.periods_run = k
+        if has_escaped(p, y[0], y[1]):
+            out.outcome = ESCAPED
+            break
+        n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, near)
+        if n > 0:
+            orbit = y.copy()
+            if move_onto_orbit(p, orbit, n, near, out):
+                assign(out.state, orbit)
+                break
+            near = max(0.1 * near, NEAREST)
+        if k < limit:
+            side, _, _ = one_period(p, y, none, side, tolerance, work)
+    return side, near
+
+
+def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop=NEVER):
+    """Wait after a strobe, switch the damper, call `run`, and measure a settled motion.
+
+    Parameters
+    ----------
+    before, after : array, shape (packed.COUNT,)
+        Packed parameters before and after the switching, one of them without the damper.
+    y : array, shape (4,)
+        State at the strobe, replaced by the state at the last strobe.
+    wait : float
+        Forcing cycles from the strobe to the switching.
+    place : float
+        Z2/d0 of the loose mass when the damper is switched on. The loose mass is then at rest
+        relative to the primary mass. Not used when the damper is switched off.
+    strobe : float
+        Number of this strobe, at which the waiting begins.
+    tolerance, limit, path, stop
+        Arguments of `run`.
+    out : array of records.MOTION, shape (1,)
+        Filled by `run` and, for a settled motion, by `measure`.
+
+    Returns
+    -------
+    float
+        Number of the last strobe.
+    """
+    none = np.empty((0, 4))
+    t = strobe_time(before)
+    end = t + wait * 2.0 * math.pi / before[FREQUENCY]
+    advance(before, y, none, side_of(before, y), t, end, tolerance, workspace())
+    if after[CLEARANCE] == math.inf:
+        y[2], y[3] = y[0], y[1]
+    else:
+        y[2], y[3] = place * after[CLEARANCE], 0.0
+    strobe += math.floor(wait) + 1.0
+    record = out[0]
+    run(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, record, stop)
+    if record["period"] > 0:
+        measure(after[None], tolerance, 0, out, NEVER)
+    return strobe + record["periods_run"]
+
+
+def life(p, path, record, tolerance):
+    """Return the forcing cycles after which a run stays within CAPTURE of its final orbit.
+
+    Parameters
+    ----------
+    p : array, shape (COUNT,)
+        Packed parameters.
+    path : array
+        Path of the run, from `run`.
+    record : records.MOTION
+        The motion that the run settled to.
+    tolerance : float
+        Largest local error of a step.
+    """
+    orbit = np.empty((record["period"], 4))
+    begin = strobe_time(p)
+    strobes = begin + np.arange(len(orbit)) * 2.0 * math.pi / p[FREQUENCY]
+    trace(p, record["state"].copy(), begin, strobes, tolerance, orbit, np.empty((0, 5)))
+    last = record["periods_run"]
+    there = orbit[np.arange(-last, 1) % len(orbit), :2]
+    far = np.any(np.abs(path[1 : last + 2, 1:3] - there) > CAPTURE, axis=1)
+    return int(np.max(np.flatnonzero(far), initial=-1)) + 1

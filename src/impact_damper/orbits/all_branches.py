@@ -1,0 +1,171 @@
+"""All branches of periodic orbits of a response, as one labelled dataset.
+
+A branch is the curve of the periodic orbits over the forcing frequency W. Orbits may be stable or
+not, of any period, and touch the walls in any sequence. Z1 is the displacement of the primary mass.
+"""
+
+import sys
+from collections import Counter
+
+import numpy as np
+import xarray as xr
+from tqdm import tqdm
+
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.model.bounds import FREQUENCY_RANGE, shown
+from impact_damper.model.checks import check_frequency, check_span
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import describe
+from impact_damper.orbits.branch_datasets import (
+    branches_dataset,
+    leaving_variables,
+    torus_variables,
+)
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.other_branches import follow_others
+from impact_damper.orbits.random_search import COUNT, stable_orbits
+from impact_damper.orbits.shooting import find_orbit
+
+# Branches of long periods wind through chaos, some for more than 20000 orbits. Therefore their
+# lengths are limited.
+# MOST_POINTS: largest number of orbits of a branch in one direction.
+# MOST_LONG: the same for periods of more than LONG forcing cycles.
+# LONGEST: branches of longer periods are followed only as far as they are stable.
+MOST_POINTS, MOST_LONG, LONG, LONGEST = 8000, 4400, 8, 15
+
+
+def complete_branches(oscillator, damper, frequencies, motions, *, progress=None):
+    """Follow every branch of orbits over frequency on which a settled motion lies.
+
+    Stable orbits that lie on none of these branches are searched for from random states.
+
+    At each loss of symmetry and each period doubling another branch leaves, and an orbit of this
+    other branch is searched for. The other branch is followed if its period is at most 3 forcing
+    cycles, or at most 4 if it leaves beside a stable orbit, or at most 9 if its orbits are stable
+    where it begins. If a branch of a period of at most 4 ends at another branch, this one is
+    followed too. A branch is followed to its ends or up to a largest number of orbits, and with a
+    period above 15 only as far as its orbits are stable.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequencies : tuple of float
+        Least and greatest frequency W, dimensionless.
+    motions : list of xarray.Dataset
+        Results of `frequency_response` or `subharmonic_suppression` for this oscillator and
+        damper.
+    progress : str, optional
+        Title of a progress bar and of a summary on stderr; without it neither is shown.
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of `orbit_branch` for all branches, and:
+
+        - `seeds`, the number of settled motions, and `seeds_lost`, the number of those from which
+          Newton's method found no orbit;
+        - `searches`, the number of searches from random states, `searches_stable`, the number of
+          those that found a stable orbit, and `searches_new`, the number of branches that only they
+          found;
+        - for each loss of symmetry and period doubling: `leaving_outcome`, which says whether the
+          other branch was found and followed, and the orbit of the other branch that was found
+          closest to the event;
+        - with a damper, for each Neimark-Sacker point: `torus_kind`, the kind of the torus that
+          begins there, and the rotation number of a stable torus.
+
+        A branch and its mirror image count as one. With a damper, motions without contacts are left
+        out, because they are motions of the oscillator without the damper.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is of another type or out of range.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+    >>> response = idm.frequency_response(oscillator, damper, [1.95, 2.0], starts=8)
+    >>> found = idm.complete_branches(oscillator, damper, (1.9, 2.1), [response])
+    >>> found.sizes["branch"]
+    1
+    """
+    frequencies = check_span("frequencies", frequencies, **FREQUENCY_RANGE)
+    if not isinstance(motions, list) or not all(isinstance(each, xr.Dataset) for each in motions):
+        raise TypeError(f"motions = {shown(motions)}: must be a list of datasets of motions")
+
+    packed = pack(oscillator, damper, frequencies[0])
+
+    def family(value):
+        p = packed.copy()
+        p[FREQUENCY] = check_frequency(value)
+        return p
+
+    def follow(orbit, value):
+        most = MOST_POINTS if orbit.periods <= LONG else MOST_LONG
+        stable = orbit.periods > LONGEST
+        return follow_branch(family, orbit, value, frequencies, most, stable=stable)
+
+    branches, lost = [], 0
+    seeds = sorted(_seeds(motions, damper), key=lambda seed: seed[:3])
+    with tqdm(seeds, desc=progress, disable=progress is None, mininterval=1.0) as bar:
+        for period, frequency, _, state in bar:
+            orbit = find_orbit(family(frequency), state, period)
+            if not orbit.converged or orbit.repeats_sooner():
+                lost += 1
+            elif not any(branch.holds(orbit, frequency) for branch in branches):
+                branches.append(follow(orbit, frequency))
+                bar.set_postfix(branches=len(branches))
+    settled = len(branches)
+    stable = list(stable_orbits(family, damper, frequencies))
+    for value, orbit in stable:
+        if not any(branch.holds(orbit, value) for branch in branches):
+            branches.append(follow(orbit, value))
+    searches = {"searches": COUNT, "searches_stable": len(stable)}
+    searches["searches_new"] = len(branches) - settled
+    others = follow_others(branches, follow)
+    if progress is not None:
+        tqdm.write(f"{progress}: {_summary(branches, len(seeds), lost)}", file=sys.stderr)
+    parameters = describe(oscillator, damper) | {"parameter": "frequency"}
+    data = branches_dataset(branches, float, parameters, "Branches of periodic orbits")
+    counts = {"seeds": len(seeds), "seeds_lost": lost}
+    counts |= searches | leaving_variables(others)
+    counts |= torus_variables(branches) if damper is not None else {}
+    return data.assign(dataset(counts, {}, parameters, data.attrs["title"]).variables)
+
+
+def _summary(branches, seeds, lost):
+    """Return a line with the numbers of motions, branches, orbits, events and ends of branches.
+
+    `seeds` is the number of motions, and `lost` the number of those from which no orbit was found.
+    """
+
+    def listed(names):
+        counts = Counter(names)
+        return ", ".join(f"{name} {counts[name]}" for name in sorted(counts)) or "none"
+
+    events = listed(event.kind for branch in branches for _, event in branch.events)
+    ends = listed(end for branch in branches for end in branch.ends)
+    orbits = sum(len(branch.points) for branch in branches)
+    unlocated = sum(branch.lost for branch in branches)
+    return (
+        f"{seeds} motions, {lost} of them without an orbit; {len(branches)} branches with "
+        f"{orbits} orbits; events: {events}; not located: {unlocated}; ends: {ends}"
+    )
+
+
+def _seeds(motions, damper):
+    """Yield period, frequency, max |Z1| and state of each settled motion in the datasets."""
+    for data in motions:
+        chosen = data["outcome"].values == flag("outcome", "settled")
+        if damper is not None:
+            chosen &= data["contacts"].values > 0
+        for row, column in zip(*np.nonzero(chosen), strict=True):
+            motion = data.isel(frequency=row, motion=column)
+            yield (
+                int(motion["period"]),
+                float(motion["frequency"]),
+                float(motion["maximum_displacement"]),
+                motion["state"].values,
+            )

@@ -1,0 +1,296 @@
+"""Basins of attraction in a plane of states, without or with a damper.
+
+An attractor is a stable periodic motion, and its basin the set of all states that lead to it.
+Without a damper the boundaries of basins are the stable manifolds of unstable orbits: curves of
+states that lead to such an orbit.
+
+Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass. A
+start is an initial state.
+"""
+
+import math
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.variables.basins import BASIN_LABEL
+from impact_damper.model.bounds import FARTHEST, FASTEST, check_count, check_number, shown
+from impact_damper.model.checks import check_numbers
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import describe
+from impact_damper.model.settling import check_settling
+from impact_damper.motions.attractors import Attractors, find_attractors, with_neighbourhoods
+from impact_damper.motions.damped_labels import label_damped, orbit_passages
+from impact_damper.motions.free_motions import free_motions
+from impact_damper.motions.labels import label_states
+from impact_damper.orbits.boundary import saddles, stable_manifold
+
+# Half widths in Z1 and Z1', divided by the largest displacement and speed of the motions without a
+# damper.
+# WIDTH: of the plane, if the user gives none.
+# REACH: of the region in which stable manifolds are followed.
+WIDTH, REACH = 1.5, 3.0
+# Number of states on each axis of a grid.
+# SEARCHED: grid of starts whose motions lead to the attractors.
+# NEWTON: grid of first guesses for unstable orbits.
+SEARCHED, NEWTON = 24, 16
+# If states lead to no known attractor, the motions from TRIED of them are run until they settle, to
+# find further attractors.
+TRIED = 64
+# Places of the loose mass over which a plane is averaged, as fractions of the clearance.
+PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
+CELLS_RANGE = {"least": 2, "most": 10**4}
+# Default phase W T of the forcing at which the states are given.
+STROBE = math.pi / 2
+
+
+def basins(
+    oscillator,
+    damper,
+    frequency,
+    *,
+    displacement=None,
+    velocity=None,
+    cells=400,
+    phase=STROBE,
+    loose=None,
+    settling=None,
+    workers=1,
+    progress=None,
+):
+    """Find the motion to which each state of a plane leads.
+
+    Without a damper a motion is run until it enters a neighbourhood of a stable orbit in which all
+    motions provably tend to the orbit. With a damper each motion is run until it has settled.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequency : float
+        Forcing frequency W, dimensionless.
+    displacement, velocity : float, optional
+        Half widths of the plane of Z1 and Z1', dimensionless. The default is 1.5 times the largest
+        displacement and speed of the motions without a damper.
+    cells : int
+        States on each axis.
+    phase : float
+        Phase W T of the forcing at which the states are given, radian.
+    loose : sequence of float, optional
+        With a damper: Z2 and Z2' of all states. By default each state is run five times, with the
+        loose mass at rest relative to the primary at five places in the gap, and gets the share of
+        places from which it leads to each attractor.
+    settling : Settling, optional
+    workers : int
+        Threads; the result does not depend on it.
+    progress : str, optional
+        Title of a progress bar.
+
+    Returns
+    -------
+    xarray.Dataset
+        For each state of the grid the number of the attractor to which it leads, or a negative
+        number with the reason why it leads to none. For each attractor its period, size, phase,
+        points at the phase of the plane, and share of the states. Without a damper also the
+        unstable orbits that Newton's method finds from a grid of states, with the periods of the
+        attractors, and their stable manifolds, which are the boundaries of the basins.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> found = idm.basins(idm.Oscillator(0.215), None, 1.85, cells=40)
+    >>> found.attrs["title"]
+    'Basins of attraction'
+    """
+    settling = check_settling(settling)
+    p = pack(oscillator, damper, frequency)
+    check_count("cells", cells, **CELLS_RANGE)
+    phase = check_number("phase", phase, least=0, most=2 * math.pi)
+    free = free_motions(oscillator, p[FREQUENCY], settling)
+    sizes = np.array([free.displacement or 1.0, free.speed or 1.0])
+    window = _window(sizes, displacement, velocity)
+    grid = [np.linspace(-half, half, cells) for half in window]
+    plane = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
+    running = {"workers": workers, "progress": progress}
+    made = describe(oscillator, damper, settling) | {"frequency": float(frequency), "cells": cells}
+    if damper is None:
+        if loose is not None:
+            raise ValueError(f"loose = {shown(loose)}: must be None without a damper")
+        reach = np.maximum(REACH * sizes, 1.5 * window)
+        data, records = _free(p, plane, window, reach, phase, cells, settling, running)
+    else:
+        data, records = _damped(p, plane, damper, phase, cells, loose, settling, running)
+        made |= {"loose": None if loose is None else [float(value) for value in loose]}
+    data |= _attractor_data(p, records, phase, data)
+    coordinates = {
+        "basin_displacement": grid[0],
+        "basin_velocity": grid[1],
+        "basin_phase": ((), phase),
+        "frequency": ((), p[FREQUENCY]),
+        "without_attractor": list(BASIN_LABEL),
+    }
+    return dataset(data, coordinates, made, "Basins of attraction")
+
+
+def _window(sizes, displacement, velocity):
+    """Return the half widths of the plane, shape (2,).
+
+    `sizes` are the largest displacement and speed of the motions without a damper.
+    """
+    given = ("displacement", displacement, FARTHEST), ("velocity", velocity, FASTEST)
+    return np.array(
+        [
+            check_number(name, WIDTH * size if value is None else value, above=0, most=most)
+            for (name, value, most), size in zip(given, sizes, strict=True)
+        ]
+    )
+
+
+def _free(p, plane, window, reach, phase, cells, settling, running):
+    """Return the variables of the plane without a damper, and the records of the attractors.
+
+    `plane` are the states, shape (cells^2, 2), `window` half widths of the plane, and `reach` half
+    widths of the region in which stable manifolds are followed.
+    """
+    attractors = free_attractors(p, reach / 2, settling)
+    labels, periods = label_states(
+        p, plane, phase, attractors, settling.tolerance, settling.limit, **running
+    )
+    lost = np.flatnonzero(labels == BASIN_LABEL["unresolved"])
+    if len(lost):
+        more = find_attractors(p, plane[lost[:: max(1, len(lost) // TRIED)]], settling)
+        attractors = _joined(p, attractors, more)
+        again = label_states(
+            p, plane[lost], phase, attractors, settling.tolerance, settling.limit, **running
+        )
+        labels[lost], periods[lost] = again
+        order = np.argsort(attractors.records["maximum_displacement"], kind="stable")
+        rank = np.argsort(order)
+        labels = np.where(labels >= 0, rank[np.maximum(labels, 0)] if len(rank) else labels, labels)
+        attractors = with_neighbourhoods(p, attractors.records[order])
+    data = {
+        "basin_label": labels.reshape(cells, cells).astype(np.int8),
+        "basin_periods": periods.reshape(cells, cells).astype(np.int32),
+    }
+    return data | boundary_data(
+        p, attractors, window, reach, phase, cells, settling
+    ), attractors.records
+
+
+def free_attractors(p, window, settling, workers=1) -> Attractors:
+    """Return the attractors to which a grid of states leads; `window` are its half widths."""
+    grid = [np.linspace(-half, half, SEARCHED) for half in window]
+    states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
+    return find_attractors(p, states, settling, workers)
+
+
+def _joined(p, attractors, more):
+    """Return `attractors` together with the attractors in `more` that are new."""
+    new = [
+        record
+        for index, record in enumerate(more.records)
+        if not any(
+            np.allclose(more.centre[more.owner == index][0], centre, atol=1e-6)
+            for centre in attractors.centre
+        )
+    ]
+    if not new:
+        return attractors
+    return with_neighbourhoods(p, np.concatenate([attractors.records, new]))
+
+
+def boundary_data(p, attractors, window, reach, phase, cells, settling):
+    """Return a dict of dataset variables of the unstable orbits and of their stable manifolds.
+
+    The arguments are those of `_free`.
+    """
+    # Unstable orbits lie closer together near the origin, so the grid is finer there.
+    even = np.linspace(-1, 1, NEWTON)
+    grid = [half * even * np.abs(even) for half in reach / 2]
+    states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
+    found = saddles(p, states, attractors.records["period"].tolist(), phase)
+    points, owner, cut = [], [], []
+    gap = np.full((1, 2), np.nan)
+    spacing = 2 * window / (cells - 1)
+    for index, orbit in enumerate(found):
+        pieces, complete = stable_manifold(orbit, settling.tolerance, window, spacing, reach)
+        cut.append(flag("saddle_curve", "complete" if complete else "cut"))
+        for piece in pieces:
+            points += [piece, gap]
+            owner += [index] * (len(piece) + 1)
+    curve = np.concatenate(points or [np.empty((0, 2))])
+    multipliers = np.array([orbit.multipliers[:2].real for orbit in found]).reshape(-1, 2)
+    return {
+        "saddle_period": np.array([orbit.periods for orbit in found], int),
+        "saddle_displacement": np.array([orbit.state[0] for orbit in found]),
+        "saddle_velocity": np.array([orbit.state[1] for orbit in found]),
+        "saddle_multiplier": multipliers,
+        "saddle_curve": np.array(cut, int),
+        "boundary_displacement": curve[:, 0],
+        "boundary_velocity": curve[:, 1],
+        "boundary_saddle": np.array(owner, int),
+    }
+
+
+def _damped(p, plane, damper, phase, cells, loose, settling, running):
+    """Return the variables of the plane with a damper, and the records of the attractors.
+
+    The arguments are those of `_free` and `basins`.
+    """
+    if loose is None:
+        places = [(place * damper.clearance, 0.0) for place in PLACES]
+    else:
+        values = check_numbers("loose", loose)
+        if values.shape != (2,):
+            raise ValueError(f"loose = {shown(loose)}: must be two numbers, Z2 and Z2'")
+        for index, (value, most) in enumerate(zip(values, (FARTHEST, FASTEST), strict=True)):
+            check_number(f"loose[{index}]", value, least=-most, most=most)
+        places = [tuple(values)]
+    states = np.concatenate(
+        [np.hstack([plane, np.tile(place, (len(plane), 1))]) for place in places]
+    )
+    labels, periods, records = label_damped(p, states, phase, settling, **running)
+    labels = labels.reshape(len(places), -1)
+    same = np.all(labels == labels[0], axis=0)
+    share = [np.mean(labels == index, axis=0) for index in range(len(records))]
+    data = {
+        "basin_label": np.where(same, labels[0], BASIN_LABEL["mixed"])
+        .reshape(cells, cells)
+        .astype(np.int8),
+        "basin_periods": periods.reshape(len(places), cells, cells).max(axis=0),
+    }
+    if len(places) > 1:
+        data["basin_share"] = np.array(share).reshape(len(records), cells, cells)
+    return data, records
+
+
+def _attractor_data(p, records, phase, plane):
+    """Return a dict of dataset variables of the attractors.
+
+    `records` are their `records.MOTION`, and `plane` are the variables of the plane.
+    """
+    labels = plane["basin_label"]
+    if "basin_share" in plane:
+        shares = plane["basin_share"].mean(axis=(1, 2))
+    else:
+        shares = [np.mean(labels == index) for index in range(len(records))]
+    points = np.full((len(records), max(records["period"], default=1), 2), np.nan)
+    for row, record in zip(points, records, strict=True):
+        row[: record["period"]] = orbit_passages(p, record, phase)
+    harmonic = records["harmonic_displacement"]
+    return {
+        "attractor": np.arange(len(records)),
+        "attractor_period": records["period"],
+        "attractor_displacement": records["maximum_displacement"],
+        "attractor_amplitude": np.abs(harmonic),
+        "attractor_phase": np.angle(harmonic),
+        "attractor_share": shares,
+        "attractor_point": points[..., 0],
+        "attractor_speed": points[..., 1],
+        "label_count": [np.sum(labels == value) for value in BASIN_LABEL.values()],
+    }

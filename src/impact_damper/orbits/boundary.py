@@ -1,0 +1,189 @@
+"""Boundaries of the free oscillator's basins, which are stable manifolds of its unstable orbits.
+
+An unstable orbit of the map over a cycle is a saddle: one multiplier lies inside and one outside
+the unit circle. The states that tend to a saddle form a curve, the stable manifold, which separates
+basins. The curve is computed backwards in time, cycle by cycle, from a short segment along the
+stable direction of the saddle. Where neighbouring points of the curve are further apart than a
+given spacing, points are inserted: the midpoint of their images one cycle later is integrated
+backwards. The errors of this interpolation shrink, because backwards in time all nearby curves
+approach the stable manifold.
+
+Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
+"""
+
+import math
+
+import numpy as np
+
+from impact_damper.kernel.batch import advance
+from impact_damper.model.packed import DAMPING, FREQUENCY
+from impact_damper.orbits.shooting import find_orbit
+
+# Distance from the saddle at which the segment begins, in units of Z1 and Z1'.
+NEAR = 1e-5
+# MOST_PERIODS  largest number of forcing cycles over which a curve is computed
+# MOST_POINTS   largest number of points within the window, on each side of the saddle
+# MOST_IN_ALL   largest number of points within the reach, on each side of the saddle
+MOST_PERIODS = 60
+MOST_POINTS = 40_000
+MOST_IN_ALL = 100_000
+# FIRST_POINTS   number of points on the first segment
+# MOST_HALVINGS  largest number of halvings of an interval between two neighbouring points
+FIRST_POINTS = 33
+MOST_HALVINGS = 12
+# Largest distance of neighbouring points outside the window, divided by the argument `reach` of
+# `stable_manifold`.
+OUTSIDE = 0.01
+# Two orbits are the same if their states differ by less than SAME.
+SAME = 1e-6
+# Number of states in one call of the kernel. Ctrl-C waits for the end of the call.
+CHUNK = 4096
+
+
+def saddles(p, states, periods, phase):
+    """Return the saddles (unstable orbits) that Newton's method finds from given states.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters without a damper.
+    states : array, shape (n, 2)
+        Z1 and Z1' at which Newton's method begins.
+    periods : iterable of int
+        Periods of the orbits in forcing cycles.
+    phase : float
+        Phase W T of the states, radian.
+
+    Returns
+    -------
+    list of orbits.orbit.Orbit
+        By ascending period, each orbit once.
+    """
+    orbits, known = [], np.empty((0, 2))
+    for n in sorted(set(periods)):
+        for state in states:
+            orbit = find_orbit(p, np.tile(state, 2), n, phase)
+            if not orbit.converged or not abs(orbit.multipliers[0]) > 1:
+                continue
+            if len(known) and np.min(np.max(np.abs(known - orbit.state[:2]), axis=1)) < SAME:
+                continue
+            known = np.concatenate([known, images(orbit)])
+            orbits.append(orbit)
+    return orbits
+
+
+def images(orbit):
+    """Return the states Z1, Z1' of a free orbit of period n, one for each cycle, shape (n, 2)."""
+    turns = orbit.phase + 2 * math.pi * np.arange(orbit.periods)
+    return np.array([orbit.at(turn)[:2] for turn in turns])
+
+
+def run_backwards(p, states, phase, tolerance, reach):
+    """Return the states one forcing cycle before the given states; NaN for states beyond the reach.
+
+    Backwards in time and with reversed velocity, the oscillator obeys the same equation with
+    negative damping.
+    """
+    reverse = p.copy()
+    reverse[DAMPING] = -p[DAMPING]
+    begin, period = -phase / p[FREQUENCY], 2 * math.pi / p[FREQUENCY]
+    earlier = np.full_like(states, np.nan)
+    inside = np.flatnonzero(np.all(np.abs(states) <= reach, axis=1))
+    for first in range(0, len(inside), CHUNK):
+        part = inside[first : first + CHUNK]
+        y = np.tile(states[part] * (1, -1), 2)
+        sides, contacts = np.zeros(len(part), np.int64), np.zeros(len(part), np.int64)
+        starts = np.full(len(part), begin)
+        rows = np.tile(reverse, (len(part), 1))
+        advance(rows, y, sides, starts, starts + period, tolerance, contacts)
+        earlier[part] = y[:, :2] * (1, -1)
+    return earlier
+
+
+def stable_manifold(orbit, tolerance, window, spacing, reach):
+    """Return the stable manifold of a saddle within a window.
+
+    Parameters
+    ----------
+    orbit : orbits.orbit.Orbit
+        A saddle of the free oscillator.
+    tolerance : float
+        Largest local error of a step.
+    window : array, shape (2,)
+        Largest |Z1| and |Z1'| of interest.
+    spacing : array, shape (2,)
+        Largest distance of neighbouring points in Z1 and Z1' within the window.
+    reach : array, shape (2,)
+        |Z1| and |Z1'| beyond which the curve is not followed, at least as large as the window. It
+        must be so large that motions backwards in time do not come back from beyond it.
+
+    Returns
+    -------
+    pieces : list of numpy.ndarray, shape (n, 2)
+        Pieces of the curve, one or more for each side of the saddle and each cycle.
+    complete : bool
+        Whether the curve was computed until it left the reach. A curve that winds without end is
+        cut after MOST_POINTS points on each side.
+    """
+    values, vectors = np.linalg.eig(orbit.monodromy[:2, :2])
+    k = int(np.argmin(np.abs(values)))
+    direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)
+    # With a negative multiplier, a point comes back to the same side only after two periods.
+    growth = 1 / abs(values[k].real) ** (1 if values[k].real > 0 else 2)
+    sides = [
+        _grow(orbit, side * direction, growth, tolerance, window, spacing, reach)
+        for side in (-1, 1)
+    ]
+    return [piece for pieces, _ in sides for piece in pieces], all(whole for _, whole in sides)
+
+
+def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
+    """Return the pieces of one side of a stable manifold, and whether it is complete."""
+
+    def earlier(states):
+        return run_backwards(orbit.p, states, orbit.phase, tolerance, reach)
+
+    places = np.linspace(0, 1, FIRST_POINTS)
+    later = orbit.state[:2] + NEAR * growth ** places[:, None] * direction
+    pieces, total, within = [], 0, 0
+    for _ in range(MOST_PERIODS):
+        states = earlier(later)
+        for _ in range(MOST_HALVINGS):
+            wide = _wide(states, window, spacing, reach)
+            if not wide.any() or len(states) > MOST_IN_ALL:
+                break
+            middle = 0.5 * (later[:-1] + later[1:])[wide]
+            at = np.flatnonzero(wide) + 1
+            later = np.insert(later, at, middle, axis=0)
+            states = np.insert(states, at, earlier(middle), axis=0)
+        inside = np.all(np.abs(states) <= window + spacing, axis=1)
+        near = np.all(np.abs(states) <= reach, axis=1)
+        if not near.any():
+            return pieces, True
+        total, within = total + np.sum(near), within + np.sum(inside)
+        if total > MOST_IN_ALL or within > MOST_POINTS:
+            break
+        ends = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
+        for first, last in ends.reshape(-1, 2):
+            pieces.append(states[max(first - 1, 0) : last + 1])
+        kept = near.copy()
+        kept[1:] |= near[:-1]
+        kept[:-1] |= near[1:]
+        later = states[kept]
+    return pieces, False
+
+
+def _wide(states, window, spacing, reach):
+    """Return a mask of the pairs of neighbouring states that are too far apart.
+
+    At least one state of such a pair lies within the reach. If the other state is unknown (NaN),
+    because its image one cycle later was beyond the reach, the pair is in
+    the mask only if the known state lies in the window or within twice the spacing of it.
+    """
+    apart = np.abs(np.diff(states, axis=0))
+    inside = np.all(np.abs(states) <= window + 2 * spacing, axis=1)
+    near = np.all(np.abs(states) <= reach, axis=1)
+    inside, near = inside[1:] | inside[:-1], near[1:] | near[:-1]
+    lost = np.isnan(apart).any(axis=1)
+    allowed = np.where(inside[:, None], spacing, OUTSIDE * reach)
+    return np.where(lost, inside, near & np.any(apart > allowed, axis=1))

@@ -1,1 +1,0 @@
-"""Behaviour of a machine with a given damper: costs of a motion, transients, contact stiffness."""

@@ -1,0 +1,140 @@
+"""Parts of the schematics: springs, dashpots, masses, dimensions, boxes of flow charts.
+
+Coordinates are in inches from the lower left corner of the sheet.
+"""
+
+import numpy as np
+from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch, Polygon, Rectangle
+
+from impact_damper.plot.panels.style import (
+    BLACK,
+    BLUE,
+    GREY,
+    LETTER_SIZE,
+    PALE,
+    PALE_ORANGE,
+    PALE_SKY,
+    STROKES,
+    WHITE,
+    figure,
+)
+
+
+def sheet(column, height):
+    """Return axes that fill an empty figure, one unit per inch; `column` as in `style.figure`."""
+    page = figure(column, height)
+    page.set_layout_engine("none")
+    axes = page.add_axes((0, 0, 1, 1))
+    axes.set(xlim=(0, page.get_figwidth()), ylim=(0, height))
+    axes.set_axis_off()
+    return axes
+
+
+def stroke(axes, points, width="outline", **changes):
+    """Draw a line through points."""
+    keywords = {"color": BLACK, "solid_capstyle": "round", "solid_joinstyle": "round"} | changes
+    axes.plot(*np.transpose(points), linewidth=STROKES[width], **keywords)
+
+
+def filled(color, width="detail"):
+    """Return the matplotlib keywords of an outlined, filled patch."""
+    return {"facecolor": color, "edgecolor": BLACK, "linewidth": STROKES[width]}
+
+
+def arrow(axes, start, end, width="detail", head="-|>", color=BLACK):
+    """Draw an arrow from one point to another."""
+    axes.add_patch(
+        FancyArrowPatch(
+            start,
+            end,
+            arrowstyle=head,
+            mutation_scale=8,
+            shrinkA=0,
+            shrinkB=0,
+            linewidth=STROKES[width],
+            color=color,
+        )
+    )
+
+
+def letter(axes, x, y, symbol, **changes):
+    """Write a symbol centred on a point."""
+    axes.text(x, y, symbol, **{"ha": "center", "va": "center", "size": LETTER_SIZE} | changes)
+
+
+def spring(axes, start, end, y, turns=5, height=0.16):
+    """Draw a horizontal coil spring with straight ends."""
+    lead = 0.14 * (end - start)
+    x = np.linspace(start + lead, end - lead, 2 * turns + 1)
+    zigzag = np.where(np.arange(2 * turns + 1) % 2, 0.5, -0.5) * height
+    zigzag[[0, -1]] = 0
+    stroke(axes, [(start, y), *zip(x, y + zigzag, strict=True), (end, y)], "detail")
+
+
+def dashpot(axes, start, end, y, height=0.18):
+    """Draw a horizontal dashpot with its cup at the start and its piston at the end."""
+    cup = start + 0.34 * (end - start)
+    rim = start + 0.70 * (end - start)
+    piston = 0.45 * cup + 0.55 * rim
+    half = height / 2
+    stroke(axes, [(start, y), (cup, y)], "detail")
+    stroke(axes, [(rim, y + half), (cup, y + half), (cup, y - half), (rim, y - half)], "detail")
+    stroke(axes, [(piston, y), (end, y)], "detail")
+    stroke(axes, [(piston, y - 0.65 * half), (piston, y + 0.65 * half)], "outline")
+
+
+def ground(axes, start, end, depth=0.09, spacing=0.09):
+    """Draw a fixed line, hatched on the right-hand side as seen from `start` towards `end`."""
+    start, end = np.array(start), np.array(end)
+    length = np.hypot(*(end - start))
+    along = (end - start) / length
+    inward = np.array([along[1], -along[0]])
+    for distance in np.arange(spacing, length, spacing):
+        point = start + distance * along
+        stroke(axes, [point, point + depth * (inward - along)], "fine")
+    stroke(axes, [start, end])
+
+
+def mass(axes, left, bottom, width, height, color=PALE):
+    """Draw a rigid block."""
+    axes.add_patch(Rectangle((left, bottom), width, height, **filled(color, "outline")))
+
+
+def wheels(axes, centres, rail, radius=0.08):
+    """Draw wheels that stand on a rail."""
+    for x in centres:
+        axes.add_patch(Circle((x, rail + radius), radius, **filled(WHITE)))
+
+
+def dimension(axes, left, right, y, symbol, low):
+    """Draw a dimension arrow with its symbol at height y, and extension lines from `low`."""
+    for x in (left, right):
+        stroke(axes, [(x, low), (x, y + 0.06)], "fine", color=GREY)
+    arrow(axes, (left, y), (right, y), "fine", "<|-|>")
+    letter(axes, (left + right) / 2, y + 0.14, symbol)
+
+
+def coordinate(axes, x, y, symbol, length=0.42):
+    """Draw the symbol of a displacement, measured to the right from a tick at (x, y)."""
+    stroke(axes, [(x, y - 0.08), (x, y + 0.08)], "detail", color=BLUE)
+    arrow(axes, (x, y), (x + length, y), color=BLUE)
+    letter(axes, x + length + 0.13, y, symbol, color=BLUE)
+
+
+def node(axes, x, y, width, height, words, shape):
+    """Draw a box of a flow chart; `shape` is "step", "question" or "end"."""
+    across, up = width / 2, height / 2
+    if shape == "question":
+        corners = [(x - across, y), (x, y - up), (x + across, y), (x, y + up)]
+        axes.add_patch(Polygon(corners, **filled(PALE_ORANGE)))
+    elif shape == "end":
+        ends = f"round,pad=0,rounding_size={up}"
+        axes.add_patch(
+            FancyBboxPatch((x - across, y - up), width, height, ends, **filled(PALE_SKY))
+        )
+    else:
+        axes.add_patch(Rectangle((x - across, y - up), width, height, **filled(PALE)))
+    lines = words.split("\n")
+    for row, line in enumerate(lines):
+        baseline = y - 0.04 + 0.155 * ((len(lines) - 1) / 2 - row)
+        axes.text(x, baseline, line, ha="center", va="baseline")

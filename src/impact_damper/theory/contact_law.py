@@ -1,0 +1,191 @@
+"""One contact of the damper in closed form, under a constant load, with two rules for its end.
+
+While the loose mass touches a wall, equations (20) to (23) of the paper give for the penetration
+q = |Z2| - d0
+
+    q'' + 2 z wn q' + wn^2 q = g,   wn^2 = r1 (1 + 1/rm),   z = zeta_c sqrt(1 + rm).
+
+Here g is the acceleration of Z1 towards the wall by all forces other than the contact force. It is
+nearly constant during the short contact. With s = wn t, u = wn q/v0 and the approach speed v0 the
+equation becomes
+
+    u'' + 2 z u' + u = G,   u(0) = 0,   u'(0) = 1,   G = g/(wn v0).
+
+A contact therefore depends only on the restitution e, which gives z by (25), and on the load G. A
+positive load presses loose mass and wall together. The force of the wall is F = u + 2 z u'.
+
+An exit rule states when a contact ends. By `zero_penetration` (appendix B) it ends when u = 0; the
+wall may pull the loose mass shortly before. By `no_tension` it ends when F = 0; the wall never
+pulls.
+"""
+
+import math
+from typing import NamedTuple
+
+from scipy.optimize import brentq
+
+from impact_damper.model.bounds import check_number
+
+EXIT_RULES = ("zero_penetration", "no_tension")
+
+
+class Exit(NamedTuple):
+    """End of a contact.
+
+    Attributes
+    ----------
+    outcome : str
+        "released" if the loose mass separates from the wall. "falls_back" if the rule `no_tension`
+        ends the contact, but the load drives the loose mass back before u = 0. "no_release" if the
+        contact does not end.
+    duration : float
+        s = wn t at the end of the contact, infinite if the contact does not end.
+    departure : float
+        The realised restitution: speed at u = 0 divided by approach speed. If the contact ends
+        before u = 0, the loose mass flies under the load until u = 0. NaN unless the outcome is
+        "released".
+    """
+
+    outcome: str
+    duration: float
+    departure: float
+
+
+class Tension(NamedTuple):
+    """Pull of the wall on the loose mass at the end of a contact; NaN if the contact does not end.
+
+    Attributes
+    ----------
+    time : float
+        Time in which the wall pulls divided by the duration of the contact.
+    impulse : float
+        Impulse of the pull divided by the impulse of the push.
+    peak : float
+        Largest pull divided by the largest push.
+    """
+
+    time: float
+    impulse: float
+    peak: float
+
+
+class _Wave(NamedTuple):
+    """The function level + exp(-z s) (a cos(w s) + b sin(w s)), w = sqrt(1 - z^2)."""
+
+    level: float
+    a: float
+    b: float
+    z: float
+    w: float
+
+    def __call__(self, s):
+        decay = math.exp(-self.z * s)
+        return self.level + decay * (self.a * math.cos(self.w * s) + self.b * math.sin(self.w * s))
+
+    def slope(self):
+        """Return the derivative, a `_Wave`."""
+        a, b, z, w = self.a, self.b, self.z, self.w
+        return _Wave(0.0, w * b - z * a, -z * b - w * a, z, w)
+
+    def first_extrema(self):
+        """Return s at the first maximum and at the minimum after it.
+
+        If the function decreases from s = 0 on, the maximum is at 0.
+        """
+        slope = self.slope()
+        turn = math.atan2(-slope.a, slope.b) % math.pi or math.pi
+        rising = slope.a > 0 or (slope.a == 0 and slope.b > 0)
+        return (turn / self.w, (turn + math.pi) / self.w) if rising else (0.0, turn / self.w)
+
+    def first_fall(self):
+        """Return s at which the function first decreases to zero, or infinity if it never does.
+
+        Only the first minimum is examined, because later minima are not lower.
+        """
+        top, bottom = self.first_extrema()
+        if self(bottom) > 0:
+            return math.inf
+        return brentq(self, top, bottom, xtol=1e-15, rtol=1e-14)
+
+
+def damping_ratio(restitution) -> float:
+    """Return the damping ratio z of the relative motion, from e = exp(-pi z/sqrt(1 - z^2))."""
+    logarithm = math.log(1 / restitution)
+    return logarithm / math.hypot(math.pi, logarithm)
+
+
+def natural_frequency(damper) -> float:
+    """Return wn = sqrt(r1 (1 + 1/rm)) of a `Damper`.
+
+    An elastic contact without load lasts pi/wn.
+    """
+    return math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
+
+
+def _waves(restitution, load):
+    """Return penetration u and wall force F of a contact as functions of s = wn t."""
+    check_number("restitution", restitution, above=0.0, most=1.0)
+    check_number("load", load)
+    z = damping_ratio(restitution)
+    w = math.sqrt(1 - z * z)
+    penetration = _Wave(load, -load, (1 - z * load) / w, z, w)
+    force = _Wave(load, 2 * z - load, (1 + z * load - 2 * z * z) / w, z, w)
+    return penetration, force
+
+
+def contact(restitution, load, rule) -> Exit:
+    """Return how a contact ends.
+
+    Parameters
+    ----------
+    restitution : float
+        The intended restitution e, from which (25) gives the dashpot; dimensionless.
+    load : float
+        G = g/(wn v0), dimensionless.
+    rule : str
+        One of EXIT_RULES.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is not a number or out of range.
+    """
+    if rule not in EXIT_RULES:
+        raise ValueError(f"rule = {rule!r}: must be one of {', '.join(EXIT_RULES)}")
+    penetration, force = _waves(restitution, load)
+    end = (penetration if rule == "zero_penetration" else force).first_fall()
+    if end == math.inf:
+        return Exit("no_release", math.inf, math.nan)
+    left = penetration(end) if rule == "no_tension" else 0.0
+    square = penetration.slope()(end) ** 2 - 2 * load * left
+    if square < 0:
+        return Exit("falls_back", end, math.nan)
+    return Exit("released", end, math.sqrt(square))
+
+
+def tension(restitution, load) -> Tension:
+    """Return time, impulse and peak of the pull of the wall under the rule `zero_penetration`.
+
+    The impulse of the wall between two instants is the integral of G over s minus the change of u'.
+
+    Parameters
+    ----------
+    restitution, load : float
+        Intended restitution e, and load G = g/(wn v0), dimensionless.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is not a number or out of range.
+    """
+    penetration, force = _waves(restitution, load)
+    speed = penetration.slope()
+    end = penetration.first_fall()
+    if end == math.inf:
+        return Tension(math.nan, math.nan, math.nan)
+    begin = min(force.first_fall(), end)
+    push = load * begin - (speed(begin) - 1)
+    pull = speed(end) - speed(begin) - load * (end - begin)
+    top, bottom = force.first_extrema()
+    most = max(0.0, -force(end), -force(bottom) if bottom < end else 0.0)
+    return Tension((end - begin) / end, pull / push, most / max(force(top), force(0.0)))

@@ -1,5 +1,0 @@
-"""Print the reference of the configuration."""
-
-from impact_damper.workflow.models.reference import reference
-
-print(reference(), end="")

@@ -1,0 +1,185 @@
+"""The command `impact-damper`: its answers equal those of the library; wrong files are refused."""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import impact_damper as idm
+from impact_damper.command import command_line
+from impact_damper.command.machine_file import read_machine_file
+from impact_damper.command.yaml_files import ConfigurationError
+from impact_damper.data.datasets import load
+from impact_damper.design.task import Task
+
+FILE = """
+machine: {mass: 12 kg, linear_stiffness: 2e5 N/m, damping_ratio: 5 %, force: 40 N}
+damper: {mass: 0.6 kg, restitution: 0.7, contact_stiffness: 2e6 N/m}
+band: [20 Hz, 21 Hz]
+"""
+
+
+# A design with as few steps as possible; the contact stiffness follows from radius and material.
+SMALL = """
+machine: {mass: 12 kg, linear_stiffness: 2e5 N/m, damping_ratio: 2 %, force: 40 N}
+damper: {mass: 1.2 kg, restitution: 0.6}
+contact: {radius: 20 mm, youngs_modulus: 3 GPa, poissons_ratio: 0.4}
+band: {first: 20.4 Hz, last: 20.7 Hz, points: 3}
+candidates: 4
+starts: 16
+share: 0.8
+tolerances: {gap: 5 %}
+"""
+
+
+@pytest.fixture
+def machine_file(tmp_path):
+    """A file that describes a machine with the fewest possible keys."""
+    path = tmp_path / "machine.yaml"
+    path.write_text(FILE)
+    return path
+
+
+def run(*arguments):
+    """Run the command, and return what it printed."""
+    result = CliRunner().invoke(command_line.app, [str(each) for each in arguments])
+    assert result.exit_code == 0, result.output
+    return result.stdout
+
+
+def test_motion_without_a_damper_has_the_linear_amplitude(machine_file):
+    """The amplitude is F/sqrt((k - m w^2)^2 + (c w)^2) once the transient has decayed."""
+    told = run("simulate", machine_file, "--frequency", "24 Hz", "--periods", 300, "--json")
+    w, k, m = 2 * np.pi * 24, 2e5, 12
+    exact = 40 / np.hypot(k - m * w**2, 2 * 0.05 * np.sqrt(k * m) * w)
+    assert json.loads(told)["largest_displacement_mm"] == pytest.approx(1e3 * exact, rel=1e-3)
+
+
+def test_motion_is_kept_in_a_file(machine_file, tmp_path):
+    """The file holds the dataset that `simulate` of the library returns."""
+    kept = tmp_path / "motion.nc"
+    run("simulate", machine_file, "--frequency", 20.5, "--gap", "2 mm", "--periods", 20,
+        "--state", "1 mm, 0, 0, 0.1 m/s", "--output", kept)  # fmt: skip
+    machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.05, force=40)
+    damper = machine.damper(mass=0.6, gap=2e-3, restitution=0.7, contact_stiffness=2e6)
+    motion = idm.simulate(machine, damper, 20.5, (1e-3, 0, 0, 0.1), periods=20)
+    np.testing.assert_array_equal(load(kept)["displacement"], motion["displacement"])
+
+
+def test_response_of_the_bare_machine(machine_file):
+    """There is one motion at each frequency, with the amplitude of the linear machine."""
+    told = json.loads(run("response", machine_file, "--starts", 2, "--json"))["response"]
+    for row in told:
+        w = 2 * np.pi * row["frequency_hz"]
+        exact = 40 / np.hypot(2e5 - 12 * w**2, 2 * 0.05 * np.sqrt(2e5 * 12) * w)
+        assert row["settled_mm"] == pytest.approx([1e3 * exact], rel=1e-4)
+
+
+@pytest.mark.thorough
+def test_a_design_is_for_the_task_of_its_file_and_has_a_page(tmp_path):
+    path, folder = tmp_path / "machine.yaml", tmp_path / "out"
+    path.write_text(SMALL)
+    told = json.loads(run("design", path, "--output", folder, "--json"))
+    data = load(folder / "design.nc")
+    machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.02, force=40)
+    made, asked = (json.loads(data.attrs[name]) for name in ("machine", "parameters"))
+    task = Task(
+        machine=machine,
+        mass=1.2,
+        band=(20.4, 20.7),
+        restitution=0.6,
+        contact_stiffness=made["contact_stiffness"],
+        frequencies=3,
+        candidates=4,
+        starts=16,
+        share=0.8,
+        tolerances={"gap": 0.05},
+    )
+    assert asked | task.describe() == asked
+    # The stiffness for an impact at the speed that crosses the gap in half a cycle. The gap is that
+    # of the flight rule, by which the loose mass flies straight from wall to wall.
+    ball = idm.HertzContact.of_ball("20 mm", youngs_modulus="3 GPa", poissons_ratio=0.4)
+    speed = 2 * task.rule_gap(20.55) * 20.55
+    assert made["contact_stiffness"] == pytest.approx(ball.impact(speed, 12 * 1.2 / 13.2).stiffness)
+    assert told["design_gap_mm"] == float(data["design_gap"])
+    assert told["conclusion"][0] in Path(told["page"]).read_text()
+    # The other commands compute with the same stiffness.
+    given = read_machine_file(path)
+    assert command_line.damper(given, "3 mm").contact_stiffness == made["contact_stiffness"]
+    run("report", folder / "design.nc", "--output", tmp_path / "again")
+    page = (tmp_path / "again" / "index.html").read_text()
+    assert told["conclusion"][0] in page
+
+
+def test_a_contact_that_is_not_known_names_its_key(machine_file):
+    machine_file.write_text(FILE.replace(", contact_stiffness: 2e6 N/m", ""))
+    with pytest.raises(ConfigurationError, match="damper.contact_stiffness: missing; needed here"):
+        read_machine_file(machine_file)
+
+
+def test_wrong_value_names_key_and_range(machine_file):
+    """The message has all problems at once, and suggests the nearest key."""
+    machine_file.write_text(FILE.replace("0.7", "7").replace("force", "froce"))
+    with pytest.raises(ConfigurationError) as raised:
+        read_machine_file(machine_file)
+    assert "damper.restitution = 7" in str(raised.value)
+    assert "did you mean force?" in str(raised.value)
+
+
+def test_numbers_with_an_exponent_are_numbers(machine_file):
+    """YAML 1.1 takes 2e5 for text."""
+    machine_file.write_text(FILE.replace("2e5 N/m", "2e5").replace("2e6 N/m", ".2E+7"))
+    given = read_machine_file(machine_file)
+    assert given["machine"]["linear_stiffness"] == 2e5
+    assert given["damper"]["contact_stiffness"] == 2e6
+
+
+def test_error_ends_the_command_with_one_message(machine_file, monkeypatch):
+    """The message of the library, in SI units and without a traceback."""
+    arguments = ["impact-damper", "simulate", str(machine_file), "--frequency", "24 kg"]
+    monkeypatch.setattr(sys, "argv", arguments)
+    with pytest.raises(SystemExit, match="Error: frequency = '24 kg'"):
+        command_line.run()
+
+
+def test_a_state_too_far_away_is_told_in_si_units(machine_file, monkeypatch):
+    asked = ["--frequency", "24 Hz", "--state", "7, 0"]
+    monkeypatch.setattr(sys, "argv", ["impact-damper", "simulate", str(machine_file), *asked])
+    with pytest.raises(SystemExit, match=r"Error: state\[0\] = 7 m: must be at least -.* m"):
+        command_line.run()
+
+
+def test_a_file_that_is_no_design_gets_no_page(machine_file, tmp_path, monkeypatch):
+    motion = tmp_path / "motion.nc"
+    run("simulate", machine_file, "--frequency", 20, "--periods", 3, "--output", motion)
+    for path, told in ((motion, "must be the design.nc of a design"), (machine_file, "is not a")):
+        monkeypatch.setattr(sys, "argv", ["impact-damper", "report", str(path)])
+        with pytest.raises(SystemExit, match=f"Error: .*{told}"):
+            command_line.run()
+
+
+def test_ctrl_c_ends_with_its_code_and_what_to_do(machine_file, monkeypatch, capsys):
+    def interrupted(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command_line, "read", interrupted)
+    monkeypatch.setattr(sys, "argv", ["impact-damper", "design", str(machine_file)])
+    with pytest.raises(SystemExit) as ended:
+        command_line.run()
+    assert ended.value.code == command_line.INTERRUPTED
+    assert "the same command continues the design" in capsys.readouterr().err
+
+
+def test_the_help_holds_a_file_that_works(tmp_path):
+    """The example in the help is a complete file, so that a new user can begin with it."""
+    lines = [line.strip() for line in run("--help").splitlines()]
+    keys = ("machine:", "damper:", "band:")
+    (tmp_path / "machine.yaml").write_text("\n".join(x for x in lines if x.startswith(keys)))
+    assert read_machine_file(tmp_path / "machine.yaml").keys() > {"machine", "damper", "band"}
+
+
+def test_the_version_is_told():
+    assert run("--version").strip() == idm.__version__

@@ -1,0 +1,41 @@
+"""Motions with a chosen damper: those in which the loose mass touches no wall are kept apart."""
+
+import numpy as np
+import pytest
+
+import impact_damper as idm
+from impact_damper.data.arguments import takes_machine
+from impact_damper.design.chosen_motions import reached_motions
+from impact_damper.design.task import Task
+from impact_damper.motions.response import frequency_response
+
+RATIO, BASE, GAP, LIMIT = 0.01, 2e-4, 18.3, 4.6
+MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=RATIO, base_displacement=BASE)
+TASK = Task(
+    machine=MACHINE,
+    mass=0.24,
+    band=(20.4, 20.7),
+    restitution=0.5,
+    contact_stiffness=2e7,
+    frequencies=3,
+    starts=73,
+)
+
+
+def test_a_motion_within_the_gap_is_not_counted_as_reached():
+    """At frequencies at which the machine alone moves less than half the gap, no wall is touched.
+
+    A loose mass at rest in the middle of the gap then stays at rest.
+    """
+    damper = TASK.damper(1e-3 * GAP)
+    response = takes_machine(frequency_response)(MACHINE, damper, TASK.grid, starts=TASK.starts)
+    found = reached_motions(TASK, GAP, response, LIMIT, None)
+    r = TASK.grid / MACHINE.natural_frequency
+    bare = 1e3 * BASE * np.hypot(1, 2 * RATIO * r) / np.hypot(1 - r**2, 2 * RATIO * r)
+    inside = bare < GAP / 2
+    assert list(inside) == [True, False, True]
+    expected = np.where(inside, bare, np.nan)
+    assert found["untouched_displacement"].values == pytest.approx(expected, rel=1e-6, nan_ok=True)
+    assert (found["reached_quiet_share"] == 1).all()
+    assert (found["reached_displacement"] < LIMIT).all()
+    assert (found["impact_rate_by_frequency"] > 1.9 * TASK.grid).all()

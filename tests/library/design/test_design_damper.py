@@ -1,0 +1,153 @@
+"""Designs of a damper: kept steps, interruptions, number of threads, and consistent results."""
+
+import json
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+
+import impact_damper as idm
+from impact_damper.data.variables import VARIABLES
+from impact_damper.design import design_damper as machines
+from impact_damper.design import design_steps
+
+MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.02, force=40)
+SMALL = {
+    "mass": 1.2,
+    "band": (20.4, 20.7),
+    "restitution": 0.6,
+    "contact_stiffness": 2e7,
+    "tolerances": {"gap": 0.05},
+    "frequencies": 3,
+    "candidates": 4,
+    "starts": 16,
+    "share": 0.8,
+}
+STEPS = {
+    "screening",
+    "comparison",
+    "cliff",
+    "orbits",
+    "response",
+    "motions",
+    "tolerances",
+    "maps",
+    "masses",
+    "transients",
+    "competitors",
+}
+
+
+def design(**others):
+    return machines.design_damper(MACHINE, **SMALL | others)
+
+
+def kept(folder):
+    return {path.stem for path in folder.glob("*.nc")}
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A design and the folder of its steps."""
+    folder = tmp_path_factory.mktemp("steps")
+    return design(folder=folder), folder
+
+
+@pytest.mark.thorough
+def test_all_steps_are_kept_and_read_again(finished, monkeypatch):
+    data, folder = finished
+    assert kept(folder) == STEPS
+
+    def computes(*_, **__):
+        raise AssertionError("a step was computed again")
+
+    for name in ("screen", "reached_motions", "alternatives", "absorber_responses", "ring_down"):
+        monkeypatch.setattr(design_steps, name, computes)
+    assert design(folder=folder).identical(data)
+
+
+@pytest.mark.thorough
+def test_an_interrupted_design_continues_after_its_kept_steps(finished, tmp_path, monkeypatch):
+    """On two threads the result is the same as on one."""
+
+    def interrupt(*_, **__):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        patch.setattr(design_steps, "alternatives", interrupt)
+        design(folder=tmp_path, workers=2)
+    done = kept(tmp_path)
+    assert done == STEPS - {"masses", "transients", "competitors"}
+    times = {name: (tmp_path / f"{name}.nc").stat().st_mtime_ns for name in done}
+    assert design(folder=tmp_path, workers=2).identical(finished[0])
+    assert times == {name: (tmp_path / f"{name}.nc").stat().st_mtime_ns for name in done}
+
+
+def test_ctrl_c_is_heard_while_motions_run(tmp_path):
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    presses = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    presses.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            # Such a design takes far longer than the 0.3 s until the key is pressed.
+            design(folder=tmp_path, frequencies=41, candidates=40, starts=500, workers=2)
+    finally:
+        presses.join()
+        signal.signal(signal.SIGINT, before)
+    assert kept(tmp_path) < STEPS
+
+
+@pytest.mark.thorough
+def test_a_free_restitution_is_the_best_of_several(tmp_path):
+    data = design(restitution=(0.4, 0.8), folder=tmp_path)
+    tried = data["tried_restitution"].values
+    assert tried == pytest.approx([0.4, 0.5, 0.6, 0.7, 0.8])
+    used = json.loads(data.attrs["machine"])["restitution"]
+    kinds, worst = data["tried_choice"].values, data["tried_displacement"].values
+    assert used == tried[np.argmin(np.where(kinds == kinds.min(), worst, np.inf))]
+    assert kept(tmp_path) == STEPS | {"restitutions"}
+    assert f"{used:.3g} is best" in data.attrs["conclusion"]
+    # The candidates of the design lie around the best gap for this restitution.
+    gap = data["tried_gap"].values[list(tried).index(used)]
+    assert data["candidate_gap"].min() < gap < data["candidate_gap"].max()
+
+
+@pytest.mark.parametrize("ends", [(0.8, 0.4), (0.5,), (0.4, 1.2), ("x", 0.5)])
+def test_a_range_of_restitutions_ascends_within_bounds(ends):
+    with pytest.raises(ValueError, match="restitution = "):
+        design(restitution=ends)
+
+
+@pytest.mark.thorough
+def test_den_hartogs_absorber_stands_beside_the_optimum(finished):
+    """Closed form: tuning f = 1/(1 + m) and damping ratio z, z^2 = 3 m/(8 (1 + m)).
+
+    m is the mass ratio, and the damping is 2 z times mass times angular frequency of the absorber.
+    """
+    ratio, angular = 0.1, np.sqrt(2e5 / 12) / 1.1
+    data, mass = finished[0], 1.2
+    damping = 2 * np.sqrt(3 * ratio / (8 * (1 + ratio))) * mass * angular
+    assert data["den_hartog_stiffness"] == pytest.approx(mass * angular**2)
+    assert data["den_hartog_damping"] == pytest.approx(damping)
+
+
+@pytest.mark.thorough
+def test_each_variable_has_its_meaning_unit_and_words(finished):
+    data, _ = finished
+    assert all({"long_name", "units"} <= data[name].attrs.keys() for name in data.variables)
+    assert idm.decode(data["promise"]).item() in VARIABLES["promise"].flags
+
+
+@pytest.mark.thorough
+def test_the_dataset_agrees_with_itself(finished):
+    """Gap, deviations and attributes of the dataset agree with each other."""
+    data, _ = finished
+    gap, asked = float(data["design_gap"]), json.loads(data.attrs["parameters"])
+    assert data["candidate_gap"].min() <= gap <= data["candidate_gap"].max()
+    factors = data["corner_factor"].values
+    assert np.allclose(factors[1:, 0], [0.95, 1.05]) and (factors[0] == 1).all()
+    assert asked["mass"] == 1.2 and asked["band"] == [20.4, 20.7]
+    assert json.loads(data.attrs["machine"])["gap"] == pytest.approx(1e-3 * gap)
+    assert f"{gap:.3g} mm" in json.loads(data.attrs["conclusion"])[0]

@@ -1,0 +1,241 @@
+"""The 80-bit reference program against other methods, laws of mechanics, and other tolerances.
+
+One of the other methods is the Taylor integrator heyoka.py, run with 80-bit numbers.
+
+Z2 is the displacement of the primary mass relative to the loose mass. Numbers in brackets are
+equations of the paper.
+"""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER, STARTS
+from references import extended
+from references.extended import scenes
+
+from impact_damper.model.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    CUBIC,
+    DAMPING,
+    DASHPOT,
+    FORCE,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    STIFFNESS,
+    UNBALANCE,
+    pack,
+)
+from impact_damper.model.parameters import Damper, Oscillator
+
+pytestmark = pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle())
+
+Real = np.longdouble
+DIGITS = 2e-17  # error of the reference, to be multiplied by the growth of errors
+
+MOTIONS = {
+    **{name: (pack(PAPER, damper, w), state, 3) for name, (damper, w, state) in STARTS.items()},
+    "violent": (pack(PAPER, DESIGN, 1.2), (1.2078, -1.7032, -0.3208, -0.7220), 3),
+    "in contact": (pack(Oscillator(0.1, 1.5), INELASTIC, 0.7), (0.4, -0.3, 1.1, 2.0), 1),
+    "dead": (pack(Oscillator(0.02), Damper(2.0, 0.3, 0.3, 50.0), 3.0), (0.4, -3.0, -0.35, 0.0), 3),
+}
+
+
+@pytest.fixture(params=list(MOTIONS))
+def case(request):
+    p, state, periods = MOTIONS[request.param]
+    period, start = 2 * math.pi / p[FREQUENCY], 0.5 * math.pi / p[FREQUENCY]
+    return p, state, start, start + period * np.arange(1, periods + 1)
+
+
+def field(p, touching, t, y):
+    """Return the derivative of the state y by equations (3), (4) and (20) to (24).
+
+    In contact y[2] is the penetration of the wall in place of Z2.
+    """
+    p = p.astype(Real)
+    force = p[CONTACT_STIFFNESS] * y[2] + p[DASHPOT] * y[3] if touching else Real(0)
+    pull = (p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2) * np.cos(p[FREQUENCY] * t) - force
+    pull -= p[DAMPING] * y[1] + p[STIFFNESS] * y[0] + p[CUBIC] * y[0] ** 3
+    return np.array([y[1], pull, y[3], pull - p[INVERSE_MASS_RATIO] * force])
+
+
+def extrapolate(p, touching, t, y, length, columns=8):
+    """Return the state after a step of the method of Gragg, Bulirsch and Stoer."""
+    table = []
+    for n in range(2, 2 * columns + 1, 2):
+        h = length / n
+        before, now = y, y + h * field(p, touching, t, y)
+        for i in range(1, n):
+            before, now = now, before + 2 * h * field(p, touching, t + i * h, now)
+        row = [(before + now + h * field(p, touching, t + length, now)) / 2]
+        for j, last in enumerate(table, 1):
+            ratio = (Real(n) / (n - 2 * j)) ** 2
+            row.append(row[j - 1] + (row[j - 1] - last) / (ratio - 1))
+        table = row
+    return table[-1]
+
+
+def test_replay_by_extrapolation(case):
+    """Integrate between the logged events by another method, extrapolation.
+
+    The loose mass is then at a wall at each event, and between two events on the side of the wall
+    that the log states.
+    """
+    p, state, start, times = case
+    run = extended.run(p, state, start, times)
+    allowed = 10 * DIGITS * run.growth
+    stops = [(Real(t), 0) for t in times]
+    for wall, begin, end, *_ in run.contacts:
+        stops += [(begin, int(wall)), (end, int(wall))]
+    stops = sorted(stop for stop in stops if start < stop[0] <= times[-1])
+    y, t = np.array(state, Real), Real(start)
+    side = int(run.contacts[0, 0]) if len(run.contacts) and run.contacts[0, 1] == start else 0
+    in_contact = 0.3 / math.sqrt(1 + p[CONTACT_STIFFNESS] * (1 + p[INVERSE_MASS_RATIO]))
+    samples = []
+    for stop, wall in stops:
+        pieces = math.ceil((stop - t) / (in_contact if side else 0.05))
+        origin = side * p[CLEARANCE] if side else 0
+        y[2] -= origin
+        length = (stop - t) / pieces
+        for _ in range(pieces):
+            y = extrapolate(p, side, t, y, length)
+            height = side * y[2] if side else abs(y[2]) - p[CLEARANCE]
+            assert (height if side else -height) > -allowed
+            t += length
+        y[2] += origin
+        t = stop
+        if wall:
+            assert abs(wall * y[2] - p[CLEARANCE]) < allowed
+            speed = run.contacts[np.any(run.contacts[:, 1:3] == stop, axis=1), 3 + (side != 0)]
+            assert abs(y[3] - speed) < allowed
+            side = 0 if side else wall
+        else:
+            samples.append(y.copy())
+    assert np.max(np.abs(np.array(samples) - run.states)) < allowed
+
+
+def test_tolerance_and_step_do_not_matter(case):
+    p, state, start, times = case
+    first = extended.run(p, state, start, times)
+    second = extended.run(p, state, start, times, tolerance=1e-22, longest=0.02)
+    allowed = DIGITS * first.growth
+    assert second.steps > 2 * first.steps
+    assert first.begun == second.begun and len(first.turnings) == len(second.turnings)
+    for name in ("states", "contacts", "extremes"):
+        difference = np.abs(getattr(first, name) - getattr(second, name))
+        assert np.nanmax(difference, initial=0) < 10 * allowed
+
+
+def test_many_are_as_one(case):
+    p, state, start, times = case
+    one = extended.run(p, state, start, times)
+    many = extended.run_many([p, p], [state, state], [start, start], [times, times])
+    assert np.array_equal(many.states, [one.states[-1]] * 2)
+    assert many.begun.tolist() == [one.begun] * 2
+    for name in ("growth", "margin"):
+        assert getattr(many, name).tolist() == [getattr(one, name)] * 2
+
+
+def test_flow_by_differences_and_liouville(case):
+    p, state, start, times = case
+    run = extended.run(p, state, start, times)
+    touched = run.contacts[:, 2] - run.contacts[:, 1]
+    touched[np.isnan(touched)] = times[-1] - run.contacts[np.isnan(touched), 1]
+    for j in range(4):
+        ends = []
+        for nudge in (1e-8, -1e-8):
+            beside = np.array(state, Real)
+            beside[j] += nudge
+            ends.append(extended.run(p, beside, start, times).states[-1])
+        slope = (ends[0] - ends[1]) / Real(2e-8)
+        assert np.max(np.abs(slope - run.flow[:, j])) < 1e-10 * run.growth**3
+    if np.isfinite(p[CLEARANCE]):
+        dashpot = p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO])
+        shrunk = -p[DAMPING] * (times[-1] - start) - dashpot * np.sum(touched)
+        determinant = np.linalg.det(run.flow.astype(float))
+        assert determinant == pytest.approx(math.exp(shrunk), rel=1e-13 * float(run.growth) ** 2)
+
+
+@pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
+@pytest.mark.parametrize("exponent", range(2, 17))
+def test_grazing_to_the_last_digit(damper, exponent):
+    """The start is shifted so that an extremum of Z2 lies just beyond or just before a wall."""
+    p = pack(PAPER, damper, 2.0)
+    state, unbounded = np.array([0.3, 0.5, 0.0, 0.9], Real), p.copy()
+    unbounded[CLEARANCE] = 16.0
+    turnings = extended.run(unbounded, state, 0.0, [3.0]).turnings
+    instant, _, height, _ = turnings[turnings[:, 1] == 1][0]
+    for sign in (1, -1):
+        depth = sign * Real(10) ** -exponent
+        shifted = state.copy()
+        shifted[2] = p[CLEARANCE] + depth - (16.0 + height)
+        run = extended.run(p, shifted, 0.0, [instant + 0.05])
+        assert run.begun == (sign == 1)
+        # the wall reduces a deep extremum
+        if sign == 1 and exponent > 5:
+            assert run.turnings[0, 2] == pytest.approx(depth, rel=0.1, abs=1e-18)
+        if sign == -1:
+            assert abs(run.turnings[0, 0] - instant) < 1e-17
+            assert abs(run.turnings[0, 2] - depth) < 1e-18
+
+
+@pytest.mark.parametrize("exponent", range(2, 15))
+def test_quick_return_to_the_wall_left(exponent):
+    """A mass that leaves the wall at speed v, pushed back with acceleration a, returns after 2 v/a.
+
+    The search for this contact must not end at the separation at time 0.
+    """
+    p = pack(PAPER, DESIGN, 2.0)
+    for wall in (1, -1):
+        speed = Real(10) ** -exponent
+        state = np.array([-0.9 * wall, 0.0, 2.0 * wall, -wall * speed], Real)
+        start = 0.0 if wall == 1 else math.pi / 2  # the forcing pushes outward
+        pushed = wall * field(p, 0, Real(start), state)[1]
+        run = extended.run(p, state, start, [start + 0.1])
+        assert run.begun and run.contacts[0, 0] == wall
+        expected = 2 * speed / pushed
+        assert abs(run.contacts[0, 1] - start - expected) < 2 * expected**2 + 1e-18
+        assert abs(run.contacts[0, 3] - wall * speed) < 10 * speed**2
+
+
+def test_heyoka_in_the_same_digits(case):
+    heyoka = pytest.importorskip("heyoka")
+    p, state, start, times = case
+    x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
+    drive = (p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2) * heyoka.cos(p[FREQUENCY] * heyoka.time)
+    spring = p[STIFFNESS] * x + p[CUBIC] * x**3
+    motion = heyoka.taylor_adaptive(
+        [(x, v), (v, drive - p[DAMPING] * v - spring)],
+        np.array(state[:2], Real),
+        time=Real(start),
+        fp_type=Real,
+    )
+    alone = p.copy()
+    alone[CLEARANCE] = np.inf
+    alone[[CONTACT_STIFFNESS, INVERSE_MASS_RATIO, DASHPOT]] = 0
+    run = extended.run(alone, state, start, times)
+    motion.propagate_until(Real(times[-1]))
+    assert np.max(np.abs(motion.state - run.states[-1, :2])) < 10 * DIGITS * run.growth
+
+
+@pytest.mark.parametrize("scene", list(scenes.configured_scenes()), ids=lambda scene: scene[0])
+def test_stored_references_are_what_the_program_gives(scene):
+    """All digits but the last two agree; in those C libraries may differ."""
+    name, *motion = scene
+    stored = json.loads(scenes.FILE.read_text(), parse_float=Real)[name]
+    made = scenes.reference(*motion)
+    text = json.loads(scenes.as_text({name: made}), parse_float=Real)[name]
+    assert list(stored) == list(text)
+    assert stored["parameters"].items() <= text["parameters"].items()
+    known = ["start", "end", "first", "state", "amplitude", "last_amplitude"]
+    allowed = dict.fromkeys(known, 10 * DIGITS * made["growth"])
+    slowest = np.min(np.abs(made["contacts"][:, 3]), initial=1)
+    allowed["contacts"] = allowed["state"] / slowest
+    assert made["error"] < allowed["state"] and made["contact_error"] < allowed["contacts"]
+    for key, most in allowed.items():
+        ours, theirs = (np.array(part[key], Real) for part in (stored, text))
+        assert ours.shape == theirs.shape
+        assert np.max(np.abs(ours - theirs), initial=0) < most

@@ -1,0 +1,140 @@
+"""Runs with extreme valid parameters come to an end and return how they ended."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from helpers.springs import has_closed_forms
+from hypothesis import given, seed, settings
+from hypothesis import strategies as st
+
+import impact_damper as idm
+from impact_damper.data.datasets import flag
+from impact_damper.model.bounds import MOST_STIFF
+
+SHORT = idm.Settling(patience=100, limit=100, watched=2, further=0)
+OUTCOMES = [flag("outcome", name) for name in ("unresolved", "settled", "chaotic")]
+OUTCOMES += [
+    flag("outcome", name)
+    for name in ("diverged", "non_colliding", "escaped", "at_rest", "drifting")
+]
+OF_OSCILLATOR = vars(idm.Oscillator(0.215))
+USUAL = {"mass_ratio": 0.12, "clearance": 2.0, "restitution": 1.0, "contact_stiffness": 2000.0}
+EXTREMES = [
+    {"contact_stiffness": 1e-6},
+    {"contact_stiffness": 1e9},
+    {"clearance": 1e-6},
+    {"clearance": 1e3},
+    {"restitution": 0.05},
+    {"restitution": 0.3},
+    {"restitution": 1 - 1e-15},
+    {"mass_ratio": 1e-6},
+    {"mass_ratio": 1e-4},
+    {"mass_ratio": 1.0},
+    {"mass_ratio": 10.0},
+    {"mass_ratio": 1e-4, "contact_stiffness": 1e6, "restitution": 0.05, "clearance": 1e3},
+    {"frequency": 0.01},
+    {"frequency": 1e3},
+    {"damping": 1e-9},
+    {"damping": 1e-5},
+    {"damping": 10.0},
+    {"linear_frequency": 100.0},
+    {"cubic": 0.0},
+    {"cubic": 0.0, "linear_frequency": 1.0},
+    {"cubic": 0.0, "linear_frequency": 2.0, "damping": 1e-5},
+    {"cubic": 1e6},
+    {"cubic": -1e6},
+    {"cubic": -1e-3, "linear_frequency": 1.0},
+    {"cubic": -0.1, "linear_frequency": 1.0, "damping": 1e-5},
+    {"force": 0.0},
+    {"force": 0.0, "damping": 1e-5, "linear_frequency": 1.0},
+    {"force": 1e6},
+    {"force": 0.0, "unbalance": 1e6},
+    {"cubic": 0.0, "linear_frequency": 1.0, "shaker": 1e6},
+]
+# Other parameters of the oscillator are at their bounds one at a time.
+_NAMED = set().union(*EXTREMES)
+EXTREMES += [
+    {each.name: each.metadata["bounds"][bound]}
+    for each in fields(idm.Oscillator)
+    for bound in ("least", "most")
+    if each.name not in _NAMED
+]
+
+
+def system(extreme):
+    """Return oscillator, damper and frequency; parameters that are not given are usual ones."""
+    own = {key: extreme.get(key, usual) for key, usual in OF_OSCILLATOR.items()}
+    oscillator = idm.Oscillator(**own)
+    damper = idm.Damper(**USUAL | {key: extreme[key] for key in USUAL if key in extreme})
+    return oscillator, damper, extreme.get("frequency", 2.0)
+
+
+def named(extreme):
+    return "-".join(f"{key}={value:g}" for key, value in extreme.items())
+
+
+@pytest.mark.parametrize("extreme", EXTREMES, ids=named)
+def test_a_motion_at_an_extreme_has_an_outcome(extreme):
+    oscillator, damper, frequency = system(extreme)
+    state = (1.0, 0.5, 0.0, 0.0)
+    motion = idm.simulate(oscillator, damper, frequency, state, periods=2, samples=20)
+    escapes = oscillator.softens and np.isfinite(motion["escape_time"])
+    assert escapes or np.isfinite(motion["displacement"]).all()
+    steady = idm.steady_motion(oscillator, damper, frequency, state, settling=SHORT)
+    assert int(steady["outcome"]) in OUTCOMES
+
+
+@pytest.mark.parametrize("extreme", EXTREMES, ids=named)
+def test_harmonic_balance_at_an_extreme_has_a_status(extreme):
+    oscillator, damper, frequency = system(extreme)
+    if damper.restitution == 1 and has_closed_forms(oscillator):
+        found = idm.harmonic_balance_response(oscillator, damper, [frequency])
+        solved, unresolved = flag("balance_status", "solved"), flag("balance_status", "unresolved")
+        assert found["balance_status"].item() in (solved, unresolved)
+
+
+@pytest.mark.parametrize("extreme", EXTREMES, ids=named)
+def test_a_response_at_an_extreme_has_outcomes(extreme):
+    oscillator, damper, frequency = system(extreme)
+    if not has_closed_forms(oscillator):
+        pytest.skip("starts come from closed forms")
+    found = idm.frequency_response(
+        oscillator,
+        damper,
+        np.linspace(frequency, 1.01 * frequency, 2).clip(0, 1e3)[: 1 if frequency == 1e3 else 2],
+        starts=2,
+        radius=min(2.0, 500 * damper.clearance),
+        settling=SHORT,
+    )
+    assert np.isin(found["run_outcome"], OUTCOMES).all()
+
+
+def scale(least, most):
+    """Strategy of numbers whose logarithm is uniform."""
+    return st.floats(np.log10(least), np.log10(most)).map(lambda power: float(10**power))
+
+
+@pytest.mark.thorough
+@seed(3)  # the duration depends on it: a single system with many contacts can take half a minute
+@settings(max_examples=60)
+@given(
+    scale(1e-4, 9.9),
+    scale(1e-6, 9.9),
+    scale(1e-3, 999),
+    st.floats(0.3, 1),
+    scale(1e-6, 0.99e9),
+    scale(0.05, 999),
+    st.tuples(*[st.floats(-5, 5)] * 4),
+)
+def test_extremes_together_have_an_outcome(
+    h, mass_ratio, clearance, e, stiffness, frequency, state
+):
+    fastest = (1e-2 * MOST_STIFF * frequency) ** 2 / (1 + 1 / mass_ratio)
+    oscillator = idm.Oscillator(h)
+    damper = idm.Damper(mass_ratio, clearance, e, max(1e-6, min(stiffness, fastest)))
+    steady = idm.steady_motion(oscillator, damper, frequency, state, settling=SHORT)
+    assert int(steady["outcome"]) in OUTCOMES
+    assert np.isfinite(steady["maximum_displacement"]) or int(steady["outcome"]) == flag(
+        "outcome", "diverged"
+    )

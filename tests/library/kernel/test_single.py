@@ -1,0 +1,366 @@
+"""Events against exact arithmetic, steps against their order, tangents against differences.
+
+A lane holds one of several trajectories that are integrated side by side. Symbols are as in
+`system.parameters`.
+"""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
+from helpers.pointed import part
+from helpers.sampling import sample
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.polynomial import Polynomial
+from numpy.testing import assert_allclose
+
+from impact_damper.kernel import single
+from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
+from impact_damper.kernel.series import SERIES, SINGLE
+from impact_damper.kernel.tangents import advance
+from impact_damper.model.packed import CLEARANCE, pack
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.motions.strobe_map import period_map
+
+# Bound on the rounding error of the polynomials in this module. A larger penetration means that a
+# wall was passed.
+HAIR = Fraction(1, 10**12)
+DEGREE = 7
+coefficients = st.lists(st.integers(-200, 200), min_size=2, max_size=DEGREE + 1)
+examples = settings(max_examples=100)
+widths = pytest.mark.parametrize("lanes", [1, 16])
+expected = pytest.mark.parametrize("expecting", [(), ("expect_contact",)], ids=["any", "expected"])
+
+
+def evaluate(c, t):
+    value = Fraction(0)
+    for a in reversed(c):
+        value = value * t + a
+    return value
+
+
+def sturm_chain(c):
+    """Return Sturm's chain of a polynomial with rational coefficients, lowest power first."""
+
+    def trimmed(c):
+        while c and c[-1] == 0:
+            c = c[:-1]
+        return [a / abs(c[-1]) for a in c]
+
+    chain = [trimmed(c), trimmed([k * a for k, a in enumerate(c)][1:])]
+    while len(chain[-1]) > 0:
+        left, divisor = list(chain[-2]), chain[-1]
+        while len(left) >= len(divisor):
+            factor = left[-1] / divisor[-1]
+            for k in range(len(divisor)):
+                left[len(left) - len(divisor) + k] -= factor * divisor[k]
+            left.pop()
+        chain.append(trimmed([-a for a in left]))
+    return chain[:-1]
+
+
+def roots_within(c, end):
+    """Return the number of different real roots in (0, end], by Sturm's theorem."""
+    chain = sturm_chain([Fraction(a) for a in c])
+
+    def changes(t):
+        signs = [s for s in (evaluate(link, t) for link in chain) if s != 0]
+        return sum((a > 0) != (b > 0) for a, b in zip(signs, signs[1:], strict=False))
+
+    return changes(Fraction(0)) - changes(Fraction(end))
+
+
+def found(lanes, searched, series_given, length, **numbers):
+    """Return the time at which a search ends, whether it found an event, and the wall.
+
+    The kernels `searched` are called. With several lanes the trajectory is in one lane, and the
+    other lanes have similar trajectories.
+    """
+    module = instance(lanes)
+    a = np.zeros((module.SIZE // lanes, lanes))
+    rows = {name: getattr(module, name) // lanes for name in [*SINGLE, *SERIES]}
+    lane = lanes // 3
+    for i in range(lanes):
+        # The other lanes have the same initial state and other higher coefficients.
+        for name, c in series_given(1.0 if i == lane else 1.0 + 0.1 * i).items():
+            a[rows[name] : rows[name] + len(c), i] = c
+    for name, number in (numbers | {"LENGTH": length, "T": length}).items():
+        a[rows[name]] = number
+    flat = a.ravel()
+    for each in searched:
+        part(module, each)(flat)
+    return a[rows["T"], lane], a[rows["MODE"], lane] == module.MET, a[rows["WALL"], lane]
+
+
+def first_contact(lanes, c, offset, drift, clearance, length, expecting=()):
+    """Return time and wall (0 for none) of the first contact, with Z2 = Z1 + offset + drift t.
+
+    c are the coefficients of Z1, lowest power first.
+    """
+
+    def series_given(bend):
+        x = Polynomial([*c[:2], *(bend * np.array(c[2:]))])
+        return {"X": x.coef, "G": x.deriv(2).coef}
+
+    c = [*c, *[0.0] * (3 - len(c))]
+    state = {"Y0": c[0], "Y1": c[1], "Y2": c[0] + offset, "Y3": c[1] + drift}
+    searched = [*expecting, "flight_slope", "flight_change", "find_contact"]
+    t, met, wall = found(lanes, searched, series_given, length, CLEARANCE=clearance, **state)
+    return t, int(wall) if met else 0
+
+
+def first_separation(lanes, c, side, length, stiffness, dashpot, inverse_mass):
+    """Return the time of the first separation and whether there is one.
+
+    c are the coefficients of the penetration q. The acceleration g without the force of the wall
+    follows from q'' = g - (1 + 1/rm) (r1 q + D q').
+    """
+
+    def series_given(bend):
+        q = Polynomial([*c[:2], *(bend * np.array(c[2:]))])
+        g = q.deriv(2) + (1 + inverse_mass) * (stiffness * q + dashpot * q.deriv())
+        return {"Q": q.coef, "G": g.coef}
+
+    c = [*c, *[0.0] * (3 - len(c))]
+    numbers = {
+        "CONTACT_STIFFNESS": stiffness,
+        "DASHPOT": dashpot,
+        "INVERSE_MASS_RATIO": inverse_mass,
+    }
+    numbers["NATURAL"] = math.sqrt(stiffness * (1 + inverse_mass))
+    searched = ["contact_bound", "find_separation"]
+    t, met, _ = found(lanes, searched, series_given, length, SIDE=side, **numbers)
+    return t, met
+
+
+def check_contact(lanes, c, offset, drift, clearance, length, expecting=()):
+    """Assert that the distance to a wall is zero at the time found, and that no wall was passed.
+
+    If a contact was expected but not found, the step may end early.
+    """
+    t, side = first_contact(lanes, c, offset, drift, clearance, length, expecting)
+    path = [Fraction(float(a)) for a in [*c, *[0.0] * (2 - len(c))]]
+    path[0] += Fraction(offset)
+    path[1] += Fraction(drift)
+    for sign in (1, -1):
+        wall = [sign * a for a in path]
+        wall[0] -= Fraction(clearance) + HAIR
+        assert roots_within(wall, t) == 0
+    if side == 0:
+        assert 0 < t <= length if expecting else t == length
+    else:
+        assert 0 <= t <= length
+        assert abs(side * evaluate(path, Fraction(t)) - Fraction(clearance)) < HAIR
+        slope = evaluate([k * a for k, a in enumerate(path)][1:], Fraction(t))
+        assert side * slope > -Fraction(1, 10**5)
+    return t, side
+
+
+@pytest.mark.thorough
+@widths
+@expected
+@examples
+@given(coefficients, st.integers(-64, 64), st.integers(-128, 128), st.floats(0.1, 3.0))
+def test_first_contact_of_random_polynomials(lanes, expecting, c, offset, drift, length):
+    c = [a / 64 for a in c]
+    offset, drift = offset / 64, drift / 64
+    check_contact(lanes, c, offset, drift, abs(c[0] + offset) + 0.25, length, expecting)
+
+
+@pytest.mark.thorough
+@widths
+@expected
+@examples
+@given(coefficients, st.integers(2, 14), st.booleans())
+def test_first_contact_of_grazing_polynomials(lanes, expecting, c, exponent, beyond):
+    """The wall is close to the largest |Z2|, so the distance to it has nearly a double root."""
+    c = [0.0, *(a / 64 for a in c)]
+    t = np.linspace(0, 1, 10001)
+    largest = np.max(np.abs(Polynomial(c)(t)))
+    if largest < 0.1:
+        return
+    clearance = largest * (1 + (1 if beyond else -1) * 10.0**-exponent)
+    check_contact(lanes, c, 0.0, 0.0, clearance, 1.0, expecting)
+
+
+@widths
+@pytest.mark.parametrize("exponent", range(1, 15))
+@pytest.mark.parametrize("sign", [1, -1])
+def test_grazing_parabola(lanes, exponent, sign):
+    """Z2 = 1 - (t - 1)^2 meets the wall at 1 - eps when t = 1 - sqrt(eps)."""
+    depth = 10.0**-exponent
+    c = [0.0, 2.0 * sign, -1.0 * sign]
+    t, side = first_contact(lanes, c, 0.0, 0.0, 1 - depth, 3.0)
+    assert side == sign
+    assert_allclose(t, 1 - math.sqrt(depth), atol=1e-15 / math.sqrt(depth))
+    if exponent < 15:
+        # with this wall farther out, the motion meets the other wall, at -1 - eps
+        t, side = first_contact(lanes, c, 0.0, 0.0, 1 + depth, 3.0)
+        assert side == -sign
+        assert_allclose(t, 1 + math.sqrt(2 + depth), rtol=1e-14)
+
+
+@widths
+def test_no_contact_without_walls(lanes):
+    assert first_contact(lanes, [0.0, 1e3, 0.0], 0.0, 0.0, math.inf, 2.0) == (2.0, 0)
+
+
+@widths
+@pytest.mark.parametrize("side", [1, -1])
+def test_start_on_a_wall_that_recedes(lanes, side):
+    """A start on the wall, moving away from it, is no contact; the next contact is found."""
+    c = [side * 1.0, side * -1e-3, side * 1.0]
+    t, found_side = first_contact(lanes, c, 0.0, 0.0, 1.0, 1.0)
+    assert found_side == side
+    assert_allclose(t, 1e-3, rtol=1e-9)
+
+
+@pytest.mark.parametrize("roundings", [0, 1, 2, 7, 1000])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_start_within_rounding_of_a_wall(roundings, sign):
+    """The mass moves towards a wall at a distance of some rounding errors.
+
+    The time until the contact is below the rounding error of the time, so one step must find it.
+    """
+    p, work = pack(Oscillator(0.3, 1.1), DESIGN, 1.9), single.workspace()
+    wall = p[CLEARANCE] * (1 - roundings * 2.0**-53)
+    y = sign * np.array([-2.6, 1.3, wall, 1.7])
+    length, side = single.step(p, y, 0, 9.2, 1.0, 1e-12, work)
+    assert side == sign
+    assert length < 1e-12
+
+
+@pytest.mark.thorough
+@widths
+@examples
+@given(
+    coefficients,
+    st.integers(0, 64),
+    st.floats(0.1, 2.0),
+    st.sampled_from([1, -1]),
+    st.sampled_from([1e-2, 1.0, 16.0, 256.0]),
+    st.sampled_from([0.0, 0.25, 4.0]),
+)
+def test_first_separation_of_random_polynomials(lanes, c, depth, length, side, stiffness, dashpot):
+    """The step begins on the wall, moving outward, or anywhere beyond the wall."""
+    c = [depth / 64, *(a / 64 for a in c)]
+    if depth == 0:
+        c[1] = abs(c[1]) + 1 / 64
+    t, separated = first_separation(
+        lanes, [side * a for a in c], side, length, stiffness, dashpot, 4.0
+    )
+    path = [Fraction(a) for a in c]
+    above = [path[0] + HAIR, *path[1:]]
+    assert roots_within(above, t) == 0
+    if separated:
+        assert 0 <= t <= length
+        assert abs(evaluate(path, Fraction(t))) < HAIR
+    else:
+        assert t == length
+
+
+def test_side_of():
+    p = pack(PAPER, DESIGN, 2.0)
+    for z, w, side in [(2, 1, 1), (2, -1, 0), (2.1, -1, 1), (-2, -1, -1), (-2, 1, 0), (0, 9, 0)]:
+        assert single.side_of(p, np.array([0.0, 0.0, z, w])) == side
+    assert single.side_of(pack(PAPER, None, 2.0), np.array([9.0, 0.0, 9.0, 1.0])) == 0
+
+
+def integrated(p, state, side, length, steps, tolerance):
+    """Return the state after equal steps without an event."""
+    y, work = np.array(state), single.workspace()
+    for i in range(steps):
+        taken, side = single.step(p, y, side, i * length / steps, length / steps, tolerance, work)
+        assert taken == length / steps
+    return y
+
+
+def test_order_of_flight_steps():
+    """Halving the step divides the error by two to the order of the series."""
+    p = pack(PAPER, None, 2.0)
+    state = [1.5, 0.5, 1.5, 0.5]
+    exact = integrated(p, state, 0, 2.4, 24, 1.0)
+    errors = [np.max(np.abs(integrated(p, state, 0, 2.4, n, 1e15) - exact)) for n in (3, 4, 6)]
+    orders = np.log(np.divide(errors[:-1], errors[1:])) / np.log([4 / 3, 3 / 2])
+    assert np.all(orders > FLIGHT_ORDER - 2)
+
+
+def contact_series(p, state, t):
+    """Return the series of Z1 and of the penetration, which the state has in place of Z2."""
+    work = single.workspace()
+    y = np.array(state, float)
+    y[2] += p[CLEARANCE]
+    single.step(p, y, 1, t, 1e-9, 1e-9, work)
+    return work[single.X :], work[single.Q :]
+
+
+def test_order_of_contact_series():
+    """Steps in contact are too short to show an error, so the series is evaluated beyond a step."""
+    p = pack(Oscillator(0.215, 1.0), Damper(0.12, 2.0, 0.9), 2.0)
+    state = 0.5, -0.4, 0.0, 1.5
+    lengths = 0.04, 0.06, 0.09
+    errors = []
+    for length in lengths:
+        x, q = contact_series(p, state, 0.0)
+        at_end, _ = single.polynomial(q, CONTACT_ORDER, length)
+        y, n = np.array(state), 40
+        for i in range(n):
+            x, q = contact_series(p, y, length * i / n)
+            y[:2] = single.polynomial(x, CONTACT_ORDER, length / n)
+            y[2:] = single.polynomial(q, CONTACT_ORDER, length / n)
+        errors.append(abs(at_end - y[2]))
+    orders = np.diff(np.log(errors)) / np.diff(np.log(lengths))
+    assert_allclose(orders, CONTACT_ORDER + 1, atol=2)
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9, 1e-12])
+def test_contact_steps_never_pass_a_separation(tolerance):
+    """A contact lasts nearly half a natural period, with stiff and with soft walls."""
+    for stiffness in (1e2, 1e4, 1e6):
+        damper = Damper(0.12, 2.0, 1.0, stiffness)
+        p = pack(PAPER, damper, 2.0)
+        _, log = sample(p, [0.0, 0.0, 2.0, 1.0], math.pi / 4, [math.pi / 4 + 1.0], tolerance)
+        half = math.pi / math.sqrt(stiffness * (1 + 1 / damper.mass_ratio))
+        assert abs(log[0, 2] - log[0, 1] - half) < 0.2 * half
+
+
+def test_tangents_against_differences(impacting_orbit):
+    """Central differences of the map between mid-flight phases converge with order two."""
+    p, state = impacting_orbit.parameters, impacting_orbit.state
+    _, matrix, _ = period_map(p, state, 1, 1e-14)
+
+    def error(h):
+        difference = np.empty((4, 4))
+        for k, unit in enumerate(np.eye(4)):
+            ahead, _, _ = period_map(p, state + h * unit, 1, 1e-14)
+            behind, _, _ = period_map(p, state - h * unit, 1, 1e-14)
+            difference[:, k] = (ahead - behind) / (2 * h)
+        return np.max(np.abs(difference - matrix))
+
+    coarse, fine = error(1e-3), error(1e-4)
+    assert fine < 1e-6 * np.max(np.abs(matrix)) * 100
+    assert 80 < coarse / fine < 125
+    assert error(1e-5) < 1e-7 * np.max(np.abs(matrix))
+
+
+@pytest.mark.parametrize("damper", [DESIGN, INELASTIC])
+def test_tangents_of_a_motion_that_starts_in_contact(damper):
+    """Against central differences. The dashpot's force jumps at the separation."""
+    p = pack(Oscillator(0.3, 1.1), damper, 1.9)
+    state = np.array([0.4, 0.2, damper.clearance + 0.01, 1.0])
+
+    def after(y, tangents):
+        y = y.copy()
+        advance(p, y, tangents, 1, 0.2, 0.7, 1e-14, single.workspace())
+        return y
+
+    tangents = np.eye(4)
+    after(state, tangents)
+    h = 1e-5
+    for k, unit in enumerate(np.eye(4)):
+        none = np.empty((0, 4))
+        difference = (after(state + h * unit, none) - after(state - h * unit, none)) / (2 * h)
+        assert_allclose(tangents[k], difference, rtol=1e-6, atol=1e-6)

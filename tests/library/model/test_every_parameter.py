@@ -1,0 +1,420 @@
+"""Each field of `Oscillator` has an effect, or is refused, everywhere that its term matters.
+
+The tests go through the fields of the dataclass, so a new field is tested in all places without a
+change of this module. A message names the file in which its term is missing.
+
+Z1 is the displacement of the primary mass.
+"""
+
+import re
+from dataclasses import fields, replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+from helpers.sampling import sample
+from helpers.springs import SPRINGS
+from numpy.testing import assert_allclose
+from references import equation, extended
+
+import impact_damper
+from chatterjee1995.comparisons.masri_caughey import flight_with_speed
+from chatterjee1995.methods.equations import rate
+from impact_damper.kernel import batch
+from impact_damper.kernel import equation as kernel
+from impact_damper.model.families import FORCING
+from impact_damper.model.packed import COUNT, NAMES, cubic_spring, pack
+from impact_damper.model.parameters import NONLINEAR, SPRING_POWER, Damper, Oscillator
+from impact_damper.motions.start_states import barrier
+from impact_damper.motions.strobe_map import flow_map
+from impact_damper.orbits.quiet_orbits import straight_flight_end
+from impact_damper.theory.design_rule import peak_frequency, rule_clearance
+from impact_damper.theory.free_oscillator import (
+    free_folds,
+    free_solutions,
+    main_solutions,
+    maximum_response,
+    resonance,
+)
+from impact_damper.theory.many_harmonics import Balance
+from impact_damper.theory.single_harmonic import (
+    impacting_solutions,
+    resting_solutions,
+    rigid_solutions,
+)
+from impact_damper.theory.slow_flow import jacobian, slow_flow
+from impact_damper.theory.straight_flight import flight_of
+
+ROOT = Path(__file__).parents[3]
+SOURCES = Path(impact_damper.__file__).parent
+PARAMETERS = [each.name for each in fields(Oscillator)]
+SPRING = {"linear_frequency", *NONLINEAR}
+BENT = Oscillator(0.1, 1.0, cubic=0.5, force=0.6, unbalance=0.02)
+LINEAR = Oscillator(0.1, 1.0, cubic=0.0, force=0.6, unbalance=0.02)
+SOFT = Oscillator(0.1, 1.0, cubic=-0.2, force=0.03)
+DAMPER = Damper(0.15, 0.6, 0.8, 900.0)
+ELASTIC = replace(DAMPER, restitution=1.0)
+WIDE = replace(ELASTIC, clearance=50.0)
+W = 1.3
+STATE = np.array([0.35, 0.8, 0.1, -0.4])
+Z1 = np.linspace(-1.5, 1.5, 7)
+every_parameter = pytest.mark.parametrize("name", PARAMETERS)
+
+
+def changed(oscillator, name):
+    """Return the oscillator with another value of a field."""
+    value = getattr(oscillator, name)
+    return replace(oscillator, **{name: 1.25 * value if value else 0.1})
+
+
+def pairs(name, bases=(BENT, LINEAR)):
+    """Return oscillators that differ in one field, for all bases that allow the field."""
+    found = []
+    for base in bases:
+        try:
+            found.append((base, changed(base, name)))
+        except ValueError as refusal:
+            assert re.match(r"\w+ = .*: must be", str(refusal))
+    return found
+
+
+def packed(oscillator, damper=None):
+    return pack(oscillator, damper, W)
+
+
+def several(oscillator):
+    states = np.tile(STATE, (20, 1))
+    arguments = np.zeros(20, int), np.zeros(20), np.full(20, 3.0), 1e-12, np.zeros(20, int)
+    batch.advance(np.tile(packed(oscillator, DAMPER), (20, 1)), states, *arguments)
+    return states
+
+
+def reference_80_bit(oscillator):
+    if extended.obstacle():
+        pytest.skip(extended.obstacle())
+    return extended.run(packed(oscillator, DAMPER), STATE, 0.0, [3.0]).states
+
+
+def tangents_80_bit(oscillator):
+    if extended.obstacle():
+        pytest.skip(extended.obstacle())
+    return extended.run(packed(oscillator), np.tile(STATE[:2], 2), 0.0, [1.0]).flow[:2, :2]
+
+
+# Functions of an oscillator whose results every field must change, keyed by the file of the
+# package.
+PLACES = {
+    "system/packed.py": [packed],
+    "kernel/equation.py": [
+        lambda oscillator: kernel.acceleration(packed(oscillator), STATE, 0.4),
+        lambda oscillator: rate(packed(oscillator), 0, 0.4, tuple(STATE)),
+    ],
+    "kernel/recurrence.py": [
+        lambda oscillator: sample(packed(oscillator, DAMPER), STATE, 0.0, [3.0])[0],
+        several,
+    ],
+    "theory/free_oscillator.py": [
+        lambda oscillator: free_solutions(oscillator, W).amplitude,
+        lambda oscillator: main_solutions(oscillator, W).amplitude,
+        lambda oscillator: resonance(oscillator, W).amplitude,
+        maximum_response,
+    ],
+    "theory/single_harmonic.py": [
+        lambda oscillator: np.hstack(impacting_solutions(oscillator, ELASTIC, W)),
+        lambda oscillator: resting_solutions(oscillator, WIDE, W).amplitude,
+        lambda oscillator: np.hstack(rigid_solutions(oscillator, ELASTIC, W)),
+    ],
+    "theory/slow_flow.py": [lambda oscillator: slow_flow(STATE, oscillator, DAMPER, W)],
+    "tests/references/equation.py": [
+        lambda oscillator: equation.flight(packed(oscillator), *STATE[:2], 0.6)
+    ],
+    "tests/references/extended/motion.c": [reference_80_bit],
+}
+# Functions whose results the fields of the spring must change: all fields, or the nonlinear ones.
+SPRING_PLACES = {
+    "kernel/equation.py": [
+        lambda oscillator: kernel.energy.py_func(packed(oscillator), STATE),
+        lambda oscillator: kernel.spring_slope.py_func(packed(oscillator), 0.7),
+    ],
+    "kernel/recurrence.py": [
+        lambda oscillator: flow_map(packed(oscillator), np.tile(STATE[:2], 2), 0.0, 1, False, 1e-13)
+    ],
+    "theory/slow_flow.py": [lambda oscillator: jacobian(STATE, oscillator, DAMPER, W)],
+    "tests/references/extended/motion.c": [tangents_80_bit],
+}
+NONLINEAR_PLACES = {
+    "system/packed.py": [lambda oscillator: cubic_spring(packed(oscillator))],
+    "system/parameters.py": [lambda oscillator: oscillator.hardening],
+}
+# Functions whose results must change with every field that is allowed with a nonlinear spring.
+BENT_PLACES = {
+    "theory/free_oscillator.py": [lambda oscillator: np.array(free_folds(oscillator))],
+    "theory/design_rule.py": [peak_frequency, partial(rule_clearance, mass_ratio=0.1)],
+}
+# Files of the package that name the cubic spring and are not tested here, each with the reason.
+OTHERS = {
+    "absorbers/problems.py": "the spring of a machine",
+    "absorbers/seeds.py": "the spring of a machine",
+    "motions/smooth_runs.py": "the spring of a machine",
+    "design/task.py": "the spring of a machine",
+    "literature/nonlinear_absorber.py": "a published system",
+    "motions/start_states.py": "`barrier` is compared with the spring below",
+    "migration/damper_release.py": "the sign of `hardening`",
+    "stages/suppression_band.py": "the sign of `hardening`",
+}
+
+
+# Files that contain the damping term h Z1', apart from those in the table of the walk-through in
+# CONTRIBUTING.md. These files must also have, or refuse, any second term in the velocity.
+DAMPED = {
+    "attraction/boundary.py",
+    "contact/rigid_impacts.py",
+    "contact/rigid_orbits.py",
+    "kernel/series.py",
+    "kernel/templates/separation.py",
+    "literature/masri_caughey.py",
+    "orbits/orbit.py",
+    "orbits/variations.py",
+    "performance/costs.py",
+    "rivals/equations.py",
+    "stages/harmonic_convergence.py",
+    "stages/suppression_band.py",
+    "theory/convergence.py",
+    "theory/design_rule.py",
+    "theory/free_oscillator.py",
+    "theory/many_harmonics.py",
+    "theory/single_harmonic.py",
+    "theory/slow_flow.py",
+    "theory/straight_flight.py",
+}
+# Files with the damping of another system, or with a value of h.
+OTHER_DAMPING = {
+    "absorbers/problems.py",
+    "absorbers/seeds.py",
+    "absorbers/settling.py",
+    "comparisons/duffing.py",
+    "design/screen.py",
+    "design/task.py",
+    "literature/basin_shares.py",
+    "motions/smooth_runs.py",
+    "stages/design_orbit.py",
+    "stages/release_policies.py",
+}
+# Files that need a spring force that is odd in Z1.
+SYMMETRIC = """theory/ (hardening in system/parameters.py), theory/many_harmonics.py,
+orbits/quiet_orbits.py, orbits/shooting.py"""
+
+
+def flat(result):
+    """Return all numbers of a result as one array."""
+    if isinstance(result, tuple) and not hasattr(result, "_fields"):
+        return np.concatenate([flat(part) for part in result])
+    return np.ravel(np.asarray(result, float))
+
+
+def check(file, function, name, bases=(BENT, LINEAR)):
+    """Assert that a function distinguishes oscillators, or refuses the second by its field."""
+    for one, other in pairs(name, bases):
+        before = flat(function(one))
+        try:
+            after = flat(function(other))
+        except ValueError as refusal:
+            assert re.match(rf"{name} = ", str(refusal)), f"{file}: {refusal}"
+            continue
+        closed = ", in `hardening` of system/parameters.py" if file.startswith("theory/") else ""
+        assert not np.array_equal(before, after), (
+            f"{file}: nothing changes with {name} = {getattr(other, name):g}. Add its term, or "
+            f'raise ValueError("{name} = ...: must be 0 ..."){closed}'
+        )
+
+
+def cases(places):
+    """Return arguments of parametrize: a file and a function."""
+    return pytest.mark.parametrize(
+        "file, function",
+        [
+            pytest.param(file, function, id=f"{file}-{number}")
+            for file, functions in places.items()
+            for number, function in enumerate(functions)
+        ],
+    )
+
+
+@every_parameter
+@cases(PLACES)
+def test_every_parameter_has_an_effect(file, function, name):
+    check(file, function, name)
+
+
+@pytest.mark.parametrize("name", sorted(SPRING))
+@cases(SPRING_PLACES)
+def test_every_parameter_of_the_spring_has_an_effect(file, function, name):
+    check(file, function, name)
+
+
+@every_parameter
+@cases(BENT_PLACES)
+def test_every_parameter_changes_the_response_of_a_nonlinear_spring(file, function, name):
+    check(file, function, name, (BENT,))
+
+
+@pytest.mark.parametrize("name", NONLINEAR)
+@cases(NONLINEAR_PLACES)
+def test_closed_forms_know_or_refuse_a_nonlinear_term(file, function, name):
+    check(file, function, name, (BENT,))
+
+
+@every_parameter
+def test_parameters_are_named_by_their_kind(name):
+    """NONLINEAR and FORCING, which other modules go through, are complete."""
+    for one, other in pairs(name):
+        p, q = packed(one), packed(other)
+        slopes = kernel.spring_slope.py_func(q, Z1) - kernel.spring_slope.py_func(p, Z1)
+        assert np.any(slopes != slopes[0]) == (name in NONLINEAR), (
+            f"system/parameters.py: NONLINEAR must have {name} if it is a nonlinear term of the "
+            "spring, and only then"
+        )
+        forced = kernel.forcing_amplitude.py_func(p) != kernel.forcing_amplitude.py_func(q)
+        assert forced == (name in FORCING), (
+            f"system/families.py: FORCING must have {name} if it is a part of the forcing "
+            "amplitude, and only then"
+        )
+        assert forced == (one.forcing_amplitude(W) != other.forcing_amplitude(W)), (
+            f"system/parameters.py: forcing_amplitude must have {name}, as in kernel/equation.py"
+        )
+        if forced:
+            ends = [straight_flight_end(each, 2.0, 0.5) for each in (one, other)]
+            assert ends[0] != ends[1], f"orbits/quiet_orbits.py: straight_flight_end lacks {name}"
+        elif name not in NONLINEAR:
+            flights = [np.hstack(flight_of(each, DAMPER, W)) for each in (one, other)]
+            assert np.any(flights[0] != flights[1]), f"theory/straight_flight.py lacks {name}"
+
+
+@every_parameter
+def test_damping_is_the_only_term_in_the_velocity(name):
+    """A second term in Z1' must also be added to the files that contain the damping term."""
+    for _, other in pairs(name):
+        p, still, fast = packed(other), STATE * (1, 0, 1, 1), STATE
+        drag = kernel.acceleration(p, still, 0.4) - kernel.acceleration(p, fast, 0.4)
+        assert_allclose(
+            drag,
+            other.damping * fast[1],
+            rtol=1e-12,
+            err_msg=f"{name} acts on the velocity: add its term, or refuse it, in {sorted(DAMPED)}",
+        )
+
+
+@every_parameter
+def test_the_spring_is_odd(name):
+    """With an even term no motion is symmetric; modules that seek such motions must refuse it."""
+    for _, other in pairs(name):
+        force = kernel.spring.py_func(packed(other), Z1)
+        assert np.array_equal(force, -force[::-1]), (
+            f"{name} is not odd in Z1, so motions are not symmetric: refuse it in {SYMMETRIC}"
+        )
+
+
+@every_parameter
+def test_a_spring_that_pushes_outward_is_said_to_soften(name):
+    for _, other in pairs(name, (BENT, LINEAR, SOFT)):
+        p, far = packed(other), 1e3 * np.arange(1.0, 4.0)
+        softens = bool(np.any(kernel.spring.py_func(p, far) < 0))
+        assert other.softens == softens, "system/parameters.py: softens"
+        assert np.isfinite(kernel.no_return(p)) == softens, "kernel/equation.py: no_return"
+        if softens:
+            edge, _ = barrier(other)
+            pushes = kernel.spring.py_func(p, edge * np.array([1 - 1e-9, 1 + 1e-9]))
+            assert pushes[0] > 0 > pushes[1], "motions/start_states.py: barrier"
+
+
+@pytest.mark.parametrize("spring", SPRINGS)
+@pytest.mark.parametrize("number", range(COUNT), ids=NAMES)
+def test_derivatives_of_the_equation(number, spring):
+    """Against central differences, whose step is a power of two."""
+    p, step = packed(SPRINGS[spring]), np.zeros(COUNT)
+    step[number] = 2.0**-12
+    speed = np.linspace(-1.0, 1.0, len(Z1))
+    where = f"kernel/equation.py, {NAMES[number]}: "
+
+    def flights(q):
+        cosine = kernel.forcing_amplitude.py_func(q) * np.cos(0.4)
+        return cosine - q[1] * speed - kernel.spring.py_func(q, Z1)
+
+    found = kernel.acceleration_by_parameters(p, Z1, speed, np.full(len(Z1), np.cos(0.4)))
+    expected = (flights(p + step) - flights(p - step)) / (2 * step[number])
+    assert_allclose(
+        found[number], expected, rtol=1e-6, atol=1e-9, err_msg=where + "acceleration_by_parameters"
+    )
+    shift = 2.0**-12 * np.cos(Z1)
+    change = kernel.spring_slope_changes(p, Z1, shift[None], step[:, None])[0]
+    after = kernel.spring_slope.py_func(p + step, Z1 + shift)
+    before = kernel.spring_slope.py_func(p - step, Z1 - shift)
+    assert_allclose(
+        change, (after - before) / 2, rtol=1e-6, atol=1e-9, err_msg=where + "spring_slope_changes"
+    )
+
+
+@pytest.mark.parametrize("name", SPRINGS)
+def test_equations_of_the_package_are_those_of_the_reference(name):
+    """Force, slope and energy of the spring, and the harmonics of its force without aliasing."""
+    oscillator = SPRINGS[name]
+    p = packed(oscillator)
+    same = partial(assert_allclose, rtol=1e-10, atol=1e-12)
+    same(kernel.spring.py_func(p, Z1), equation.spring(p, Z1), err_msg="kernel/equation.py: spring")
+    same(
+        kernel.spring_slope.py_func(p, Z1),
+        equation.slope(p, Z1),
+        err_msg="kernel/equation.py: spring_slope",
+    )
+    stored = [kernel.energy.py_func(p, [x, 0.0, 0.0, 0.0]) for x in Z1]
+    same(stored, equation.potential(p, Z1), err_msg="kernel/equation.py: energy")
+    bent = equation.spring(p, Z1) - oscillator.linear_frequency**2 * Z1
+    same(oscillator.nonlinear_force(Z1), bent, err_msg="system/parameters.py: nonlinear_force")
+    slope = equation.slope(p, Z1) - oscillator.linear_frequency**2
+    same(oscillator.nonlinear_slope(Z1), slope, err_msg="system/parameters.py: nonlinear_slope")
+    many = Balance(oscillator, None, W, 5)
+    series = np.array([[0.4 - 0.2j, 0.1 + 0.05j, -0.03j]])
+    angle = 2 * np.pi * np.arange(256) / 256
+    turning = 2 * series[0] * np.exp(1j * np.outer(angle, many.harmonics))
+    x, v, a = (np.sum(turning * many.rates**power, axis=1).real for power in range(3))
+    left = np.fft.rfft(a - equation.flight(p, x, v, np.cos(angle)))[many.harmonics] / len(angle)
+    words = f"system/parameters.py: SPRING_POWER = {SPRING_POWER}"
+    same(many.residual(series, np.empty((0, 3)))[0], left, err_msg=words)
+
+
+@every_parameter
+def test_every_parameter_is_in_the_systems_of_the_tests_and_the_manual(name):
+    usual = Oscillator(0.1)
+    assert any(getattr(each, name) != getattr(usual, name) for each in SPRINGS.values()), (
+        f"tests/helpers/springs.py: SPRINGS need an oscillator with {name}"
+    )
+    symbols = (ROOT / "docs/index.md").read_text()
+    assert f"`{name}`" in symbols, f"docs/index.md: the table of symbols lacks {name}"
+
+
+def test_closed_form_of_a_linear_spring_refuses_others():
+    """`flight_with_speed` depends on each parameter of a linear oscillator."""
+    for name in PARAMETERS:
+        check(
+            "literature/masri_caughey.py",
+            lambda oscillator: np.array([flight_with_speed(oscillator, DAMPER, W, 0.8).clearance]),
+            name,
+            (LINEAR,),
+        )
+
+
+def test_all_files_that_name_the_cubic_spring_are_tested_here():
+    tested = {*PLACES, *SPRING_PLACES, *BENT_PLACES, *NONLINEAR_PLACES, *OTHERS}
+    for path in SOURCES.rglob("*.py"):
+        file = path.relative_to(SOURCES).as_posix()
+        if re.search(r"\bCUBIC\b|\.(cubic|hardening)\b", path.read_text()):
+            assert file in tested, f"{file}: test it here, or give the reason in OTHERS"
+
+
+def test_all_files_that_name_the_damping_are_listed():
+    listed = {"kernel/equation.py", "system/packed.py", *DAMPED, *OTHER_DAMPING}
+    for path in SOURCES.rglob("*.py"):
+        file = path.relative_to(SOURCES).as_posix()
+        if re.search(r"\bDAMPING\b|\b(oscillator|own)\.damping\b", path.read_text()):
+            assert file in listed, f"{file}: list it in DAMPED or OTHER_DAMPING"

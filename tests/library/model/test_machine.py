@@ -1,0 +1,239 @@
+"""Machines and dampers: scales, the force at each frequency, and nonsense refused in SI units."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from impact_damper.model.machine import Machine
+from impact_damper.model.scales import Scales, static_deflection
+from impact_damper.model.units import QUANTITIES
+
+HARD = Machine(mass=12, linear_stiffness=2e5, cubic_stiffness=4e9, damping_ratio=0.005, force=40)
+SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
+DAMPER = {"mass": 0.6, "gap": "3 mm", "restitution": 0.8, "contact_stiffness": 2e7}
+MACHINES = {
+    "hard": HARD,
+    "linear": Machine(**SPRING, force=40),
+    "softening": Machine(**SPRING, cubic_stiffness=-4e9, force=10),
+    "cubic alone": Machine(mass=2, cubic_stiffness=1e6, damping=0.4, force=3),
+    "unbalanced": Machine(**SPRING, cubic_stiffness=4e9, unbalance="2 g m"),
+    "on a base": Machine(**SPRING, base_displacement="0.2 mm"),
+    "on a shaker": Machine(**SPRING, base_acceleration="3 m/s^2"),
+    "free": Machine(**SPRING, force=0),
+}
+positive = st.floats(1e-3, 1e3)
+
+
+@given(positive, positive, positive, st.sampled_from(sorted(QUANTITIES)), positive)
+def test_scales_lead_back(length, time, mass, quantity, value):
+    scales = Scales(length, time, mass)
+    there = scales.to_si(value, quantity)
+    assert scales.from_si(there, quantity) == pytest.approx(value, rel=1e-15, abs=0)
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_the_scaled_equation_is_that_of_the_machine(name):
+    """At one state the equation in SI units and the scaled equation give the same acceleration."""
+    machine, hertz = MACHINES[name], 24.0
+    scales, angular = machine.scales, 2 * math.pi * hertz
+    x, v = 1.7e-3, -0.4
+    oscillator = machine.oscillator()
+    w = scales.from_si(hertz, "frequency")
+    amplitude = (machine.force or 0) + (machine.unbalance or 0) * angular**2
+    base = machine.base_displacement or (machine.base_acceleration or 0) / angular**2
+    if base:
+        through = machine.linear_stiffness + 1j * machine.viscous_damping * angular
+        amplitude = base * abs(through)
+    spring = machine.linear_stiffness * x + machine.cubic_stiffness * x**3
+    expected = (amplitude - machine.viscous_damping * v - spring) / machine.mass
+    z, u = scales.from_si(x, "displacement"), scales.from_si(v, "velocity")
+    found = (
+        oscillator.forcing_amplitude(w)
+        - oscillator.damping * u
+        - oscillator.linear_frequency**2 * z
+        - oscillator.cubic * z**3
+    )
+    assert scales.to_si(found, "acceleration") == pytest.approx(expected, rel=1e-8)
+    assert w == pytest.approx(angular * scales.time, rel=1e-15)
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_numbers_are_well_scaled(name):
+    oscillator = MACHINES[name].oscillator()
+    assert oscillator.linear_frequency**2 + abs(oscillator.cubic) == pytest.approx(1, rel=1e-14)
+
+
+@given(
+    st.floats(1e-6, 1e6),
+    st.just(0) | st.floats(1e-9, 1e9),
+    st.just(0) | st.floats(1e-9, 1e15),
+)
+def test_the_static_deflection_carries_the_force(force, linear, cubic):
+    if linear == cubic == 0:
+        return
+    x = static_deflection(force, linear, cubic)
+    assert linear * x + cubic * x**3 == pytest.approx(force, rel=1e-12)
+
+
+def test_the_displacement_at_resonance_is_that_of_the_linear_machine():
+    expected = {
+        "linear": 40 / (0.01 * 2e5),
+        "on a base": 2e-4 / 0.01,
+        "on a shaker": 3 * 12 / 2e5 / 0.01,
+        "unbalanced": 0.002 / 12 / 0.01,
+    }
+    for name, size in expected.items():
+        assert MACHINES[name].resonant_displacement == pytest.approx(size, rel=1e-3)
+
+
+def test_damping_is_a_ratio_or_a_coefficient():
+    ratio = HARD.damping_ratio
+    same = replace(HARD, damping_ratio=None, damping=2 * ratio * math.sqrt(2e5 * 12))
+    assert same.oscillator() == HARD.oscillator()
+
+
+def test_the_force_of_a_base_at_one_frequency_is_exact():
+    """The amplitude of a linear machine against the closed form of the transmissibility."""
+    for excitation, hertz, ratio in (
+        ({"base_displacement": 2e-4}, 26.0, 0.3),
+        ({"base_acceleration": 5.0}, 11.0, 0.05),
+    ):
+        machine = Machine(**SPRING | {"damping_ratio": ratio}, **excitation)
+        oscillator, scales = machine.oscillator(hertz), machine.scales
+        w, r = scales.from_si(hertz, "frequency"), hertz / machine.natural_frequency
+        answer = oscillator.forcing_amplitude(w) / abs(
+            oscillator.linear_frequency**2 - w**2 + 1j * oscillator.damping * w
+        )
+        base = excitation.get("base_displacement", 5.0 / (2 * math.pi * hertz) ** 2)
+        passed = math.hypot(1, 2 * ratio * r) / math.hypot(1 - r**2, 2 * ratio * r)
+        assert scales.to_si(answer, "displacement") == pytest.approx(base * passed, rel=1e-13)
+
+
+def test_a_loose_mass_on_a_moving_base_sees_the_motion_in_space():
+    """Two masses on a base that moves, in a frame at rest, against the scaled equations.
+
+    The loose mass is in flight. Z2 is the distance between machine and loose mass.
+    """
+    machine, hertz = MACHINES["on a base"], 19.0
+    k, c, m, a = 2e5, machine.viscous_damping, 12.0, 2e-4
+    angular = 2 * math.pi * hertz
+
+    def rate(t, y):
+        base, speed = a * math.cos(angular * t), -a * angular * math.sin(angular * t)
+        return [y[1], (-k * (y[0] - base) - c * (y[1] - speed)) / m, y[3], 0.0]
+
+    end = 5 / hertz
+    tight = {"rtol": 1e-12, "atol": 1e-16, "method": "DOP853"}
+    in_space = solve_ivp(rate, (0, end), [1e-3, 0, 0, 0.05], **tight).y[:, -1]
+    oscillator, scales = machine.oscillator(hertz), machine.scales
+    w, length, speed = (
+        scales.from_si(x, q)
+        for x, q in ((hertz, "frequency"), (1, "displacement"), (1, "velocity"))
+    )
+    # because of the dashpot the force leads the base by this angle
+    lead = math.atan2(c * angular, k)
+
+    def scaled(t, z):
+        force = oscillator.forcing_amplitude(w) * math.cos(w * t + lead)
+        pull = force - oscillator.damping * z[1] - oscillator.linear_frequency**2 * z[0]
+        return [z[1], pull, z[3], pull]
+
+    start = np.array([1e-3 * length, 0, 1e-3 * length, -0.05 * speed])
+    z = solve_ivp(scaled, (0, scales.from_si(end, "time")), start, **tight).y[:, -1]
+    gap = in_space[0] - in_space[2]
+    assert scales.to_si(z[0], "displacement") == pytest.approx(in_space[0], rel=1e-8)
+    assert scales.to_si(z[2], "displacement") == pytest.approx(gap, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"mass": -1}, "mass = -1 kg: must be at least 1e-15 kg"),
+        ({"mass": "-1 kg"}, "mass = '-1 kg': must be at least"),
+        (
+            {"damping_ratio": 1.2},
+            "damping_ratio = 1.2: must be greater than 0 and at most 0.99 (at 1,",
+        ),
+        (
+            {"damping_ratio": 1},
+            "damping_ratio = 1: must be greater than 0 and at most 0.99 (at 1, critical"
+            " damping, nothing vibrates; 1 per cent is 0.01 or '1 %')",
+        ),
+        ({"damping_ratio": 0}, "damping_ratio = 0: must be greater than 0"),
+        (
+            {"damping_ratio": None, "damping": 4000},
+            "damping = 4000 N s/m: must be at most 3067.4 N s/m (0.99 of",
+        ),
+        ({"damping_ratio": None}, "damping: must be given, or damping_ratio"),
+        ({"damping": 3}, "damping: must be given, or damping_ratio"),
+        ({"force": None}, "excitation = none of them: must be one of force, base_displ"),
+        ({"unbalance": 1}, "excitation = force and unbalance: must be one of"),
+        ({"linear_stiffness": 0}, "linear_stiffness = 0 N/m: must be greater than 0 N/m with"),
+        (
+            {"force": None, "base_acceleration": 1, "cubic_stiffness": 1},
+            "cubic_stiffness = 1 N/m^3: must be 0 with base_acceleration (relative to the base, the"
+            " loose mass would feel",
+        ),
+        (
+            {"force": None, "base_displacement": 1, "cubic_stiffness": 1},
+            "cubic_stiffness = 1 N/m^3: must be 0 with base_displacement",
+        ),
+        ({"mass": "12 m"}, "mass = '12 m': must be a number in kg, or text"),
+    ],
+)
+def test_nonsense_is_refused_in_si_units(changes, told):
+    with pytest.raises((TypeError, ValueError)) as raised:
+        Machine(**SPRING | {"force": 40} | changes)
+    assert str(raised.value).startswith(told)
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"mass": 0}, "mass = 0 kg: must be greater than 0 kg"),
+        ({"mass": 500}, "mass = 500 kg: must be at least 1.2e-05 kg and at most 120 kg"),
+        ({"gap": None}, "gap: must be given, the full play, or clearance_each_side"),
+        ({"clearance_each_side": 1}, "gap: must be given, the full play, or clearance_each_side"),
+        ({"gap": "3 kg"}, "gap = '3 kg': must be a number in m"),
+        ({"gap": "0.1 µm"}, "gap = 1e-07 m: must be greater than 1.90476e-07 m (static play"),
+        ({"restitution": 1.1}, "restitution = 1.1: must be at least 0.05 and at most 1"),
+        ({"contact_stiffness": None}, "contact_stiffness: must be given, or contact"),
+        ({"contact_stiffness": None, "contact": 3}, "contact = 3: must be a HertzContact"),
+        ({"contact_stiffness": -2e7}, "contact_stiffness = -2e+07 N/m: must be greater than 0"),
+    ],
+)
+def test_a_damper_is_refused_in_si_units(changes, told):
+    with pytest.raises((TypeError, ValueError)) as raised:
+        HARD.damper(**DAMPER | changes)
+    assert str(raised.value).startswith(told)
+
+
+def test_the_play_is_given_full_or_on_each_side():
+    full = HARD.damper(**DAMPER)
+    half = HARD.damper(**DAMPER | {"gap": None, "clearance_each_side": "1.5 mm"})
+    assert full == half
+    assert HARD.scales.to_si(full.scaled(HARD.scales).clearance, "clearance") == pytest.approx(
+        1.5e-3, rel=1e-15
+    )
+    assert "gap 3 mm (full play)" in str(full)
+
+
+def test_a_frequency_has_bounds_in_hertz():
+    for value in (0, -3, "0 rpm", 1e9):
+        with pytest.raises(
+            ValueError, match=r"^frequency = .*: must be at least 0\.2135\d+ Hz and"
+        ):
+            HARD.check_frequency("frequency", value)
+
+
+def test_a_moving_base_has_limits_over_a_range_of_frequencies():
+    for name in ("base_displacement", "base_acceleration"):
+        heavy = Machine(**SPRING | {"damping_ratio": 0.1}, **{name: 1e-3})
+        told = rf"^damping_ratio = 0\.1: must be at most 0\.02 \(for a range .* with {name}: "
+        with pytest.raises(ValueError, match=told):
+            heavy.oscillator()

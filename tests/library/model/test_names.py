@@ -1,0 +1,80 @@
+"""A misspelt argument, name or parameter is answered with the nearest known one."""
+
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+import pytest
+
+import impact_damper as idm
+
+ROOT = Path(__file__).parents[3]
+OSCILLATOR, DAMPER = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
+
+
+@pytest.mark.parametrize(
+    ("call", "meant"),
+    [
+        (lambda: idm.Oscillator(dampng=0.2), "damping"),
+        (lambda: idm.Damper(0.12, clearence=2), "clearance"),
+        (lambda: idm.Settling(tolerence=1e-9), "tolerance"),
+        (lambda: idm.Machine(mass=1, linear_stifness=2), "linear_stiffness"),
+        (lambda: MACHINE.damper(mass=1, gap=0.1, restituton=1), "restitution"),
+        (lambda: idm.simulate(OSCILLATOR, None, 2.0, period=3), "periods"),
+        (lambda: idm.frequency_response(OSCILLATOR, None, [2.0], start=3), "starts"),
+        (lambda: idm.design_damper(MACHINE, mas=1), "mass"),
+    ],
+)
+def test_a_misspelt_argument_is_answered(call, meant):
+    with pytest.raises(TypeError, match=f"has no argument .*; did you mean {meant}\\?"):
+        call()
+
+
+def test_an_argument_that_needs_its_name_is_told():
+    with pytest.raises(TypeError, match="Machine.. has too many .* name; known: mass, linear_"):
+        idm.Machine(12, 2e5)
+
+
+def test_a_misspelt_parameter_of_a_branch_is_answered():
+    given = {"state": (0, 0, 0, 0), "span": (1, 3)}
+    with pytest.raises(ValueError, match="parameter = .*did you mean clearance"):
+        idm.orbit_branch(OSCILLATOR, DAMPER, 2.0, parameter="clearence", **given)
+    with pytest.raises(ValueError, match="parameter = .*did you mean frequency"):
+        idm.orbit_branch(MACHINE, None, 20.0, (0, 0), parameter="frequnecy", span=(18, 22))
+
+
+def test_a_misspelt_public_name_is_answered():
+    with pytest.raises(AttributeError, match="no attribute 'simulat'; did you mean simulate"):
+        idm.simulat  # noqa: B018
+    with pytest.raises(AttributeError, match="no attribute 'desing'; did you mean design"):
+        idm.plot.desing  # noqa: B018
+
+
+def test_the_version_is_stated_alike_everywhere():
+    assert f'version = "{idm.__version__}"' in (ROOT / "pyproject.toml").read_text()
+    assert f"version: {idm.__version__}" in (ROOT / "CITATION.cff").read_text()
+    try:
+        assert version("impact-damper") == idm.__version__
+    except PackageNotFoundError:
+        pass
+
+
+def test_the_help_begins_with_the_public_names():
+    for name in idm.__all__:
+        assert name in idm.__doc__
+
+
+def test_a_number_of_a_dataset_is_an_argument():
+    import numpy as np
+    import xarray as xr
+
+    best = xr.DataArray(2.0, attrs={"units": "1"})
+    assert idm.Damper(0.12, best) == DAMPER
+    assert isinstance(idm.Damper(np.array(0.12), best).clearance, float)
+    with pytest.raises(ValueError, match="clearance = 2.0 mm: must be dimensionless"):
+        idm.Damper(0.12, best.assign_attrs(units="mm"))
+    gap = xr.DataArray(3.0, attrs={"units": "mm", "long_name": "optimum, on each side"})
+    made = MACHINE.damper(mass=0.6, clearance_each_side=gap, contact_stiffness=2e7)
+    assert made.gap == 0.006
+    with pytest.raises(ValueError, match="gap = 3 mm: must be the full play"):
+        MACHINE.damper(mass=0.6, gap=gap, contact_stiffness=2e7)

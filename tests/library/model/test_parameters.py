@@ -1,0 +1,101 @@
+"""Parameters: their meaning, and the errors for wrong values.
+
+Symbols are as in `system.parameters`. Numbers in brackets are equations of the paper.
+"""
+
+import math
+from functools import partial
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from impact_damper.model.bounds import check_count, check_number
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import Damper, Oscillator, describe, pick
+
+
+@pytest.mark.parametrize(
+    "make, key, value, allowed",
+    [
+        (Oscillator, "damping", 0.0, "at least 1e-09"),
+        (Oscillator, "damping", -0.2, "at least 1e-09"),
+        (Oscillator, "damping", 11.0, "at most 10"),
+        (Oscillator, "damping", math.nan, "finite"),
+        (partial(Oscillator, 0.2), "linear_frequency", -1.0, "at least 0"),
+        (partial(Damper, clearance=2.0), "mass_ratio", 0.0, "at least 1e-06"),
+        (partial(Damper, 0.12), "clearance", math.inf, "finite"),
+        (partial(Damper, 0.12), "clearance", -1.0, "at least 1e-06"),
+        (partial(Damper, 0.12, 2.0), "restitution", 0.0, "at least 0.05 and at most 1"),
+        (partial(Damper, 0.12, 2.0), "restitution", 1.01, "at most 1"),
+        (partial(Damper, 0.12, 2.0), "contact_stiffness", 0.0, "at least 1e-06"),
+        (partial(pack, Oscillator(0.2), None), "frequency", 0.0, "at least 0.01"),
+    ],
+)
+def test_values_out_of_range(make, key, value, allowed):
+    """The message names the key, the value and what is allowed."""
+    with pytest.raises(ValueError) as raised:
+        make(**{key: value})
+    assert str(raised.value).startswith(f"{key} = {value:g}: must be finite and ")
+    assert allowed in str(raised.value)
+
+
+def test_only_a_linear_spring_is_on_a_shaker():
+    with pytest.raises(ValueError, match=r"^cubic = 1: must be 0 with shaker = 0\.5 \(on a moving"):
+        Oscillator(0.2, 1.0, shaker=0.5)
+
+
+@pytest.mark.parametrize("value", ["0.1", None, True, 1j, [0.1]])
+def test_values_that_are_no_numbers(value):
+    with pytest.raises(TypeError, match="damping = .*: must be a number"):
+        Oscillator(value)
+    with pytest.raises(TypeError, match="count = .*: must be a whole number"):
+        check_count("count", value)
+
+
+def test_checks_return_plain_numbers():
+    assert type(check_number("x", np.float32(2.0), above=1)) is float
+    assert type(check_count("x", np.int64(2))) is int
+    with pytest.raises(ValueError, match="count = 0: must be from 1 to"):
+        check_count("count", 0)
+    with pytest.raises(TypeError, match="count = 2.0"):
+        check_count("count", 2.0)
+
+
+def test_reason_is_given():
+    with pytest.raises(ValueError, match=r"\(motions must settle\)"):
+        Oscillator(0.0)
+
+
+@pytest.mark.parametrize("mass_ratio", [0.01, 0.25, 10.0])
+@pytest.mark.parametrize("restitution", [0.05, 0.3, 0.75, 0.9, 1.0])
+def test_damping_of_the_contact_gives_the_restitution(mass_ratio, restitution):
+    """Equation (25) against e = exp(-pi z/sqrt(1 - z^2)), z being the relative damping ratio."""
+    damper = Damper(mass_ratio, 1.0, restitution)
+    z = damper.contact_damping * math.sqrt(1 + mass_ratio)
+    assert_allclose(math.exp(-math.pi * z / math.sqrt(1 - z**2)), restitution, rtol=1e-14)
+    # The relative motion with the penetration q solves q'' + (1 + 1/rm)(dashpot q' + r1 q) = 0.
+    inverse = 1 + 1 / mass_ratio
+    natural = math.sqrt(damper.contact_stiffness * inverse)
+    assert_allclose(damper.dashpot * inverse, 2 * z * natural, atol=1e-14)
+
+
+def test_pack_refuses_what_is_out_of_range_or_of_another_type():
+    with pytest.raises(ValueError, match="frequency = -1"):
+        pack(Oscillator(0.1), None, -1.0)
+    with pytest.raises(TypeError, match="oscillator = 0.1: must be an Oscillator"):
+        pack(0.1, None, 1.0)
+    with pytest.raises(TypeError, match="damper = 0.2: must be a Damper"):
+        pack(Oscillator(0.1), 0.2, 1.0)
+
+
+def test_describe():
+    oscillator, damper = Oscillator(0.1), Damper(0.2, 1.0)
+    assert describe(oscillator, None, damper) == vars(oscillator) | vars(damper)
+
+
+def test_pick_takes_all_fields_of_a_dataclass_and_nothing_else():
+    oscillator, damper = Oscillator(0.1, 0.5), Damper(0.12, 2.0, 0.8, 1500.0)
+    values = describe(oscillator, damper) | {"frequency": 2.0}
+    assert Oscillator(**pick(Oscillator, values)) == oscillator
+    assert Damper(**pick(Damper, values)) == damper

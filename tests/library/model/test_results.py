@@ -1,0 +1,268 @@
+"""Datasets in SI units: against closed forms, runs scaled by hand, and other scales."""
+
+import math
+from functools import cached_property
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.integrate import solve_ivp
+
+import impact_damper as idm
+from impact_damper.data.datasets import flag, variable
+from impact_damper.data.results import FOLLOWED, from_si, in_si
+from impact_damper.data.variables import VARIABLES
+from impact_damper.model.families import PARAMETERS
+from impact_damper.model.machine import Machine
+from impact_damper.model.scales import Scales
+from impact_damper.model.units import QUANTITIES
+
+SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
+LINEAR = Machine(**SPRING, force=40)
+HARD = Machine(**SPRING, cubic_stiffness=4e9, force=40)
+DAMPER = {"mass": 0.6, "gap": "8 mm", "restitution": 0.7, "contact_stiffness": 2e7}
+AT_RESONANCE = LINEAR.natural_frequency
+
+
+def test_every_quantity_is_known():
+    known = {*QUANTITIES, "state", "followed", "mixed"}
+    assert {each.quantity for each in VARIABLES.values()} <= known
+
+
+def test_every_parameter_of_a_branch_has_a_name_in_si():
+    assert {name for name, _ in FOLLOWED.values()} == set(PARAMETERS)
+
+
+def test_datasets_come_back_from_si():
+    generator = np.random.default_rng(1)
+    names = [name for name, each in VARIABLES.items() if not each.flags and each.dims]
+    data = xr.Dataset(
+        {
+            name: variable(name, generator.standard_normal(4), (f"{name}_dim",))
+            for name in names
+            if VARIABLES[name].quantity != "followed"
+        },
+        attrs={"parameters": "{}"},
+    )
+    there = in_si(data, HARD)
+    back = from_si(there, HARD)
+    for name in data.variables:
+        np.testing.assert_allclose(back[name], data[name], rtol=1e-15)
+        converted = VARIABLES[name].quantity not in ("number", "mixed")
+        assert (there[name].attrs["units"] != data[name].attrs["units"]) == converted
+
+
+@pytest.mark.parametrize("hertz", [11.0, AT_RESONANCE, 30.0])
+@pytest.mark.parametrize(
+    "excitation", ["force", "base_displacement", "base_acceleration", "unbalance"]
+)
+def test_a_linear_machine_has_the_amplitude_of_its_closed_form(excitation, hertz):
+    """Response to a force, to an unbalance, and to a base that moves, in a frame at rest."""
+    value = {"force": 40, "base_displacement": 2e-4, "base_acceleration": 3, "unbalance": 0.002}
+    machine = Machine(**SPRING | {"damping_ratio": 0.03}, **{excitation: value[excitation]})
+    angular, damping = 2 * math.pi * hertz, 0.06 * math.sqrt(2e5 * 12)
+    through = complex(2e5, damping * angular)
+    force = {
+        "force": 40,
+        "base_displacement": 2e-4 * through,
+        "base_acceleration": 3 / angular**2 * through,
+        "unbalance": 0.002 * angular**2,
+    }
+    expected = abs(force[excitation] / (through - 12 * angular**2))
+    found = idm.steady_motion(machine, None, hertz)
+    assert found.attrs["machine"] and found["maximum_displacement"].attrs["units"] == "mm"
+    assert float(found["maximum_displacement"]) == pytest.approx(1e3 * expected, rel=1e-7)
+
+
+def test_a_run_in_si_is_the_run_scaled_by_hand():
+    """By hand, lengths are in units of the static deflection F/k = 0.2 mm and times in 1/w0."""
+    w0, static = math.sqrt(2e5 / 12), 40 / 2e5
+    oscillator = idm.Oscillator(0.01, 1.0, 0.0)
+    damper = idm.Damper(0.05, 4e-3 / static, 0.7, 100.0)
+    by_hand = idm.simulate(oscillator, damper, 1.0, (5, 0, 3, -4), periods=6)
+    given = LINEAR.damper(**DAMPER)
+    state = (5 * static, 0, 3 * static, -4 * static * w0)
+    found = idm.simulate(LINEAR, given, AT_RESONANCE, state, periods=6)
+    for name, factor, unit in (
+        ("displacement", 1e3 * static, "mm"),
+        ("relative_displacement", 1e3 * static, "mm"),
+        ("velocity", static * w0, "m/s"),
+        ("time", 1 / w0, "s"),
+        ("approach_velocity", static * w0, "m/s"),
+    ):
+        assert found[name].attrs["units"] == unit
+        np.testing.assert_allclose(found[name], factor * by_hand[name], rtol=1e-7, atol=1e-9)
+
+
+def test_texts_with_units_are_taken_everywhere():
+    given = LINEAR.damper(**DAMPER)
+    numbers = idm.simulate(LINEAR, given, 21.0, (1e-3, 0, 0, 0.1), periods=2, start=0.01)
+    texts = idm.simulate(
+        LINEAR, given, "1260 rpm", ("1 mm", "0 m/s", 0, "10 cm/s"), periods=2, start="10 ms"
+    )
+    np.testing.assert_allclose(texts["displacement"], numbers["displacement"], rtol=1e-9)
+
+
+def test_a_damper_on_a_moving_base_is_that_of_three_bodies_in_space():
+    """The base, the machine and the loose mass, with elastic walls, by SciPy in a frame at rest.
+
+    In a frame that moves with the base an inertia force would act on the loose mass.
+    """
+    a, hertz, gap, stiffness, mass = 5e-4, 23.0, 2e-3, 2e6, 0.6
+    machine = Machine(**SPRING, base_displacement=a)
+    damper = machine.damper(mass=mass, gap=gap, contact_stiffness=stiffness)
+    angular, c = 2 * math.pi * hertz, machine.viscous_damping
+    # the force of spring and dashpot leads the base
+    lead = math.atan2(c * angular, 2e5)
+
+    def rate(t, y):
+        base = a * math.cos(angular * t - lead)
+        speed = -a * angular * math.sin(angular * t - lead)
+        apart = y[0] - y[2]
+        push = stiffness * (max(apart - gap / 2, 0) + min(apart + gap / 2, 0))
+        pull = -2e5 * (y[0] - base) - c * (y[1] - speed) - push
+        return [y[1], pull / 12, y[3], push / mass]
+
+    start = [1e-3, 0.0, 1e-3, 0.3]
+    end = 3 / hertz
+    run = solve_ivp(rate, (0, end), start, rtol=1e-11, atol=1e-14, max_step=2e-5, method="DOP853")
+    state = (start[0], start[1], start[0] - start[2], start[1] - start[3])
+    found = idm.simulate(machine, damper, hertz, state, periods=3)
+    assert found.sizes["contact"] > 3
+    x, _, loose, _ = run.y[:, -1]
+    assert float(found["displacement"][-1]) == pytest.approx(1e3 * x, rel=1e-5)
+    assert float(found["relative_displacement"][-1]) == pytest.approx(1e3 * (x - loose), rel=1e-5)
+
+
+@pytest.fixture
+def other_length(monkeypatch):
+    """Return a function that makes the scale of length of all machines 1.7 times as large."""
+    usual = Machine.scales.func
+
+    def scales(machine):
+        length = 1.7 * usual(machine).length
+        stiffness = machine.linear_stiffness + abs(machine.cubic_stiffness) * length**2
+        return Scales(length, math.sqrt(machine.mass / stiffness), machine.mass)
+
+    def change():
+        other = cached_property(scales)
+        other.__set_name__(Machine, "scales")
+        monkeypatch.setattr(Machine, "scales", other)
+
+    return change
+
+
+def quiet_start():
+    """Return a state from which the linear machine with its damper comes to small motions."""
+    return (0.0, 0.0, 0.0, 0.3)
+
+
+CALLS = {
+    "simulate": lambda m, d: idm.simulate(m, d, 21.0, (1e-3, 0, 0, 0.1), periods=5),
+    "steady_motion": lambda m, d: idm.steady_motion(m, d, AT_RESONANCE, quiet_start()),
+    "harmonic_balance_response": lambda m, d: idm.harmonic_balance_response(m, None, [19.0, 22.0]),
+    "frequency_response": lambda m, d: idm.frequency_response(
+        m, d, [20.5, 20.8], starts=3, radius="3 mm"
+    ),
+    "clearance_sweep": lambda m, d: idm.clearance_sweep(
+        m, d, AT_RESONANCE, [3.7e-3, 3.9e-3], starts=3, radius="3 mm"
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_results_do_not_depend_on_the_scales(name, other_length):
+    """A variable that is registered with a wrong physical quantity, or with none, would change."""
+
+    def called():
+        machine = Machine(**SPRING, force=40)
+        return CALLS[name](machine, machine.damper(**DAMPER))
+
+    usual = called()
+    other_length()
+    other = called()
+    compared = 0
+    for each in usual.variables:
+        values = usual[each].values
+        if VARIABLES[each].quantity == "mixed" or values.dtype.kind not in "fi":
+            continue
+        # These come from iterations with tolerances in the machine's scales, so they may differ.
+        numerical = each in ("periods_run", "run_length") or "multiplier" in each
+        if not numerical and "phase" not in each:
+            np.testing.assert_allclose(other[each], values, rtol=2e-5, atol=2e-7, err_msg=each)
+            compared += 1
+    assert compared > 3
+
+
+def test_orbits_in_si_are_those_in_other_scales(other_length):
+    found = []
+    for change in (lambda: None, other_length):
+        change()
+        machine = Machine(**SPRING, force=40)
+        damper = machine.damper(**DAMPER)
+        steady = idm.steady_motion(machine, damper, AT_RESONANCE, quiet_start())
+        assert int(steady["outcome"]) == flag("outcome", "settled")
+        state = steady["state"].values
+        orbit = idm.periodic_orbit(machine, damper, AT_RESONANCE, state)
+        branch = idm.orbit_branch(
+            machine, damper, AT_RESONANCE, state, parameter="force", span=("38 N", "42 N")
+        )
+        assert branch["followed_value"].attrs["units"] == "N"
+        found.append((orbit, branch))
+    (orbit, branch), (other_orbit, other_branch) = found
+    for name in ("orbit_displacement", "orbit_state", "least_speed", "contact_begin"):
+        np.testing.assert_allclose(other_orbit[name], orbit[name], rtol=1e-5, atol=1e-9)
+    for data in (branch, other_branch):
+        assert data["followed_value"].values[[0, -1]] == pytest.approx([38, 42], rel=1e-9)
+    np.testing.assert_allclose(
+        other_branch["orbit_displacement"][[0, -1]],
+        branch["orbit_displacement"][[0, -1]],
+        rtol=1e-5,
+    )
+
+
+def test_branches_are_followed_from_motions_in_si():
+    motions = idm.frequency_response(LINEAR, None, [20.0], starts=1)
+    branches = idm.complete_branches(LINEAR, None, (19, 22), [motions])
+    peak = 20 / math.sqrt(1 - 0.005**2)
+    assert float(branches["orbit_displacement"].max()) == pytest.approx(peak, rel=1e-3)
+    assert branches["followed_value"].values[[0, -1]] == pytest.approx([19, 22], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("call", "told"),
+    [
+        (lambda d: idm.simulate(LINEAR, d, 0), "frequency = 0 Hz: must be at least"),
+        (lambda d: idm.simulate(LINEAR, d, "3 m"), "frequency = '3 m': must be a number in Hz"),
+        (lambda d: idm.simulate(LINEAR, d, 20, (1, 2, 3)), "state = (1, 2, 3): must be four"),
+        (lambda d: idm.simulate(LINEAR, d, 20, ("1 kg", 0, 0, 0)), "state[0] = '1 kg': must be"),
+        (
+            lambda d: idm.simulate(LINEAR, idm.Damper(0.1, 1), 20),
+            "damper = Damper(mass_r",
+        ),
+        (
+            lambda d: idm.frequency_response(LINEAR, d, [20, "0 Hz"]),
+            "frequencies[1] = '0 Hz': must be at least",
+        ),
+        (
+            lambda d: idm.frequency_response(LINEAR, d, [20], radius="1 s"),
+            "radius = '1 s': must be a number in m",
+        ),
+        (
+            lambda d: idm.clearance_sweep(LINEAR, d, 20, ["1 nm", "2 mm"]),
+            "clearances[0] = '1 nm': must be at least 2e-09 m",
+        ),
+        (
+            lambda d: idm.orbit_branch(LINEAR, d, 20, (0, 0, 0, 0), span=(19, 21), parameter="gap"),
+            "parameter = 'gap': must be one of frequency, damping",
+        ),
+        (
+            lambda d: idm.complete_branches(LINEAR, d, (19, 21), [3]),
+            "motions = [3]: must be a list of datasets",
+        ),
+    ],
+)
+def test_nonsense_is_refused_in_si_units(call, told):
+    with pytest.raises((TypeError, ValueError)) as raised:
+        call(LINEAR.damper(**DAMPER))
+    assert str(raised.value).startswith(told)

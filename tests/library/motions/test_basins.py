@@ -1,0 +1,222 @@
+"""Basins: against SciPy's integrator, the symmetry of the oscillator, and stable manifolds.
+
+Symbols are as in `system.parameters`.
+"""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.integrate import solve_ivp
+from scipy.spatial import cKDTree
+
+from impact_damper.data.variables.basins import BASIN_LABEL
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.settling import Settling
+from impact_damper.motions import labels
+from impact_damper.motions.attractors import find_attractors
+from impact_damper.motions.labels import label_states
+from impact_damper.orbits.basins import basins, free_attractors
+from impact_damper.orbits.orbit_branch import periodic_orbit
+
+CUBIC = Oscillator(0.215)
+PAPER = Damper(0.12, 2.0)
+WINDOW = np.array([3.0, 4.5])
+FREQUENCIES = (1.6, 1.85, 1.95)
+
+
+def slope(frequency, states):
+    """Return the free equation of motion of many states at once, for `solve_ivp`."""
+    count = len(states)
+
+    def rate(t, y):
+        x, v = y[:count], y[count:]
+        return np.concatenate([v, np.cos(frequency * t) - CUBIC.damping * v - x**3])
+
+    return rate
+
+
+def run(frequency, states, begin, end):
+    """Return states after a time, by DOP853."""
+    start = np.asarray(states).T.ravel()
+    found = solve_ivp(
+        slope(frequency, states), (begin, end), start, "DOP853", rtol=1e-10, atol=1e-11
+    )
+    return found.y[:, -1].reshape(2, -1).T
+
+
+@pytest.fixture(scope="module", params=FREQUENCIES)
+def free(request):
+    """Return frequency, packed parameters and attractors of the free oscillator."""
+    p = pack(CUBIC, None, request.param)
+    return request.param, p, free_attractors(p, WINDOW, Settling())
+
+
+@pytest.mark.thorough
+def test_labels_of_random_states(free):
+    """SciPy's runs over 60 periods end on the attractors that the labels name."""
+    frequency, p, attractors = free
+    states = np.random.default_rng(7).uniform(-WINDOW, WINDOW, (200, 2))
+    phase = 1.0
+    labels, _ = label_states(p, states, phase, attractors, 1e-9, 1500)
+    assert np.all(labels >= 0)
+    begin = phase / frequency
+    strobe = np.pi / 2 / frequency
+    ends = run(frequency, states, begin, strobe + 60 * 2 * np.pi / frequency)
+    distance, nearest = cKDTree(attractors.centre).query(ends)
+    assert_array_equal(attractors.owner[nearest], labels)
+    assert np.max(distance) < 1e-4
+
+
+def test_neighbourhoods_contract(free):
+    """States on the edge of a proven neighbourhood come closer to the orbit within one period."""
+    frequency, _, attractors = free
+    assert np.all(np.isfinite(attractors.shape))
+    angles = np.linspace(0, 2 * np.pi, 16, endpoint=False)
+    circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    period = 2 * np.pi / frequency
+    for owner, centre, shape in zip(*attractors[1:], strict=True):
+        edge = centre + circle @ np.linalg.inv(shape).T
+        n = int(attractors.records["period"][owner])
+        strobe = np.pi / 2 / frequency
+        after = run(frequency, edge, strobe, strobe + n * period) - centre
+        assert np.max(np.linalg.norm(after @ shape.T, axis=1)) < 1
+        # The neighbourhood is not needlessly small: runs last until they enter it.
+        assert np.sqrt(abs(np.linalg.det(shape))) < 300
+
+
+def test_a_mirrored_state_half_a_period_later_leads_to_the_mirrored_motion(free):
+    _, p, attractors = free
+    states = np.random.default_rng(8).uniform(-WINDOW, WINDOW, (2000, 2))
+    for phase in (0.0, np.pi / 2, 2.5):
+        one, _ = label_states(p, states, phase, attractors, 1e-9, 1500)
+        other, _ = label_states(p, -states, phase + np.pi, attractors, 1e-9, 1500)
+        assert_array_equal(one, other)
+
+
+def test_threads_do_not_change_labels(free):
+    _, p, attractors = free
+    states = np.random.default_rng(9).uniform(-WINDOW, WINDOW, (10000, 2))
+    one = label_states(p, states, 1.0, attractors, 1e-9, 1500)
+    two = label_states(p, states, 1.0, attractors, 1e-9, 1500, workers=2)
+    assert_array_equal(one, two)
+
+
+def changes(data):
+    """Return places midway between neighbouring states with different labels, in cell widths."""
+    label = data["basin_label"].values
+    rows, columns = np.indices(label.shape)
+    found = []
+    for axis in (0, 1):
+        low, high = (label[:-1], label[1:]) if axis == 0 else (label[:, :-1], label[:, 1:])
+        where = np.nonzero(low != high)
+        middle = np.stack([columns[where], rows[where]], axis=1).astype(float)
+        middle[:, 1 - axis] += 0.5
+        found.append(middle)
+    return np.concatenate(found)
+
+
+def in_cells(data, x, v):
+    """Return states as places in a plane, in cell widths."""
+    axes = [data[f"basin_{name}"].values for name in ("displacement", "velocity")]
+    return np.stack(
+        [
+            (values - axis[0]) / (axis[1] - axis[0])
+            for values, axis in zip((x, v), axes, strict=True)
+        ],
+        axis=1,
+    )
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("phase", [np.pi / 2, 3.0])
+def test_boundaries_are_stable_manifolds(phase):
+    """Labels change only near a stable manifold, and change everywhere along one.
+
+    Near means within a cell. In the wide plane the first statement is tested for the basin of the
+    resonance, since the manifold of period 3 is cut there. The second statement is tested for the
+    unstable orbit of period 1, whose manifold is a simple curve. The manifold of period 3 has
+    windings closer than a cell.
+    """
+    plane = {"displacement": 1.2, "velocity": 1.6, "cells": 240, "phase": phase}
+    data = basins(CUBIC, None, 1.85, **plane)
+    x, v = data["boundary_displacement"].values, data["boundary_velocity"].values
+    kept = np.isfinite(x)
+    curve = in_cells(data, x[kept], v[kept])
+    distance, _ = cKDTree(curve).query(changes(data))
+    assert np.max(distance) < 1
+
+    wide = basins(CUBIC, None, 1.85, cells=240, phase=phase)
+    first = wide["boundary_saddle"].values == int(np.argmin(wide["saddle_period"].values))
+    x, v = wide["boundary_displacement"].values[first], wide["boundary_velocity"].values[first]
+    kept = np.isfinite(x)
+    first_curve = in_cells(wide, x[kept], v[kept])
+    resonance = wide["basin_label"] == int(np.argmax(wide["attractor_displacement"].values))
+    distance, _ = cKDTree(first_curve).query(changes(wide.assign(basin_label=resonance)))
+    assert np.max(distance) < 1
+
+    distance, _ = cKDTree(changes(wide)).query(first_curve)
+    inside = (np.abs(x[kept]) < wide["basin_displacement"].values[-1]) & (
+        np.abs(v[kept]) < wide["basin_velocity"].values[-1]
+    )
+    assert inside.sum() > 1000 and np.max(distance[inside]) < 1
+
+
+def test_attractors_are_those_of_the_free_response():
+    """Three motions coexist at W = 1.85; the sizes are also used in the tests of `migration`."""
+    data = basins(CUBIC, None, 1.85, cells=60)
+    assert_array_equal(data["attractor_period"], [1, 3, 1])
+    assert_allclose(data["attractor_displacement"][:2], [0.29604, 0.84606], atol=1e-5)
+    assert float(data["attractor_share"].sum()) == pytest.approx(1)
+    assert int(data["label_count"].sum()) == 0
+
+
+def test_states_are_unresolved_without_attractors():
+    p = pack(CUBIC, None, 1.85)
+    none = find_attractors(p, np.empty((0, 2)), Settling())
+    labels, periods = label_states(p, np.zeros((3, 2)), 0.0, none, 1e-9, 20)
+    assert_array_equal(labels, [-1] * 3)
+    assert_array_equal(periods, [20] * 3)
+
+
+def test_a_softening_spring_lets_motions_escape():
+    soft = Oscillator(0.1, 1.0, -0.2, 0.1)
+    data = basins(soft, None, 0.8, displacement=4, velocity=4, cells=40)
+    assert int(data["label_count"].sel(without_attractor="escaped")) > 0
+    assert float(data["attractor_share"].sum()) > 0
+
+
+def test_the_loose_mass_is_given_or_averaged_over():
+    plane = {"displacement": 0.5, "velocity": 0.8, "cells": 5, "settling": Settling(limit=600)}
+    given = basins(CUBIC, PAPER, 2.0, loose=(1.6, 0.0), **plane)
+    averaged = basins(CUBIC, PAPER, 2.0, **plane)
+    quiet = periodic_orbit(CUBIC, PAPER, 2.0, (0.006, 0.187, 0.002, -2.408))
+    assert_allclose(given["attractor_displacement"][0], quiet["orbit_displacement"], rtol=1e-6)
+    lost = averaged["basin_label"] == -1
+    total = averaged["basin_share"].sum("attractor").where(~lost)
+    assert float(total.max()) <= 1 + 1e-12
+    alike = averaged["basin_label"].values >= 0
+    shares = averaged["basin_share"].values.max(axis=0)
+    assert_allclose(shares[alike], 1)
+
+
+def test_mirrored_states_with_the_damper_lead_to_motions_of_equal_size():
+    """(Z, T) -> (-Z, T + half a period) maps basins onto each other with the damper too."""
+    plane = {"displacement": 0.3, "velocity": 0.4, "cells": 4}
+    one = basins(CUBIC, PAPER, 2.0, loose=(1.0, -0.2), phase=1.0, **plane)
+    two = basins(CUBIC, PAPER, 2.0, loose=(-1.0, 0.2), phase=1.0 + np.pi, **plane)
+    sizes = [
+        np.where(
+            data["basin_label"] >= 0,
+            data["attractor_displacement"].values[data["basin_label"].values],
+            np.nan,
+        )
+        for data in (one, two)
+    ]
+    assert_allclose(sizes[0], sizes[1][::-1, ::-1], rtol=1e-4)
+
+
+def test_the_numbers_of_labels_stand_in_the_registry():
+    """Kernels may not import the registry of variables, so they repeat two of its numbers."""
+    assert labels.ESCAPED == BASIN_LABEL["escaped"]
+    assert labels.UNRESOLVED == BASIN_LABEL["unresolved"]

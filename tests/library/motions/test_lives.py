@@ -1,0 +1,66 @@
+"""Lives of chaotic motions, against closed forms and longer runs.
+
+Symbols are as in `system.parameters`.
+"""
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, PAPER
+from numpy.testing import assert_allclose
+
+from impact_damper.data.datasets import flag
+from impact_damper.model.packed import pack
+from impact_damper.model.settling import Settling
+from impact_damper.motions import ensemble
+from impact_damper.motions.lives import find_lives
+from impact_damper.motions.records import CHAOTIC
+
+RUNNING = {"workers": 2, "progress": None}
+
+
+@pytest.fixture(scope="module")
+def violent():
+    """Return parameters and states of chaotic motions of figure 5 (a), at two frequencies.
+
+    At W = 1.1 the chaos lasts, and at W = 1.6 it is a transient.
+    """
+    parameters = np.array([pack(PAPER, DESIGN, frequency) for frequency in (1.1, 1.6)])
+    starts = np.random.default_rng(7).uniform(-1.5, 1.5, (48, 4))
+    states = []
+    for p in parameters:
+        found = ensemble.settle(np.tile(p, (len(starts), 1)), starts, Settling(patience=100))
+        states.append(found[found["outcome"] == CHAOTIC]["state"][0])
+    return parameters, np.array(states)[:, None]
+
+
+def lives(violent, runs, periods, seed=1):
+    parameters, states = violent
+    outcomes = np.full((len(parameters), 1), flag("outcome", "chaotic"))
+    return find_lives(parameters, outcomes, states, runs, periods, seed, Settling(), **RUNNING)
+
+
+def test_transient_is_told_from_chaos_that_lasts(violent):
+    found = lives(violent, 12, 1000)
+    lasting, transient = ({name: values[i, 0] for name, values in found.items()} for i in range(2))
+    assert lasting["life_ends"] == 0 and np.isnan(lasting["mean_life"])
+    # If none of n runs of the length T ends, the upper end of the 95 % interval of the rate is
+    # -ln(0.025)/(n T).
+    assert_allclose(lasting["mean_life_lower"], 12 * 1000 / -np.log(0.025))
+    assert np.isinf(lasting["mean_life_upper"])
+    assert transient["life_ends"] > 6
+    assert transient["mean_life_lower"] < transient["mean_life"] < transient["mean_life_upper"]
+
+
+def test_longer_runs_agree(violent):
+    """Runs of twice the length, from other random states, have the same mean life."""
+    short, long = lives(violent, 60, 500), lives(violent, 60, 1000, seed=2)
+    for bound, sense in (("lower", 1), ("upper", -1)):
+        other = long[f"mean_life_{bound}"][1, 0] - short["mean_life"][1, 0]
+        assert sense * other < 0
+
+
+def test_other_motions_have_no_life(violent):
+    parameters, states = violent
+    outcomes = np.full((2, 1), flag("outcome", "settled"))
+    found = find_lives(parameters, outcomes, states, 4, 100, 1, Settling(), **RUNNING)
+    assert np.all(found["life_ends"] == -1) and np.all(np.isnan(found["mean_life_lower"]))

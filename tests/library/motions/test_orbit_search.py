@@ -1,0 +1,85 @@
+"""Stable orbits with small basins of attraction, which Newton's method finds and starts miss.
+
+Z1 is the displacement of the primary mass.
+"""
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, PAPER
+
+import impact_damper as idm
+from impact_damper.data.datasets import flag
+from impact_damper.model.packed import pack
+from impact_damper.model.settling import Settling
+from impact_damper.motions import ensemble, start_states
+from impact_damper.motions.orbit_search import LONGEST, stable_orbits
+from impact_damper.motions.start_states import random_starts, search_starts
+from impact_damper.motions.strobe_map import period_map
+
+NEVER = np.zeros(1, bool)
+# Oscillator, damper, frequency, and max |Z1| and period of an orbit that few random starts lead to.
+RARE = [
+    (
+        idm.Oscillator(0.11048, 1.0, cubic=0.0030857, force=0.32103),
+        idm.Damper(0.042979, 3.38804, 0.99667, 2799.53),
+        0.99966,
+        (2.600, 1),
+    ),
+    (
+        idm.Oscillator(0.066086, 1.0, cubic=-0.011362, force=0.068981),
+        idm.Damper(0.076894, 1.25925, 0.76231, 11897.3),
+        0.88489,
+        (0.529, 3),
+    ),
+]
+
+
+@pytest.mark.parametrize(("oscillator", "damper", "frequency", "rare"), RARE)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_search_finds_an_orbit_to_which_no_start_leads(
+    oscillator, damper, frequency, rare, seed, monkeypatch
+):
+    monkeypatch.setattr(start_states, "_placed", lambda *_: start_states.NO_STARTS)
+    found = idm.frequency_response(oscillator, damper, [frequency], starts=8, seed=seed)
+    found = found.isel(frequency=0)
+    size, period = rare
+    (place,) = np.flatnonzero(
+        (abs(found.maximum_displacement - size) < 2e-3) & (found.period == period)
+    )
+    one = found.isel(motion=place)
+    assert one.origin == flag("origin", "followed") and one.motion_starts == 0
+    # the integrator alone, without Newton's method, stays on the orbit
+    run = idm.simulate(oscillator, damper, frequency, one.state, periods=20 * period)
+    np.testing.assert_allclose(run.displacement[-1], run.displacement[0], atol=1e-6)
+
+
+@pytest.mark.parametrize(("oscillator", "damper", "frequency", "rare"), RARE)
+def test_few_random_starts_lead_there(oscillator, damper, frequency, rare):
+    """Fewer than 3 % of random starts lead to the orbit, so a search with 96 starts may miss it."""
+    states, _ = random_starts(oscillator, damper, frequency, 600, 3, Settling())
+    runs = ensemble.settle(np.tile(pack(oscillator, damper, frequency), (600, 1)), states)
+    assert np.mean(abs(runs["maximum_displacement"] - rare[0]) < 2e-3) < 0.03
+
+
+def test_orbits_are_stable_touch_a_wall_and_are_told_once():
+    p = pack(PAPER, DESIGN, 2.0)
+    loose = np.random.default_rng(1).uniform(-1, 1, (60, 2)) * (DESIGN.clearance, 4)
+    found = stable_orbits(p, np.array([[0.0, 0.2], [1.2, -2.0]]), loose, 1e-10, NEVER)
+    assert len(found)
+    for state in found:
+        periods = [
+            n
+            for n in range(1, LONGEST + 1)
+            if np.max(np.abs(period_map(p, state, n, 1e-12)[0] - state)) < 1e-7
+        ]
+        _, matrix, contacts = period_map(p, state, periods[0], 1e-12)
+        assert contacts and np.max(np.abs(np.linalg.eigvals(matrix))) < 1
+        assert np.sum(np.max(np.abs(found - state), axis=1) < 1e-6) == 1
+
+
+def test_there_is_no_search_for_orbits_with_a_radius_or_without_a_damper_or_motions():
+    settling = Settling()
+    assert len(search_starts(PAPER, [(DESIGN, 2.3)], 2, 2.5, 1, settling).loose[0]) == 0
+    assert len(search_starts(PAPER, [(None, 2.3)], 2, None, 1, settling).loose[0]) == 0
+    p, loose = pack(PAPER, DESIGN, 2.0), np.zeros((3, 2))
+    assert stable_orbits(p, np.empty((0, 2)), loose, 1e-9, NEVER).shape == (0, 4)

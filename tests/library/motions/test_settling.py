@@ -1,0 +1,273 @@
+"""Settled motions, chaos, and measures of a motion, each compared with another computation.
+
+Symbols are as in `system.parameters`.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, PAPER
+from helpers.sampling import sample
+from numpy.testing import assert_allclose
+
+from impact_damper.kernel import single
+from impact_damper.kernel.tangents import advance
+from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
+from impact_damper.model.parameters import Damper
+from impact_damper.model.settling import Settling
+from impact_damper.motions import ensemble, records, strobe_map, traces
+from impact_damper.motions.following import follow_stable
+
+NONE = np.empty((0, 4))
+
+
+def settled(p, state, tolerance=1e-9, patience=300, limit=1500, watched=50):
+    """Return the record of the motion from a state at W T = pi/2."""
+    settling = Settling(tolerance, patience, limit, watched)
+    return ensemble.settle(p[None], np.array(state, float)[None], settling, from_strobe=True)[0]
+
+
+def growth_of_tangent(p, state, periods, skipped):
+    """Return the growth per unit time of one tangent, renormalised every period."""
+    period, strobe = 2 * math.pi / p[0], 0.5 * math.pi / p[0]
+    y, tangents, total = np.array(state), np.full((1, 4), 0.5), 0.0
+    side, work = single.side_of(p, y), single.workspace()
+    for k in range(periods):
+        side, _, _ = advance(p, y, tangents, side, strobe, strobe + period, 1e-12, work)
+        size = np.linalg.norm(tangents)
+        tangents /= size
+        total += math.log(size) * (k >= skipped)
+    return total / ((periods - skipped) * period)
+
+
+def divergence_of_neighbours(p, state, periods, skipped=100, apart=1e-7, batches=20):
+    """Return the rate at which two neighbouring motions diverge, and its standard error.
+
+    After every period the second motion is moved back to the distance `apart` from the first.
+    """
+    period, strobe = 2 * math.pi / p[0], 0.5 * math.pi / p[0]
+    work = single.workspace()
+
+    def after_period(y):
+        y = y.copy()
+        advance(p, y, NONE, single.side_of(p, y), strobe, strobe + period, 1e-12, work)
+        return y
+
+    y = np.array(state, float)
+    other, rates = y + 0.5 * apart, []
+    for _ in range(periods):
+        y, other = after_period(y), after_period(other)
+        size = np.linalg.norm(other - y)
+        rates.append(math.log(size / apart) / period)
+        other = y + (other - y) * (apart / size)
+    means = np.mean(np.reshape(rates[skipped:], (batches, -1)), axis=1)
+    return np.mean(means), np.std(means, ddof=1) / math.sqrt(batches)
+
+
+# The free oscillator has these three motions at W = 2.
+@pytest.mark.parametrize(
+    "state, period, largest",
+    [((2.35, -0.78), 1, 2.376), ((0.03, 0.5), 1, 0.252), ((-0.43, 0.23), 3, 0.893)],
+    ids=["resonance", "non-resonance", "subharmonic"],
+)
+def test_free_motions_settle(state, period, largest):
+    p = pack(PAPER, None, 2.0)
+    record = settled(p, np.tile(state, 2) + 0.01)
+    assert record["outcome"] == records.SETTLED
+    assert record["period"] == period
+    assert record["contacts"] == 0
+    assert abs(record["multiplier"]) < 1
+    # by integration a settled motion returns after its period and not before
+    back = [strobe_map.period_map(p, record["state"], n, 1e-13)[0] for n in range(1, period + 1)]
+    apart = [np.max(np.abs(y - record["state"])) for y in back]
+    assert apart[-1] < 1e-8
+    assert period == 1 or min(apart[:-1]) > 0.1
+    assert_allclose(record["maximum_displacement"], largest, atol=1e-3)
+    assert record["asymmetry"] < 1e-7
+
+
+def test_known_orbits_settle(known_orbit):
+    record = settled(known_orbit.parameters, known_orbit.state + 1e-3)
+    assert record["outcome"] == records.SETTLED
+    assert record["period"] == 1
+    assert record["contacts"] == (2 if known_orbit.damper else 0)
+    assert record["residual"] < 1e-8
+    assert_allclose(record["state"][:2], known_orbit.state[:2], atol=1e-8)
+
+
+def test_asymmetry(known_orbit):
+    """The asymmetry is the distance from the mirrored motion half a period later."""
+    record = records.measured(known_orbit.parameters, known_orbit.state, 1, 1e-12)
+    later = [known_orbit.strobe + known_orbit.period / 2]
+    (half,), _ = sample(known_orbit.parameters, known_orbit.state, known_orbit.strobe, later)
+    apart = np.max(np.abs(half + known_orbit.state))
+    assert_allclose(record["asymmetry"], apart, atol=1e-9)
+    assert (apart > 1) == (known_orbit.frequency == 1.7)
+
+
+def test_mass_that_drifts_is_not_taken_for_settled():
+    """A loose mass that drifts too slowly to meet a wall in the run has not settled to an orbit."""
+    p = pack(PAPER, Damper(0.12, 2.0), 2.0)
+    y = np.array([0.02716339, 0.4994648, 0.02716339, 0.4994648 + 1e-5])
+    record = settled(p, y, patience=100, limit=200)
+    assert record["outcome"] == records.NON_COLLIDING
+
+
+# Start of a chaotic motion of large amplitude, at a frequency below the band in which the damper
+# suppresses large motions.
+VIOLENT = pack(PAPER, DESIGN, 1.1), [1.0, 0.5, 0.3, -1.0]
+
+
+def test_chaos_and_its_exponent():
+    """Compare with the divergence of two neighbouring motions, without variational equations."""
+    p, state = VIOLENT
+    record = settled(p, state, patience=1000, limit=3000)
+    assert record["outcome"] == records.CHAOTIC
+    assert record["period"] == 0
+    mean, error = divergence_of_neighbours(p, state, 2100)
+    assert abs(record["lyapunov_exponent"] - mean) < 4 * math.hypot(record["lyapunov_error"], error)
+    assert mean > 10 * error
+    assert 0 < record["lyapunov_error"] < 0.05 * record["lyapunov_exponent"]
+
+
+def test_chaos_without_time_to_be_sure_is_unresolved():
+    p, state = VIOLENT
+    settling, rows = Settling(patience=100, limit=100, further=0), (p[None], np.array([state]))
+    record = ensemble.settle(*rows, settling, from_strobe=True)[0]
+    assert record["outcome"] == records.UNRESOLVED
+    assert record["periods_run"] == 99
+    settling = Settling(patience=100, limit=100)
+    assert ensemble.settle(*rows, settling, from_strobe=True)[0]["outcome"] == records.CHAOTIC
+    assert settled(p, state, patience=1000, limit=2000)["outcome"] == records.CHAOTIC
+
+
+def test_error_of_the_exponent_shrinks_with_the_run():
+    p, state = VIOLENT
+    short = settled(p, state, patience=300, limit=5000)
+    long = settled(p, state, patience=4000, limit=5000)
+    # the exponent is averaged over 15 batches in the short run and 200 in the long one
+    assert 2 < short["lyapunov_error"] / long["lyapunov_error"] < 7
+    assert_allclose(
+        short["lyapunov_exponent"], long["lyapunov_exponent"], atol=4 * short["lyapunov_error"]
+    )
+
+
+def test_exponent_of_a_settled_motion_is_its_multiplier(known_orbit):
+    """The exponent is log |multiplier| / period, and the growth rate of a tangent on the orbit."""
+    record = settled(known_orbit.parameters, known_orbit.state)
+    expected = math.log(abs(record["multiplier"])) / (record["period"] * known_orbit.period)
+    # Without a damper a tangent of the loose mass neither grows nor decays. Only the tangents of
+    # the primary mass are compared.
+    if known_orbit.damper is None:
+        _, matrix, _ = strobe_map.period_map(known_orbit.parameters, known_orbit.state, 1, 1e-13)
+        found = math.log(max(abs(np.linalg.eigvals(matrix[:2, :2])))) / known_orbit.period
+    else:
+        found = growth_of_tangent(known_orbit.parameters, known_orbit.state, 1200, 200)
+    assert_allclose(found, expected, rtol=1e-2 if known_orbit.damper else 1e-9)
+
+
+def test_polish_comes_back_from_aside(known_orbit):
+    """From a state 1 % away Newton's method returns to the orbit, as an integration shows."""
+    p = known_orbit.parameters
+    y = known_orbit.state * 1.01
+    found, residual, multiplier = strobe_map.polish(p, y, 1, 0.2, 1e-13)
+    assert found and residual < 1e-8
+    (back,), _ = sample(p, y, known_orbit.strobe, [known_orbit.strobe + known_orbit.period])
+    assert_allclose(back, y, atol=2e-9)
+    assert abs(multiplier) < 1
+    assert_allclose(y[:2], known_orbit.state[:2], atol=1e-8)
+
+
+def test_polish_finds_no_orbit_where_none_is_near(design_orbit):
+    y = np.array([1.0, 1.0, 0.5, -1.0])
+    before = y.copy()
+    found, residual, multiplier = strobe_map.polish(design_orbit.parameters, y, 1, 1e-3, 1e-12)
+    assert not found and np.isnan(residual) and np.isnan(multiplier)
+    assert np.array_equal(y, before)
+
+
+@pytest.mark.parametrize("start, target", [((2.35, -0.78), 2.2), ((0.03, 0.5), 1.2)])
+def test_follow_ends_at_the_folds_of_the_free_response(start, target):
+    """A simulated motion stays on the branch on one side of its end and leaves it on the other."""
+    p, y = pack(PAPER, None, 2.0), np.tile(start, 2)
+    p, (y, multiplier) = follow_stable(p, y, 1, FREQUENCY, target)
+    end = p[0]
+    assert 1.25 < end < 2.1
+    assert_allclose(end, 2.0144439 if target > 2 else 1.3001, atol=5e-5)
+    assert_allclose(multiplier, 1, atol=0.01)
+    inward = -1 if target > 2 else 1
+    sizes = []
+    for distance in (1e-3, -1e-3):
+        p[0] = end + inward * distance
+        record = settled(p, y, limit=5000)
+        assert record["outcome"] == records.SETTLED
+        sizes.append(record["maximum_displacement"])
+    here = records.measured(np.array([end, *p[1:]]), y, 1, 1e-11)["maximum_displacement"]
+    assert abs(sizes[0] - here) < 0.2
+    assert abs(sizes[1] - here) > 0.8
+
+
+def test_follow_arrives(design_orbit):
+    """Within the branch following arrives at the orbit that a simulation settles on."""
+    p, y = design_orbit.parameters.copy(), design_orbit.state.copy()
+    p, (y, multiplier) = follow_stable(p, y, 1, CLEARANCE, 1.9)
+    assert p[CLEARANCE] == 1.9
+    record = settled(p, design_orbit.state)
+    assert record["outcome"] == records.SETTLED and record["contacts"] == 2
+    assert_allclose(y, record["state"], atol=1e-8)
+    assert_allclose(multiplier, record["multiplier"], atol=1e-6)
+
+
+def test_measures_against_dense_samples(known_orbit):
+    """Extremum, contacts and harmonics of one period."""
+    record = records.measured(known_orbit.parameters, known_orbit.state, 1, 1e-12)
+    count = 4096
+    times = known_orbit.strobe + np.arange(count) * known_orbit.period / count
+    states, log = sample(known_orbit.parameters, known_orbit.state, known_orbit.strobe, times)
+    x, z = states[:, 0], states[:, 2]
+    # between two samples |x| exceeds both by at most (spacing/2)^2 |x''|/2
+    assert -1e-12 < record["maximum_displacement"] - np.max(np.abs(x)) < 1e-5
+    assert record["contacts"] == len(log)
+    # The record holds c of Re(c exp(i W T)). The transform counts time from the strobe, W T = pi/2.
+    # The record is computed from few samples, which resolve contacts poorly: hence `atol`.
+    turn = 2 * np.exp(-0.5j * np.pi) / count
+    atol = 2e-4 if known_orbit.damper else 1e-8
+    assert_allclose(record["harmonic_displacement"], turn * np.fft.rfft(x)[1], atol=atol)
+    assert_allclose(record["harmonic_relative"], turn * np.fft.rfft(z)[1], atol=10 * atol)
+
+
+def test_extremum_of_an_unsettled_motion():
+    p, state = VIOLENT
+    record = records.measured(p, np.array(state), 3, 1e-12)
+    strobe, length = 0.5 * math.pi / p[0], 6 * math.pi / p[0]
+    states, _ = sample(p, state, strobe, strobe + np.linspace(0, length, 60001))
+    largest = np.max(np.abs(states[:, 0]))
+    assert -1e-10 < record["maximum_displacement"] - largest < 1e-6
+
+
+def test_log_of_contacts_may_be_short(design_orbit):
+    """Contacts beyond the end of the log are counted but not logged."""
+    log, states = np.full((3, 5), np.nan), np.empty((1, 4))
+    end = np.array([design_orbit.strobe + 10 * design_orbit.period])
+    count = traces.trace(
+        design_orbit.parameters,
+        design_orbit.state.copy(),
+        design_orbit.strobe,
+        end,
+        1e-12,
+        states,
+        log,
+    )
+    assert count == 20
+    assert np.isfinite(log).all()
+
+
+def test_first_collision_by_simulation():
+    p = pack(PAPER, DESIGN, 2.0)
+    states = np.array([[0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 2.1, 0.0], [0.0, 0.0, 0.0, 0.0]])
+    waits = ensemble.collide(np.tile(p, (3, 1)), states, 10, 1e-12)
+    _, log = sample(p, states[0], 0.0, [10.0])
+    assert_allclose(waits[0], log[0, 1] * p[0] / (2 * math.pi), rtol=1e-12)
+    assert waits[1] == 0
+    assert waits[2] == np.inf

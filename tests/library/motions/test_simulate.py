@@ -1,0 +1,235 @@
+"""Single motions with labels, random starts, and ensembles on several threads.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, and T the time.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
+from numpy.testing import assert_allclose
+from scipy import stats
+
+from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.model import packed
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import Damper
+from impact_damper.model.settling import Settling
+from impact_damper.motions import ensemble, records
+from impact_damper.motions.following import follow_stable
+from impact_damper.motions.records import tabulate
+from impact_damper.motions.simulate import COMPONENTS, random_states, simulate
+from impact_damper.motions.steady import steady_motion, steady_orbit
+
+ON_ORBIT = (0.00572, 0.187394, 0.001944, -2.407912)
+
+
+def test_samples_and_contacts_of_a_simulation():
+    data = simulate(PAPER, DESIGN, 2.0, (0, 0, 0, 1), periods=6.5, samples=100)
+    assert data.sizes["time"] == 651
+    assert_allclose(data.time[[0, -1]], [0, 6.5 * math.pi], rtol=1e-15)
+    assert_allclose(np.diff(data.time), math.pi / 100, rtol=1e-10)
+    assert_allclose([data[name][0] for name in list(data)[:4]], [0, 0, 0, 1])
+    # |Z2| exceeds the clearance exactly during contacts
+    beyond = np.sign(data.relative_displacement) * (abs(data.relative_displacement) > 2)
+    t = data.time.values[:, None]
+    within = (t > data.contact_begin.values) & (t < data.contact_end.values)
+    assert np.array_equal(beyond, within @ data.contact_wall.values)
+    assert np.all(data.approach_velocity * data.contact_wall > 0)
+    assert np.all(data.departure_velocity * data.contact_wall < 0)
+    # the velocity is the derivative of the displacement
+    difference = np.gradient(data.displacement, data.time.values, edge_order=2)
+    assert_allclose(difference, data.velocity, atol=0.1)
+
+
+def test_simulation_goes_on_where_it_stopped():
+    """A run that starts in the last state of a run, at its time, continues this run."""
+    whole = simulate(PAPER, INELASTIC, 1.7, (0.1, 0, 0, 1), periods=4, samples=10)
+    first = simulate(PAPER, INELASTIC, 1.7, (0.1, 0, 0, 1), periods=1.5, samples=10)
+    middle = [first[name].values[-1] for name in list(first)[:4]]
+    rest = simulate(
+        PAPER, INELASTIC, 1.7, middle, start=float(first.time[-1]), periods=2.5, samples=10
+    )
+    assert_allclose(rest.displacement, whole.displacement[15:], atol=1e-9)
+    assert_allclose(rest.relative_velocity, whole.relative_velocity[15:], atol=1e-7)
+
+
+def test_contact_cut_by_the_end():
+    data = simulate(PAPER, DESIGN, 2.0, (0, 0, 2.0, 1.0), periods=0.003, samples=1000)
+    assert data.contact_begin[0] == 0
+    assert np.isnan(data.contact_end[0]) and np.isnan(data.departure_velocity[0])
+
+
+def test_more_contacts_than_expected():
+    data = simulate(PAPER, Damper(0.12, 0.01), 2.0, (0, 0, 0, 5), periods=30, samples=2)
+    assert data.sizes["contact"] > 1024
+    assert np.all(np.diff(data.contact_begin) > 0)
+    assert np.all(data.contact_end[:-1] > data.contact_begin[:-1])
+
+
+def test_simulation_without_a_damper():
+    data = simulate(PAPER, None, 2.0, (0.4, 0.1), periods=3)
+    assert data.sizes["contact"] == 0
+    assert_allclose(data.relative_displacement, data.displacement)
+    assert "mass_ratio" not in parameters_of(data)
+
+
+@pytest.mark.parametrize(
+    "wrong, message",
+    [
+        ({"state": (1, 0.5, 0)}, "state = .*four finite numbers"),
+        ({"state": (1, 0.5, 0, math.nan)}, r"state\[3\] = nan: must be finite"),
+        ({"state": (1, 2e6, 0, 0)}, r"state\[1\] = 2e\+06: must be .*at most 1e\+06"),
+        ({"periods": 0}, "periods = 0: must be finite and greater than 0"),
+        ({"damper": None, "state": (1, 0.5, 0)}, "state = .*or two without a damper"),
+        ({"samples": 1}, "samples = 1: must be from 2"),
+        ({"tolerance": 0.1}, "tolerance = 0.1"),
+        ({"start": math.inf}, "start = inf: must be finite and"),
+        ({"frequency": -2.0}, "frequency = -2"),
+    ],
+)
+def test_arguments_are_checked(wrong, message):
+    with pytest.raises(ValueError, match=message):
+        simulate(PAPER, **{"damper": DESIGN, "frequency": 2.0} | wrong)
+
+
+@pytest.mark.parametrize("damper", [None, DESIGN, Damper(0.4, 0.625)])
+@pytest.mark.parametrize("within_gap", [True, False])
+def test_random_states_are_uniform(damper, within_gap):
+    """States are uniform in a ball, which the walls cut off with `within_gap`."""
+    states = random_states(4000, 2.0, damper, 5, within_gap=within_gap)
+    assert states.shape == (4000, 4)
+    if damper is None:
+        assert np.array_equal(states[:, :2], states[:, 2:])
+        states = states[:, :2]
+    size = states.shape[1]
+    radius = np.linalg.norm(states, axis=1)
+    assert np.max(radius) <= 2.0
+    if damper is not None and within_gap:
+        assert np.max(np.abs(states[:, 2])) < damper.clearance
+    if damper is None or not within_gap or damper.clearance >= 2:
+        assert stats.kstest((radius / 2) ** size, "uniform").pvalue > 0.01
+        for values in states.T:
+            # a coordinate u of a uniform ball: (1 + u/2)/2 is a symmetric beta variable
+            shape = (size + 1) / 2
+            assert stats.kstest((1 + values / 2) / 2, stats.beta(shape, shape).cdf).pvalue > 0.001
+    else:
+        # for any given Z2 the other components are uniform in the remaining ball
+        left = 1 - (states[:, 2] / 2) ** 2
+        others = np.linalg.norm(states[:, [0, 1, 3]], axis=1) / (2 * np.sqrt(left))
+        assert stats.kstest(others**3, "uniform").pvalue > 0.01
+
+
+def test_a_loose_mass_far_beyond_its_wall_is_told_with_its_speed():
+    """An elastic contact turns its energy into the relative speed that the warning states."""
+    beyond = 5 * DESIGN.clearance
+    with pytest.warns(UserWarning, match="the loose mass is beyond its wall") as told:
+        motion = simulate(PAPER, DESIGN, 2.0, (0, 0, beyond, 0), periods=0.5, samples=4000)
+    speed = float(str(told[0].message).rsplit("= ", 1)[1])
+    inside = np.abs(motion.relative_displacement) < DESIGN.clearance
+    assert np.abs(motion.relative_velocity[inside][0]) == pytest.approx(speed, rel=0.01)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_loose_mass_in_contact_is_no_mistake():
+    simulate(PAPER, DESIGN, 2.0, (0, 0, 1.01 * DESIGN.clearance, 0), periods=1)
+
+
+def test_random_states_depend_on_the_seed_only():
+    first, again = (random_states(50, 2.0, DESIGN, [3, 1]) for _ in range(2))
+    assert np.array_equal(first, again)
+    assert not np.array_equal(first, random_states(50, 2.0, DESIGN, [3, 2]))
+    assert random_states(0, 2.0, DESIGN, 1).shape == (0, 4)
+    with pytest.raises(ValueError, match="radius = 0"):
+        random_states(5, 0.0, DESIGN, 1)
+    with pytest.raises(ValueError, match="radius = 2: .*within the gap"):
+        random_states(5, 2.0, Damper(0.12, 1e-6), 1)
+
+
+def test_steady_motion_of_the_design():
+    """The small motion has two symmetric contacts; a simulation returns to its state."""
+    # from W T = pi/2 to T = pi, one forcing cycle after T = 0
+    before = simulate(PAPER, DESIGN, 2.0, ON_ORBIT, start=math.pi / 4, periods=0.75, samples=4)
+    start = [float(before[name][-1]) for name in list(before)[:4]]
+    data = steady_motion(PAPER, DESIGN, 2.0, start)
+    assert data.outcome == flag("outcome", "settled")
+    assert data.period == 1 and data.contacts == 2
+    assert data.maximum_displacement < 0.06
+    assert data.asymmetry < 1e-7
+    assert np.hypot(data.multiplier_real, data.multiplier_imaginary) < 1
+    again = simulate(PAPER, DESIGN, 2.0, data.state.values, start=math.pi / 4, periods=1)
+    assert_allclose([again[name][-1] for name in list(again)[:4]], data.state, atol=1e-7)
+
+
+def test_phases_of_a_steady_motion():
+    """Phases of Z1 relative to Z2 and to Z1 - Z2, compared with a Fourier transform."""
+    for frequency in (1.8, 2.2):
+        p, y = pack(PAPER, DESIGN, 2.0), np.array(ON_ORBIT)
+        p, (y, _) = follow_stable(p, y, 1, FREQUENCY, frequency)
+        assert p[FREQUENCY] == frequency
+        record = records.measured(p, y, 1, 1e-12)
+        data = simulate(
+            PAPER, DESIGN, frequency, y, start=np.pi / 2 / frequency, periods=1, samples=512
+        )
+        first, second = (
+            np.fft.rfft(data[name][:-1])[1] for name in ("displacement", "relative_displacement")
+        )
+        table = tabulate(record)
+        assert_allclose(table["phase_relative"], np.angle(first / second), atol=2e-2)
+        assert_allclose(table["phase_loose"], np.angle(first / (first - second)), atol=2e-2)
+    assert np.isnan(tabulate(np.zeros(1, records.MOTION))["phase_relative"]).all()
+
+
+def test_results_do_not_depend_on_the_threads():
+    parameters = np.array([pack(PAPER, DESIGN, w) for w in np.linspace(1.2, 2.4, 50)])
+    states = random_states(50, 2.0, DESIGN, 11)
+    settling = Settling(patience=100, limit=300)
+    one, three = (
+        ensemble.settle(parameters, states, settling, workers=workers) for workers in (1, 3)
+    )
+    assert one.tobytes() == three.tobytes()
+    alone = ensemble.settle(parameters[17:18], states[17:18], settling)
+    assert alone.tobytes() == one[17:18].tobytes()
+    assert len(np.unique(one["outcome"])) > 1
+
+
+def test_time_of_the_first_state():
+    """The first state of a motion may be given at T = 0 or at the strobe, W T = pi/2."""
+    p = pack(PAPER, None, 2.0)
+    (later,) = np.array(simulate(PAPER, None, 2.0, (0.3, 0.2), periods=0.25, samples=4)[
+        ["displacement", "velocity", "relative_displacement", "relative_velocity"]
+    ].to_array().T[-1:])  # fmt: skip
+    settling = Settling(tolerance=1e-12)
+    start = ensemble.settle(p[None], [[0.3, 0.2, 0.3, 0.2]], settling)
+    strobe = ensemble.settle(p[None], later[None], settling, from_strobe=True)
+    assert_allclose(start["state"], strobe["state"], atol=1e-9)
+    assert start["periods_run"] == strobe["periods_run"]
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"tolerance": 0.0}, {"patience": 10}, {"limit": 200}, {"watched": 0}]
+)
+def test_settling_is_checked(wrong):
+    (name, value), = wrong.items()  # fmt: skip
+    with pytest.raises(ValueError, match=f"{name} = {value:g}"):
+        Settling(**wrong)
+    with pytest.raises(ValueError, match="workers = 0"):
+        ensemble.settle(np.empty((0, packed.COUNT)), np.empty((0, 4)), workers=0)
+    with pytest.raises(ValueError, match="shapes"):
+        ensemble.settle(np.empty((1, packed.COUNT)), np.empty((2, 4)))
+
+
+def test_steady_orbit_closes():
+    orbit = steady_orbit(PAPER, DESIGN, 2.0, (1.0, 0.5, 0.0, 0.0))
+    ends = [orbit[name].values[[0, -1]] for name in COMPONENTS]
+    assert_allclose(*np.transpose(ends), atol=1e-8)
+    assert_allclose(np.ptp(orbit.time.values), np.pi)
+    assert orbit.sizes["contact"] == 2
+
+
+def test_steady_orbit_says_that_a_motion_has_not_settled():
+    with pytest.raises(ArithmeticError, match="limit = 120"):
+        settling = Settling(patience=100, limit=120, further=0)
+        steady_orbit(PAPER, DESIGN, 2.0, (1.0, 0.5, 0.0, 0.0), settling=settling)

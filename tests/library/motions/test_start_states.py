@@ -1,0 +1,152 @@
+"""Starts of searches are scaled by the free motions; a narrow ball of starts misses motions.
+
+Free motions are motions without the damper.
+"""
+
+import math
+import warnings
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, PAPER
+from helpers.springs import KNOWN, SPRINGS
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+
+from impact_damper.data.datasets import flag
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.settling import Settling
+from impact_damper.motions.free_motions import free_motions
+from impact_damper.motions.response import frequency_response
+from impact_damper.motions.start_states import missed_share, search_starts, warn_if_narrow
+
+SETTLING = Settling()
+
+
+def hardening_machine():
+    """Return oscillator, damper, frequency, and unit of length in mm, of a machine in SI units.
+
+    m = 12 kg, k = 2e5 N/m, k3 = 4e9 N/m^3, damping ratio 0.5 %, F = 40 N, 30 Hz. The loose mass has
+    5 % of the mass m and a gap of 3 mm.
+    """
+    mass, stiffness, cubic, force = 12.0, 2e5, 4e9, 40.0
+    length = (force / cubic) ** (1 / 3)
+    rate = math.sqrt(cubic * length**2 / mass)
+    natural = math.sqrt(stiffness / mass) / rate
+    oscillator = Oscillator(2 * 0.005 * natural, natural)
+    damper = Damper(0.05, 3e-3 / (2 * length), 0.8)
+    return oscillator, damper, 2 * math.pi * 30 / rate, 1e3 * length
+
+
+def test_the_default_search_finds_the_violent_motion_that_a_ball_of_radius_2_misses():
+    oscillator, damper, frequency, unit = hardening_machine()
+    wide = frequency_response(oscillator, damper, [frequency])
+    with pytest.warns(UserWarning, match=r"radius = 2: smaller than the free motion at .* = 19.5"):
+        narrow = frequency_response(oscillator, damper, [frequency], radius=2.0)
+    largest = {
+        name: unit * np.nanmax(data.maximum_displacement)
+        for name, data in (("wide", wide), ("narrow", narrow))
+    }
+    assert largest["narrow"] < 1 and 9.2 < largest["wide"] < 9.5
+    assert narrow.start_displacement == narrow.start_speed == 2
+    assert narrow.free_speed > 2
+    assert wide.start_displacement > wide.free_displacement > 4
+    assert wide.missed_share == 3 / 96
+    assert "radius" not in wide.attrs and wide.motion_starts.sum() == 96
+
+
+@pytest.mark.parametrize("name, frequency", [("softening", 0.85), ("linear", 1.3), ("shaken", 1.0)])
+def test_free_motions_are_settled_ones(name, frequency):
+    """By SciPy each free motion returns after a cycle; largest displacement and speed agree."""
+    oscillator = SPRINGS[name]
+    found = free_motions(oscillator, frequency, SETTLING)
+    force = oscillator.forcing_amplitude(frequency)
+
+    def rates(time, y):
+        spring = oscillator.linear_frequency**2 * y[0] + oscillator.cubic * y[0] ** 3
+        return y[1], force * np.cos(frequency * time) - oscillator.damping * y[1] - spring
+
+    largest = []
+    for state in found.states:
+        span = 0, 2 * math.pi / frequency
+        run = solve_ivp(rates, span, state, "DOP853", rtol=1e-11, atol=1e-12, max_step=0.01)
+        largest.append(np.max(np.abs(run.y), axis=1))
+        assert_allclose(run.y[:, -1], state, atol=1e-6)
+    assert_allclose(np.max(largest, axis=0), [found.displacement, found.speed], rtol=1e-3)
+    assert len(found.states) == (2 if name == "softening" else 1)
+
+
+def test_resonance_non_resonance_and_rest_are_always_among_the_starts():
+    free = free_motions(PAPER, 1.8, SETTLING)
+    assert len(free.states) >= 2
+    search = search_starts(PAPER, [(DESIGN, 1.8), (None, 1.8)], 5, None, 1, SETTLING)
+    assert search.random.shape == (2, 5, 4)
+    for state in [*free.states, (0.0, 0.0)]:
+        chosen = np.all(np.isclose(search.placed[0][:, :2], state), axis=1)
+        assert len(np.unique(search.placed[0][chosen][:, 2])) == 3
+        assert len(np.unique(search.placed[0][chosen][:, 3])) == 3
+    for state in free.states:
+        assert np.any(np.all(np.isclose(search.placed[1][:, :2], state), axis=1))
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_random_starts_lie_within_what_the_search_states(name):
+    oscillator, damper = SPRINGS[name], Damper(0.1, 0.7)
+    search = search_starts(oscillator, [(damper, 1.1)], 2000, None, 3, SETTLING)
+    states, most = search.random[0], (search.displacement[0], search.speed[0])
+    assert np.all(np.abs(states[:, 2]) < 0.7)
+    assert np.all(np.abs(states[:, :2]) <= most)
+    assert np.all(np.max(np.abs(states[:, :2]), axis=0) > 0.9 * np.array(most))
+    if oscillator.cubic < 0:
+        barrier = oscillator.linear_frequency / math.sqrt(-oscillator.cubic)
+        assert search.displacement[0] <= barrier
+    else:
+        assert search.displacement[0] > search.free_displacement[0]
+        assert search.speed[0] > search.free_speed[0]
+
+
+def test_a_free_decay_has_starts_too():
+    search = search_starts(
+        Oscillator(0.1, 1.0, force=0.0), [(Damper(0.1, 0.5), 1.0)], 50, None, 1, SETTLING
+    )
+    assert search.free_displacement[0] == 0
+    assert np.max(np.abs(search.random[0][:, 0])) > 0.1
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_free_decay_says_how_it_ends():
+    """A decay ends at rest, or is unresolved if the loose mass still moves; each is listed once."""
+    data = frequency_response(Oscillator(0.1, 1.0, force=0.0), Damper(0.1, 0.5), [1.0], starts=8)
+    outcomes = data.outcome.values[0].tolist()
+    assert outcomes.count(flag("outcome", "at_rest")) == 1
+    assert outcomes.count(flag("outcome", "unresolved")) <= 1
+    assert np.max(data.maximum_displacement) < 1e-4
+
+
+def test_a_radius_gives_the_ball_and_warns_only_where_it_is_narrow():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        search = search_starts(PAPER, [(DESIGN, 2.3)] * 2, 8, 2.0, 1, SETTLING)
+    assert np.all(np.linalg.norm(search.random, axis=2) <= 2)
+    assert [len(each) for each in search.placed] == [0, 0]
+    with pytest.warns(
+        UserWarning, match="radius = 2: .* frequency = 2, .* = 2.32 and speed = 4.64"
+    ):
+        warn_if_narrow(PAPER, [1.0, 2.0, 2.3], 2.0)
+
+
+def test_bound_on_what_was_never_seen():
+    """All of n starts miss a motion with the share `missed_share(n)` with just below 5 %.
+
+    This probability is (1 - share)^n.
+    """
+    for n in (24, 96, 1000):
+        assert (1 - missed_share(n)) ** n < 0.05 < (1 - 0.9 * missed_share(n)) ** n * 1.1
+    assert missed_share(0) == missed_share(1) == 1
+
+
+def test_placed_starts_are_told_from_random_ones():
+    data = frequency_response(PAPER, DESIGN, [1.8], starts=1, settling=Settling(patience=100))
+    origins = data.origin.values
+    assert flag("origin", "placed_start") in origins
+    assert data.motion_starts.sum() == 1

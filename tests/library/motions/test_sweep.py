@@ -1,0 +1,190 @@
+"""Motions along a sweep: periods, branches, and ends of branches.
+
+Symbols are as in `system.parameters`.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, PAPER
+from numpy.testing import assert_allclose
+from scipy import stats
+
+from impact_damper.data.datasets import flag
+from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
+from impact_damper.model.parameters import Damper
+from impact_damper.model.settling import Settling
+from impact_damper.motions import ensemble, strobe_map
+from impact_damper.motions.catalogue import Catalogue
+from impact_damper.motions.following import follow_stable
+from impact_damper.motions.records import MOTION
+from impact_damper.motions.simulate import random_states
+from impact_damper.motions.start_states import NO_LOOSE, NO_STARTS, Search
+from impact_damper.motions.sweep import _end_event, sweep
+from impact_damper.motions.traces import trace
+
+FREQUENCIES = np.array([1.25, 1.4, 1.6, 1.75, 1.9, 2.0, 2.05, 2.1])
+
+
+def random_search(states):
+    """Return a search with these random starts alone."""
+    return Search(
+        states, [NO_STARTS] * len(states), [NO_LOOSE] * len(states), *np.zeros((4, len(states)))
+    )
+
+
+def free_sweep(frequencies, **options):
+    parameters = np.array([pack(PAPER, None, w) for w in frequencies])
+    states = np.array([random_states(12, 2.5, None, [2, i]) for i in range(len(frequencies))])
+    return sweep(parameters, FREQUENCY, "frequency", random_search(states), Settling(), **options)
+
+
+@pytest.fixture(scope="module")
+def free():
+    return free_sweep(FREQUENCIES, workers=2)
+
+
+def ends_of(data, event="fold"):
+    """Return parameter, direction and displacement of all ends of branches with one event."""
+    chosen = data["end_event"] == flag("end_event", event)
+    columns = (data["end_value"], data["end_direction"], data["end_displacement"])
+    return np.array(columns).T[chosen]
+
+
+def test_every_motion_returns(free):
+    """An integration from the state of a motion returns after its period and not before."""
+    period, state = free["period"][1], free["state"][1]
+    outcome = free["outcome"][1]
+    for i, frequency in enumerate(FREQUENCIES):
+        p = pack(PAPER, None, frequency)
+        for k in np.flatnonzero(outcome[i] == flag("outcome", "settled")):
+            back = [strobe_map.period_map(p, state[i, k], n, 1e-13)[0] for n in range(1, 4)]
+            apart = np.max(np.abs(back - state[i, k])[:, :2], axis=1)
+            assert np.argmax(apart < 1e-8) + 1 == period[i, k]
+
+
+def test_three_branches_of_the_free_oscillator(free):
+    """Resonance, non-resonance and one-third subharmonic are found where they exist, no others."""
+    period, size = free["period"][1], free["maximum_displacement"][1]
+    assert np.array_equal((period == 1).sum(axis=1), [1, 2, 2, 2, 2, 2, 1, 1])
+    assert np.array_equal((period == 3).sum(axis=1), [0, 0, 0, 1, 1, 1, 1, 0])
+    branch = free["branch"][1]
+    for chosen in ((period == 3), (period == 1) & (size > 1.5), (period == 1) & (size < 0.9)):
+        assert len(np.unique(branch[chosen])) == 1
+    assert len(np.unique(branch[period > 0])) == 3
+
+
+def test_branches_end_at_folds(free):
+    """At an end the multiplier is one, and the end does not depend on the grid of the sweep."""
+    ends = ends_of(free)
+    assert len(ends) == 4 == len(free["end_value"])
+    assert_allclose(free["end_multiplier_real"], 1, atol=0.01)
+    other = ends_of(free_sweep(np.array([1.28, 1.5, 1.8, 2.0, 2.03, 2.09])))
+    order, again = np.argsort(ends[:, 0]), np.argsort(other[:, 0])
+    assert_allclose(ends[order], other[again], atol=1e-4)
+    assert np.array_equal(ends[order][:, 1], [-1, -1, 1, 1])
+
+
+def test_motions_change_at_an_end(free):
+    """Simulated beyond the end of its branch, a motion settles at another displacement."""
+    p = pack(PAPER, None, 2.0)
+    for value, direction, size in ends_of(free):
+        row = np.argmin(np.abs(FREQUENCIES - value) + 10 * ((FREQUENCIES - value) * direction > 0))
+        column = np.nanargmin(np.abs(free["maximum_displacement"][1][row] - size))
+        state, period = free["state"][1][row, column].copy(), free["period"][1][row, column]
+        p[0] = FREQUENCIES[row]
+        p, (state, _) = follow_stable(p, state, period, FREQUENCY, value - 1e-4 * direction)
+        assert_allclose(p[0], value - 1e-4 * direction, rtol=1e-15)
+        sizes = []
+        for beyond in (-1e-4, 1e-3):
+            p[0] = value + beyond * direction
+            record = ensemble.settle(p[None], state[None], from_strobe=True)[0]
+            assert record["outcome"] == flag("outcome", "settled")
+            sizes.append(record["maximum_displacement"])
+        assert abs(sizes[0] - size) < 0.05
+        assert abs(sizes[1] - size) > 0.3
+
+
+def test_shares_and_runs(free):
+    dims, starts = free["motion_starts"]
+    assert dims == ("frequency", "motion")
+    assert np.array_equal(starts.sum(axis=1), np.full(len(FREQUENCIES), 12))
+    assert free["run_outcome"][1].shape == free["run_length"][1].shape == (len(FREQUENCIES), 12)
+    column = free["run_motion"][1]
+    assert np.array_equal(
+        np.take_along_axis(free["outcome"][1], column, axis=1), free["run_outcome"][1]
+    )
+    counted = [np.bincount(row, minlength=starts.shape[1]) for row in column]
+    assert np.array_equal(starts, counted)
+
+
+def test_shares_have_wilson_intervals(free):
+    present = free["outcome"][1] != flag("outcome", "absent")
+    for name in ("share_lower", "share_upper"):
+        assert np.array_equal(np.isfinite(free[name][1]), present)
+    for count in np.unique(free["motion_starts"][1][present]):
+        expected = stats.binomtest(int(count), 12).proportion_ci(method="wilson")
+        chosen = present & (free["motion_starts"][1] == count)
+        assert_allclose(free["share_lower"][1][chosen], expected.low, atol=1e-12)
+        assert_allclose(free["share_upper"][1][chosen], expected.high, atol=1e-12)
+
+
+def test_following_finds_what_random_starts_miss():
+    """A start near rest does not reach the upper resonance branch; following does."""
+    frequencies = np.array([0.8, 1.1, 1.4, 1.7, 2.0])
+    parameters = np.array([pack(PAPER, None, w) for w in frequencies])
+    states = np.full((5, 1, 4), 0.01)
+    data = sweep(parameters, FREQUENCY, "frequency", random_search(states), Settling())
+    top = np.nanmax(data["maximum_displacement"][1], axis=1)
+    assert np.all(np.diff(top) > 0) and top[-1] > 2.3
+    assert data["origin"][1][-1, 0] == flag("origin", "followed")
+    assert data["motion_starts"][1][-1, 0] == 0
+
+
+def test_mirrored_motion_is_the_same():
+    """The large motion with two contacts and its mirror image count as one motion."""
+    p = pack(PAPER, DESIGN, 1.7)
+    y = np.array([1.87868319, -2.47688679, 0.02448582, -0.45289641])
+    later = y.copy()
+    half = 0.5 * math.pi / 1.7 + math.pi / 1.7
+    trace(p, later, 0.5 * math.pi / 1.7, np.array([half]), 1e-13, np.empty((1, 4)),
+                 np.empty((9, 5)))  # fmt: skip
+    records = ensemble.settle(np.tile(p, (2, 1)), np.array([y, -later]), from_strobe=True)
+    assert np.all(records["outcome"] == flag("outcome", "settled"))
+    assert np.max(np.abs(records["state"][0] - records["state"][1])) > 1
+    catalogue = Catalogue(p, iter(range(9)))
+    assert [catalogue.add(record, "random_start") for record in records] == [0, 0]
+    assert catalogue.starts == [2]
+
+
+def test_sweep_of_the_clearance():
+    """The small motion is on one branch, and at each clearance it is a periodic orbit."""
+    clearances = np.array([1.9, 2.0, 2.1])
+    parameters = np.array([pack(PAPER, Damper(0.12, d), 2.0) for d in clearances])
+    # state of the orbit for d0 = 2 at T = 0, in contact
+    states = np.array([[[-0.006288, -0.060053, d + 0.020827, -0.571848]] for d in clearances])
+    data = sweep(parameters, CLEARANCE, "clearance", random_search(states), Settling())
+    branch = data["branch"][1][data["contacts"][1] == 2]
+    assert len(branch) == 3 and len(np.unique(branch)) == 1
+    assert data["state"][0] == ("clearance", "motion", "component")
+    for i, p in enumerate(parameters):
+        column = int(np.flatnonzero(data["contacts"][1][i] == 2)[0])
+        back, _, _ = strobe_map.period_map(p, data["state"][1][i, column], 1, 1e-13)
+        assert_allclose(back, data["state"][1][i, column], atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    "multiplier, event",
+    [
+        (0.5, "not_smooth"),
+        (complex(math.nan, math.nan), "not_smooth"),
+        (-0.999, "period_doubling"),
+        (0.6 + 0.8j, "neimark_sacker"),
+        (0.999, "fold"),
+    ],
+)
+def test_event_by_the_multiplier(multiplier, event):
+    record = np.zeros(2, MOTION)
+    record["maximum_displacement"] = 1, 2
+    assert _end_event(record[0], complex(multiplier), record[1]) == event

@@ -1,0 +1,166 @@
+"""Undecided motions that are run longer: spectra, multipliers, and integration over a period.
+
+Z1 is the displacement of the primary mass. A strobe is the time of the forcing phase pi/2 in each
+cycle.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.known_orbits import INELASTIC, PAPER
+from helpers.sampling import sample
+
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.settling import Settling
+from impact_damper.motions import ensemble, records, strobe_map, undecided
+from impact_damper.motions.following import follow_stable
+from impact_damper.motions.rotation_numbers import find_rotation
+
+NEVER = np.zeros(1, bool)
+
+
+def examined(p, state, limit=1500):
+    """Return the record of a motion that `name_undecided` continues from a state at the strobe."""
+    found = np.zeros(1, records.MOTION)
+    found["state"] = state
+    undecided.name_undecided(p[None], found, limit, 100_000, NEVER)
+    return found[0]
+
+
+@pytest.fixture(scope="module", params=[1.45, 1.5])
+def torus(request):
+    """Return parameters and records of a quasi-periodic motion that random starts lead to."""
+    p = pack(PAPER, INELASTIC, request.param)
+    starts = np.random.default_rng(3).uniform(-1, 1, (96, 4))
+    found = ensemble.settle(np.tile(p, (len(starts), 1)), starts, Settling())
+    return p, found[found["outcome"] == records.QUASI_PERIODIC]
+
+
+def test_frequencies_are_those_of_the_spectrum(torus):
+    """The highest lines of the spectrum are at k first + m second frequency, with integers k, m."""
+    p, found = torus
+    assert len(found) > 0
+    record, period, size = found[0], 2 * math.pi / p[FREQUENCY], 2**14
+    assert record["frequency_error"] < 1e-8 * p[FREQUENCY]
+    assert abs(record["lyapunov_exponent"]) < 3 * record["lyapunov_error"]
+    begin = strobe_map.strobe_time(p)
+    states, _ = sample(p, record["state"], begin, begin + np.arange(size) * period / 4)
+    window = np.hanning(size)
+    spectrum = np.abs(np.fft.rfft(states[:, 0] * window))
+    step = 2 * math.pi / (size * period / 4)
+    peaks = 1 + np.flatnonzero(np.diff(np.sign(np.diff(spectrum))) < 0)
+    peaks = peaks[np.argsort(spectrum[peaks])[::-1][:12]]
+    first, second = record["first_frequency"], record["second_frequency"]
+    lines = np.add.outer(np.arange(-9, 10) * second, np.arange(-12, 13) * first)
+    apart = np.abs(lines[None] - peaks[:, None, None] * step)
+    assert np.max(np.min(apart, axis=(1, 2))) < step
+    # some of the lines contain the second frequency
+    orders = np.argmin(apart.reshape(len(peaks), -1), axis=1) // 25 - 9
+    assert np.sum(orders != 0) >= 3
+
+
+def test_torus_turns_as_the_orbit_it_splits_off_from():
+    """At a Neimark-Sacker point the rotation number is the angle of the multiplier exp(i angle).
+
+    The torus splits off from an orbit of period 3, which becomes unstable towards low frequencies.
+    """
+    p = pack(PAPER, INELASTIC, 1.6)
+    state = np.array([0.7796012138, 0.1703671945, 0.8163322819, -0.9718488376])
+    p, (state, multiplier) = follow_stable(p, state, 3, FREQUENCY, 1.55)
+    assert abs(multiplier) == pytest.approx(1, abs=1e-6) and multiplier.imag > 0.5
+    onset, angle = p[FREQUENCY], np.angle(multiplier) / (2 * np.pi)
+    numbers = []
+    for below in (2e-3, 1e-3):
+        p[FREQUENCY] = onset - below
+        record = examined(p, state + np.array([1e-3, 0, 0, 0]))
+        assert record["outcome"] == records.QUASI_PERIODIC
+        assert record["first_frequency"] == pytest.approx(p[FREQUENCY] / 3, rel=1e-12)
+        numbers.append(record["second_frequency"] / record["first_frequency"])
+    assert (numbers[0] - angle) / (numbers[1] - angle) == pytest.approx(2, abs=0.1)
+    assert 2 * numbers[1] - numbers[0] == pytest.approx(angle, abs=5e-6)
+
+
+def test_torus_that_is_bent_around_its_centre_in_one_plane():
+    """In the plane (Z1, Z1') the torus is a crescent without a rotation number.
+
+    In two other planes the rotation number agrees with the record.
+    """
+    p = pack(PAPER, Damper(0.43819, 2.51322, 0.70627), 1.01298)
+    starts = np.random.default_rng(3).uniform(-1, 1, (16, 4))
+    found = ensemble.settle(np.tile(p, (len(starts), 1)), starts, Settling())
+    record = found[found["outcome"] == records.QUASI_PERIODIC][0]
+    begin, period = strobe_map.strobe_time(p), 2 * math.pi / p[FREQUENCY]
+    states, _ = sample(p, record["state"], begin, begin + np.arange(1, 3000) * period)
+    assert find_rotation(states[:, 0] + 1j * states[:, 1]) is None
+    number = record["second_frequency"] / record["first_frequency"]
+    for first, second in ((0, 2), (1, 3)):
+        other = find_rotation(states[:, first] + 1j * states[:, second])
+        assert other.number == pytest.approx(number, abs=1e-8)
+
+
+def test_starts_on_one_torus_have_one_name(torus):
+    _, found = torus
+    assert np.ptp(found["second_frequency"]) < 1e-7
+    assert np.all(found["period"] == 0)
+
+
+def test_starts_examined_alone_have_the_same_frequencies(torus):
+    """The frequencies do not depend on whether a motion on the same curves was found before."""
+    p, found = torus
+    alone = examined(p, found["state"][-1])
+    assert alone["outcome"] == records.QUASI_PERIODIC
+    assert abs(alone["second_frequency"] - found["second_frequency"][0]) < 3e-8
+    assert alone["first_frequency"] == found["first_frequency"][0]
+
+
+def test_long_period():
+    """Settling looks for periods up to 12; this motion returns after 15 periods and not before."""
+    p = pack(Oscillator(0.107), Damper(0.12, 1.063), 2.555)
+    start = np.array([-0.07209, 0.13602, -0.69963, -2.05575])
+    found = [
+        ensemble.settle(
+            p[None],
+            start[None],
+            Settling(patience=100, limit=400, further=further),
+            from_strobe=True,
+        )[0]
+        for further in (0, 400)
+    ]
+    assert [each["outcome"] for each in found] == [records.UNRESOLVED, records.SETTLED]
+    orbit = found[1]
+    assert orbit["period"] == 15 and abs(orbit["multiplier"]) < 1
+    begin, period = strobe_map.strobe_time(p), 2 * math.pi / p[FREQUENCY]
+    states, _ = sample(p, orbit["state"], begin, begin + np.arange(1, 16) * period)
+    apart = np.max(np.abs(states - orbit["state"]), axis=1)
+    assert apart[-1] < 1e-9 and np.min(apart[:-1]) > 1e-3
+
+
+def test_drifting_mass_has_its_own_name():
+    """The primary mass is on its free orbit; the loose mass reaches a wall in 11 000 periods."""
+    p = pack(PAPER, Damper(0.12, 2.0), 2.0)
+    free = ensemble.settle(pack(PAPER, None, 2.0)[None], np.zeros((1, 4)), Settling())[0]
+    state = np.array([*free["state"][:2], *free["state"][:2]])
+    state[3] += 5e-5
+    rows, settling = p[None], Settling(patience=100, limit=200)
+    record = ensemble.settle(rows, state[None], settling, from_strobe=True)[0]
+    assert record["outcome"] == records.DRIFTING
+    assert record["period"] == 1 and record["contacts"] == 0
+    assert abs(record["maximum_displacement"] - free["maximum_displacement"]) < 1e-9
+    assert abs(record["multiplier"] - free["multiplier"]) < 1e-6
+    # with a longer limit the loose mass touches a wall
+    later = Settling(patience=300, limit=20_000)
+    assert ensemble.settle(rows, state[None], later)[0]["outcome"] != records.DRIFTING
+
+
+def test_settled_motions_have_no_growing_exponent():
+    """The exponent belongs to the orbit and not to the chaotic transient before the orbit."""
+    p = pack(PAPER, Damper(0.12, 2.0), 2.4)
+    starts = np.random.default_rng(1).uniform(-1.5, 1.5, (96, 4))
+    found = ensemble.settle(np.tile(p, (len(starts), 1)), starts, Settling())
+    settled = found[found["outcome"] == records.SETTLED]
+    assert np.max(settled["periods_run"]) > 300
+    rate = np.log(np.abs(settled["multiplier"])) * p[FREQUENCY] / (2 * np.pi * settled["period"])
+    np.testing.assert_allclose(settled["lyapunov_exponent"], rate)
+    assert np.all(settled["lyapunov_exponent"] < 0) and np.all(settled["lyapunov_error"] == 0)

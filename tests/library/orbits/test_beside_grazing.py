@@ -1,0 +1,141 @@
+"""Branches close to a grazing: derivatives, ends at other branches, and switching there.
+
+At a grazing the loose mass reaches a wall with zero speed. The damper is that of figure 10. Its
+branches of period 2 and of asymmetric orbits of period 3 begin on other branches, at frequencies
+that differ from the frequency of a grazing by less than 1e-9.
+
+W is the forcing frequency and W T the phase of the forcing.
+"""
+
+import numpy as np
+import pytest
+from helpers.known_orbits import INELASTIC, PAPER, polished_orbit
+from numpy.testing import assert_allclose
+from references import extended
+
+from impact_damper.model.packed import COUNT, FREQUENCY, pack
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.sensitivity import path_of
+from impact_damper.orbits.shooting import find_orbit
+from impact_damper.orbits.switching import other_branch
+from impact_damper.orbits.turns import turns_of
+from impact_damper.orbits.variations import Variations
+
+# States at W T = pi/2 of stable orbits, and their frequencies.
+TWICE = 1.159, (0.128, 0.730, 0.408, 0.021)
+THRICE = 1.307, (0.1335, 0.4984, -0.1455, -1.1693)
+
+
+def family(value):
+    return pack(PAPER, INELASTIC, value)
+
+
+@pytest.fixture(scope="module")
+def twice():
+    """Return the branch of period 2 from W = 1.1 on."""
+    value, state = TWICE
+    return follow_branch(family, find_orbit(family(value), state, 2), value, (1.1, 1.3))
+
+
+@pytest.fixture(scope="module")
+def thrice():
+    """Return the branch of symmetric orbits of period 3 near W = 1.23."""
+    value, state = THRICE
+    return follow_branch(family, find_orbit(family(value), state, 3), value, (1.2, 1.32))
+
+
+@pytest.fixture(scope="module")
+def asymmetric(thrice):
+    """Return the loss of symmetry next to a grazing, and a point of the branch beginning there."""
+    places = [event.point.value for _, event in thrice.events if event.kind == "grazing"]
+    event = next(
+        event
+        for _, event in thrice.events
+        if event.kind == "symmetry_breaking"
+        and np.min(np.abs(np.subtract(places, event.point.value))) < 1e-8
+    )
+    return event, other_branch(event)
+
+
+def test_ends_of_a_doubled_branch_are_doublings_of_the_other(twice):
+    """A branch of period 2 ends where a branch of period 1 has period doublings.
+
+    The branch of period 1 is followed independently, from an orbit of its own.
+    """
+    value, state = 1.95, polished_orbit("inelastic").state
+    other = follow_branch(family, find_orbit(family(value), state), value, (1.1, 2.0))
+    walks = [other]
+    lost = next(event for _, event in other.events if event.kind == "symmetry_breaking")
+    point = other_branch(lost)
+    walks.append(follow_branch(family, point.orbit, point.value, (1.1, 2.0)))
+    doublings = [
+        event.point.value
+        for walk in walks
+        for _, event in walk.events
+        if event.kind == "period_doubling"
+    ]
+    assert twice.ends == ("period_doubling", "period_doubling") and twice.lost == 0
+    for end in (twice.points[0], twice.points[-1]):
+        assert np.min(np.abs(np.subtract(doublings, end.value))) < 1e-8
+
+
+def test_both_sides_of_a_branch_beside_a_grazing_meet(asymmetric):
+    event, point = asymmetric
+    assert event.point.orbit.least_speed < 1e-4
+    span = point.value - 1e-3, point.value + 1e-3
+    branch = follow_branch(family, point.orbit, point.value, span)
+    assert "symmetry_breaking" in branch.ends and branch.lost == 0
+    end = branch.points[0 if branch.ends[0] == "symmetry_breaking" else -1]
+    assert_allclose(end.value, event.point.value, rtol=0, atol=1e-9)
+
+
+def test_80_bit_motion_repeats_from_an_orbit_beside_a_grazing(asymmetric):
+    if extended.obstacle():
+        pytest.skip(extended.obstacle())
+    _, point = asymmetric
+    orbit = find_orbit(family(point.value), point.orbit.strobe_states[0], 3)
+    frequency = extended.Real(orbit.p[FREQUENCY])
+    begin = extended.Real(orbit.phase) / frequency
+    period = 6 * np.arccos(extended.Real(-1)) / frequency
+    run = extended.run(orbit.p, orbit.state, begin, [begin + period])
+    assert_allclose(run.states[-1].astype(float), orbit.state, rtol=0, atol=1e-11)
+    assert len(orbit.sequence) == 7 and orbit.record["asymmetry"] > 1e-6
+
+
+def test_slopes_beside_a_grazing_are_the_integrated_ones(twice):
+    """Derivatives by difference quotients with fine steps agree with integrated ones."""
+    heights = []
+    for point in twice.points:
+        problem, orbit = point.problem, point.orbit
+        turns = turns_of(problem, point.x, orbit)
+        heights.append(min(abs(turn.height) for turn in turns))
+        if heights[-1] > 1e-5:
+            continue
+        slopes = problem.rows(point.x, orbit)[:, -1].reshape(-1, 4)
+        for k, slope in enumerate(slopes):
+            path = path_of(orbit) if orbit.chain is None else orbit.chain.path(k)
+            expected = Variations(path).slopes()[:, FREQUENCY]
+            assert_allclose(slope, expected, rtol=0, atol=0.03 * np.max(np.abs(expected)))
+    assert min(heights) < 1e-7
+
+
+def test_variations_along_a_direction_are_sums_of_those_by_parameters():
+    orbit = polished_orbit("inelastic")
+    path = path_of(find_orbit(family(1.95), orbit.state))
+    directions = np.random.default_rng(2).normal(size=(COUNT, 2))
+    each, along = Variations(path), Variations(path, directions)
+    assert_allclose(along.slopes(), each.slopes() @ directions, rtol=1e-10, atol=1e-10)
+    changes = along.changes(np.eye(4)[:, :2], np.eye(2))
+    assert_allclose(changes, each.changes(np.eye(4)[:, :2], directions), rtol=1e-10, atol=1e-10)
+
+
+def test_a_branch_may_be_left_where_it_loses_stability(thrice):
+    value, state = THRICE
+    orbit = find_orbit(family(value), state, 3)
+    part = follow_branch(family, orbit, value, (1.2, 1.32), stable=True)
+    assert part.ends[0] == "unstable"
+    stable = [point.orbit.stable for point in part.points]
+    assert stable[1:] == [True] * (len(stable) - 1) and not stable[0]
+    whole = [event.point.value for _, event in thrice.events]
+    for _, event in part.events:
+        assert np.min(np.abs(np.subtract(whole, event.point.value))) < 1e-9

@@ -1,0 +1,317 @@
+"""Branches of orbits: closed forms, simulation on both sides of events, ends, and symmetry.
+
+A branch is the curve of the periodic orbits over a parameter. An event is a point of a branch at
+which an orbit changes, such as a fold, at which the branch turns back, or a grazing, at which a
+contact appears with zero speed. Without the damper the resonance motion is the large motion of
+period 1. The quiet motion is the small symmetric motion for which a damper is designed.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, PAPER, polished_orbit
+from numpy.testing import assert_allclose
+
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.settling import Settling
+from impact_damper.motions.ensemble import settle
+from impact_damper.motions.following import follow_stable
+from impact_damper.motions.response import frequency_response
+from impact_damper.orbits.all_branches import complete_branches
+from impact_damper.orbits.branches import _walk, follow_branch
+from impact_damper.orbits.continuation import Problem
+from impact_damper.orbits.orbit_branch import orbit_branch, periodic_orbit
+from impact_damper.orbits.shooting import find_orbit
+
+SETTLING = Settling(tolerance=1e-10, patience=300, limit=3000)
+
+
+def free(value):
+    return pack(PAPER, None, value)
+
+
+def damped(value):
+    return pack(PAPER, DESIGN, value)
+
+
+@pytest.fixture(scope="module")
+def resonance():
+    orbit = find_orbit(free(2.0), polished_orbit("resonance").state)
+    return follow_branch(free, orbit, 2.0, (0.6, 2.6))
+
+
+@pytest.fixture(scope="module")
+def quiet():
+    orbit = find_orbit(damped(2.0), polished_orbit("design").state)
+    return follow_branch(damped, orbit, 2.0, (0.6, 2.6))
+
+
+def event(branch, kind, number=0):
+    """Return the point of a branch at an event, given by its kind and its number in this kind."""
+    return [event for _, event in branch.events if event.kind == kind][number].point
+
+
+def test_every_orbit_is_exact(quiet, resonance):
+    for branch in (quiet, resonance):
+        for point in branch.points:
+            assert point.orbit.converged and point.orbit.liouville_error < 1e-10
+            assert point.orbit.p[0] == point.value
+
+
+def test_folds_are_where_one_multiplier_is_one(resonance):
+    """At a fold one Floquet multiplier is 1.
+
+    The product of both multipliers is known from Liouville's theorem. The points of the branch
+    before and after a fold lie on the same side of it in frequency.
+    """
+    for number in (0, 1):
+        fold = event(resonance, "fold", number)
+        values = np.sort(fold.orbit.multipliers[:2].real)[::-1]
+        assert_allclose(values[0], 1, atol=1e-4)
+        assert_allclose(
+            values[0] * values[1],
+            math.exp(-PAPER.damping * 2 * math.pi / fold.value),
+            rtol=1e-11,
+        )
+        place = next(k for k, found in resonance.events if found.point is fold)
+        beside = [resonance.points[k].value - fold.value for k in (place - 1, place + 1)]
+        assert np.sign(beside[0]) == np.sign(beside[1]) != 0
+
+
+def test_fold_by_simulation_on_both_sides(resonance):
+    """The resonance motion exists just below the frequency of the upper fold, but not above it."""
+    fold = event(resonance, "fold")
+    p = free(fold.value - 1e-4)
+    below = [point for point in resonance.points if point.orbit.stable and point.value < fold.value]
+    nearest = max(below, key=lambda point: point.value)
+    y, at = nearest.orbit.strobe_states[0].copy(), nearest.orbit.p.copy()
+    at, (y, _) = follow_stable(at, y, 1, FREQUENCY, p[FREQUENCY])
+    assert at[FREQUENCY] == p[FREQUENCY]
+    record = settle(p[None], y[None] + 1e-6, SETTLING, from_strobe=True)[0]
+    assert record["maximum_displacement"] > 2.3
+    beyond = settle(free(fold.value + 1e-4)[None], y[None], SETTLING, from_strobe=True)[0]
+    assert beyond["maximum_displacement"] < 1
+
+
+def test_symmetry_is_lost_where_simulation_loses_it(resonance):
+    lost = event(resonance, "symmetry_breaking")
+    for side, symmetric in ((1e-3, True), (-1e-3, False)):
+        p = free(lost.value + side)
+        nudged = lost.orbit.strobe_states[0] + np.array([1e-3, 0, 1e-3, 0])
+        record = settle(p[None], nudged[None], SETTLING, from_strobe=True)[0]
+        assert (record["asymmetry"] < 1e-6) == symmetric
+
+
+def test_period_doubles_where_simulation_doubles_it():
+    """The large motion has period 1 above the frequency of the event and period 2 below."""
+    orbit = find_orbit(damped(1.7), polished_orbit("large").state)
+    branch = follow_branch(damped, orbit, 1.7, (1.58, 1.8))
+    doubling = event(branch, "period_doubling")
+    for side, period in ((2e-3, 1), (-2e-3, 2)):
+        p = damped(doubling.value + side)
+        nudged = doubling.orbit.strobe_states[0] + np.array([1e-3, 0, 1e-3, 0])
+        record = settle(p[None], nudged[None], SETTLING, from_strobe=True)[0]
+        assert (record["outcome"], record["period"]) == (1, period)
+
+
+def test_quiet_motion_folds_into_the_unstable_large_one(quiet):
+    """The quiet motion and the unstable large motion lie on one branch.
+
+    The quiet motion is stable at frequencies above the fold.
+    """
+    assert quiet.ends == ("range_ends", "range_ends") and quiet.lost == 0
+    assert all(point.orbit.sequence == "+-" for point in quiet.points)
+    assert_allclose(
+        min(point.value for point in quiet.points if point.orbit.stable),
+        min(found.point.value for _, found in quiet.events if found.kind == "fold"),
+        atol=1e-5,
+    )
+    large = max(quiet.points, key=lambda point: point.orbit.record["maximum_displacement"])
+    assert not large.orbit.stable
+
+
+def test_stability_changes_only_at_events(quiet, resonance):
+    for branch in (quiet, resonance):
+        at = {place for place, _ in branch.events}
+        stable = [point.orbit.stable for point in branch.points]
+        for k in np.flatnonzero(np.diff(stable)):
+            assert {k, k + 1} & at
+
+
+def test_isola_is_closed():
+    """The branch of the one-third subharmonic, a motion of period 3, is a closed curve.
+
+    It turns back at two folds. One of the two parts between the folds is stable up to the fold at
+    the largest frequency.
+    """
+    response = frequency_response(PAPER, None, [1.8], starts=96)
+    branches = complete_branches(PAPER, None, (0.6, 2.6), [response])
+    third = int(np.flatnonzero(branches["branch_period"].values == 3)[0])
+    assert branches["branch_end"].values[third].tolist() == [1, 1]
+    points = branches.isel(point=np.flatnonzero(branches["orbit_branch"].values == third))
+    assert_allclose(points["followed_value"][0], points["followed_value"][-1])
+    assert_allclose(points["orbit_displacement"][0], points["orbit_displacement"][-1], atol=1e-8)
+    assert branches["seeds_lost"] == 0
+    assert np.all(points["orbit_asymmetry"] < 1e-8)
+    stable = points["orbit_stability"].values == 1
+    values = points["followed_value"].values
+    assert_allclose(values[stable].max(), values.max(), atol=1e-4)
+    assert not stable.all() and points["orbit_residual"].max() < 2e-12
+
+
+def test_motions_on_one_branch_with_two_folds_give_one_branch():
+    """The branch is followed once, although motions at several frequencies lie on it."""
+    response = frequency_response(PAPER, None, [1.0, 1.9, 2.2], starts=24)
+    branches = complete_branches(PAPER, None, (0.6, 2.6), [response])
+    # The other branch of period 1 begins where the motion loses its symmetry.
+    ones = branches["branch_period"].values == 1
+    leaving = (branches["branch_met"].values >= 0).any(axis=1)
+    assert (ones & ~leaving).sum() == 1 and (ones & leaving).sum() == 1
+    assert branches["seeds"] >= 4
+
+
+@pytest.mark.thorough
+def test_a_closed_branch_is_the_same_in_both_directions():
+    """The orbits have period 12 and multipliers up to 1e11, and other branches are close."""
+    oscillator, damper = Oscillator(0.107), Damper(0.12, 1.063)
+
+    def family(value):
+        return pack(oscillator, damper, value)
+
+    start = np.array([0.01125501, 0.18852517, 0.1156432, -0.93919254])
+    orbit = find_orbit(family(3.075), start, 12)
+    problem = Problem.of(family, orbit)
+    walks = [
+        _walk(problem, problem.begin(orbit, 3.075, direction), (0.8, 3.4), 400)
+        for direction in (-1, 1)
+    ]
+    there, back = (sorted((e.kind, e.point.value) for _, e in walk.events) for walk in walks)
+    assert [walk.ends[1] for walk in walks] == ["closed", "closed"]
+    assert [kind for kind, _ in there] == [kind for kind, _ in back]
+    assert_allclose([value for _, value in there], [value for _, value in back], atol=1e-8)
+
+
+def test_a_branch_holds_its_orbits_and_no_others(quiet, resonance):
+    for branch in (quiet, resonance):
+        middle = branch.points[len(branch.points) // 3]
+        orbit = find_orbit(middle.orbit.p, middle.orbit.strobe_states[0])
+        assert branch.holds(orbit, middle.value)
+        assert not branch.holds(orbit, middle.value + 0.01)
+    other = find_orbit(free(1.9), polished_orbit("non-resonance").state)
+    assert not quiet.holds(other, 1.9)
+    of_period_2 = replace(quiet.points[5].orbit, periods=2)
+    assert not quiet.holds(of_period_2, quiet.points[5].value)
+
+
+def test_first_guesses_stay_close_to_a_fold(resonance, monkeypatch):
+    """A first guess at a given parameter lies near the fold.
+
+    At a fold the tangent of a branch is nearly perpendicular to the axis of the parameter. On the
+    tangent a given change of the parameter is reached only at a distance of about 1e5.
+    """
+    fold = event(resonance, "fold")
+    guesses = []
+    monkeypatch.setattr(Problem, "correct", lambda self, x, border: guesses.append(x))
+    Problem.of(free, fold.orbit).at_value(fold, fold.value + 0.02)
+    assert np.linalg.norm(guesses[0] - fold.x) < 0.1
+
+
+def test_progress_shows_the_branches_found_and_their_ends(capsys):
+    response = frequency_response(PAPER, None, [2.0], starts=8)
+    complete_branches(PAPER, None, (1.9, 2.1), [response], progress="free")
+    told = capsys.readouterr().err
+    assert "free: 100%" in told and "branches with" in told and "range_ends" in told
+
+
+@pytest.mark.parametrize(
+    ("parameter", "span"),
+    [
+        ("clearance", (1.5, 2.5)),
+        ("mass_ratio", (0.05, 0.2)),
+        ("restitution", (0.8, 1.0)),
+        ("damping", (0.1, 0.4)),
+        ("contact_stiffness", (1e3, 1e5)),
+    ],
+)
+def test_branches_over_each_parameter_end_on_an_orbit(parameter, span):
+    """The first and the last orbit are those that Newton's method finds at the ends of the span."""
+    state = polished_orbit("design").state
+    branch = orbit_branch(PAPER, DESIGN, 2.0, state, parameter=parameter, span=span)
+    values = branch["followed_value"].values
+    assert_allclose([values.min(), values.max()], span, rtol=1e-12)
+    for row in (0, -1):
+        oscillator, damper = PAPER, DESIGN
+        if parameter == "damping":
+            oscillator = replace(PAPER, damping=values[row])
+        else:
+            damper = replace(DESIGN, **{parameter: min(values[row], span[1])})
+        found = periodic_orbit(
+            oscillator,
+            damper,
+            2.0,
+            branch["orbit_state"].values[row],
+            phase=float(branch["orbit_phase"][row]),
+        )
+        assert_allclose(found["orbit_displacement"], branch["orbit_displacement"][row], rtol=1e-9)
+        assert_allclose(
+            found["orbit_multiplier_real"][0],
+            branch["orbit_multiplier_real"].values[row],
+            atol=1e-7,
+        )
+
+
+@pytest.fixture(scope="module")
+def grazing():
+    """Return a damper, its branches, and the events at which the sequence of contacts changes."""
+    soft = Damper(0.4, 0.625, contact_stiffness=50.0)
+    response = frequency_response(PAPER, soft, [1.2, 1.4, 2.0], starts=24)
+    branches = complete_branches(PAPER, soft, (0.9, 2.6), [response])
+    changes = np.flatnonzero(np.isin(branches["event_kind"].values, [5, 6]))
+    assert len(changes) > 0
+    return soft, branches, changes
+
+
+@pytest.mark.thorough
+def test_change_of_contacts_is_where_a_contact_has_no_speed(grazing):
+    _, branches, changes = grazing
+    for k in changes:
+        assert branches["walls_before"].values[k] != branches["walls_after"].values[k]
+        assert branches["event_speed"].values[k] < 1e-4, branches["event_kind"].values[k]
+
+
+@pytest.mark.thorough
+def test_contacts_on_both_sides_of_grazing(grazing):
+    """On both sides of the event simulated orbits have the number of contacts that is stored."""
+    soft, branches, changes = grazing
+    counts = branches["orbit_contacts"].values
+    periods = branches["branch_period"].values
+    for k in changes:
+        first = np.searchsorted(branches["orbit_branch"].values, branches["event_branch"].values[k])
+        place = first + int(branches["event_place"][k])
+        n = periods[branches["event_branch"].values[k]]
+        sides = {round(counts[place + side] * n) for side in (-1, 0, 1)}
+        words = branches["walls_before"].values[k], branches["walls_after"].values[k]
+        assert {len(words[0]), len(words[1])} <= sides
+
+
+@pytest.mark.thorough
+def test_orbits_near_grazing_are_flagged(grazing):
+    _, branches, changes = grazing
+    slow = branches["least_speed"].values < 0.01
+    flagged = branches["orbit_status"].values == 2
+    assert np.array_equal(slow, flagged) and flagged.any() and not flagged.all()
+
+
+def test_bad_arguments_are_named():
+    state = polished_orbit("design").state
+    with pytest.raises(ValueError, match="parameter = 'gap'.*clearance"):
+        orbit_branch(PAPER, DESIGN, 2.0, state, parameter="gap", span=(1, 3))
+    with pytest.raises(ValueError, match="no damper to change"):
+        orbit_branch(PAPER, None, 2.0, (0, 0.5), parameter="clearance", span=(1, 3))
+    with pytest.raises(ValueError, match="must hold clearance = 2"):
+        orbit_branch(PAPER, DESIGN, 2.0, state, parameter="clearance", span=(3, 4))
+    with pytest.raises(ArithmeticError, match="residual"):
+        periodic_orbit(PAPER, Damper(0.12, 2.0), 2.0, (3.0, 9.0, 0.0, 30.0), period=5)

@@ -1,0 +1,227 @@
+"""Optimum clearance compared with simulations and closed forms; ends of sweep and branch.
+
+Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
+forcing frequency, d0 the clearance, rm the mass ratio, r1 the contact stiffness and e the
+restitution. A start is an initial state. The quiet orbit is the small symmetric periodic motion for
+which a damper is designed.
+"""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.optimize import brentq
+
+from impact_damper.data.datasets import flag, load, save
+from impact_damper.model import packed
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.settling import Settling
+from impact_damper.motions.simulate import simulate
+from impact_damper.orbits.branch_minimum import NEAR_MINIMUM, Branch, _near, minimum_table
+from impact_damper.orbits.clearance_sweep import clearance_sweep
+from impact_damper.theory.optimum_clearance import FIRST_HARMONIC_RATIO, straight_flight_ratio
+from impact_damper.theory.single_harmonic import contact_amplitude
+
+PAPER = Oscillator(0.215)
+ELASTIC = {"mass_ratio": 0.12, "restitution": 1.0, "contact_stiffness": 2000.0}
+INELASTIC = {"mass_ratio": 0.25, "restitution": 0.75, "contact_stiffness": 2000.0}
+CASES = [ELASTIC, INELASTIC]
+
+
+def run(damper, first, last, points=9, frequency=2.0, **options):
+    options = {"starts": 6} | options
+    return clearance_sweep(PAPER, damper, frequency, np.linspace(first, last, points), **options)
+
+
+@pytest.fixture(scope="module")
+def sweeps():
+    return [run(ELASTIC, 1.2, 2.8), run(INELASTIC, 0.5, 1.3)]
+
+
+def settled(damper, clearance):
+    """Return max |Z1| over the last two cycles of a long run to the quiet motion."""
+    flight = 4 * clearance / np.pi
+    motion = simulate(
+        PAPER,
+        Damper(clearance=clearance, **damper),
+        2.0,
+        (0.0, 0.0, 0.95 * clearance, -flight),
+        periods=500,
+        samples=400,
+    )
+    return float(np.abs(motion.displacement.values[-800:]).max())
+
+
+@pytest.mark.parametrize("case", [0, 1])
+def test_displacement_falls_before_the_optimum_and_rises_after_it(sweeps, case):
+    damper, best = CASES[case], float(sweeps[case].optimum_clearance)
+    sizes = [settled(damper, best * factor) for factor in (0.94, 0.97, 1.0, 1.03, 1.06)]
+    assert sizes[0] > sizes[1] > sizes[2] < sizes[3] < sizes[4]
+    assert_allclose(sizes[2], sweeps[case].optimum_displacement, rtol=2e-3)
+
+
+@pytest.mark.parametrize("case", [0, 1])
+def test_near_range_is_where_the_minimum_is_exceeded_by_a_tenth(sweeps, case):
+    sweep = sweeps[case]
+    assert np.all(sweep.near_status == flag("near_status", "crossed"))
+    for clearance in sweep.near_clearance.values:
+        ratio = settled(CASES[case], clearance) / float(sweep.optimum_displacement)
+        assert_allclose(ratio, NEAR_MINIMUM, rtol=2e-3)
+
+
+def test_kind_of_minimum(sweeps):
+    """With e = 1 the minimum is a kink, with e < 1 it is smooth.
+
+    At the kink the largest displacements at an impact and between impacts are equal.
+    """
+    assert [int(sweep.optimum_kind) for sweep in sweeps] == [
+        flag("optimum_kind", "kink"),
+        flag("optimum_kind", "smooth"),
+    ]
+
+
+def test_refinement_does_not_depend_on_the_sweep(sweeps):
+    other = run(ELASTIC, 1.9, 2.7, points=3, starts=3)
+    assert_allclose(other.optimum_clearance, sweeps[0].optimum_clearance, rtol=1e-6)
+
+
+def test_quiet_motion_is_no_larger_than_the_largest_reached(sweeps):
+    for sweep in sweeps:
+        found = sweep.quiet_status == flag("quiet_status", "found")
+        assert np.array_equal(found, np.isfinite(sweep.quiet_displacement))
+        assert np.all(sweep.quiet_displacement >= sweep.optimum_displacement)
+
+
+@pytest.mark.thorough
+def test_analytical_optimum_has_no_amplitude_and_tends_to_the_rule():
+    """By harmonic balance Z1 has the amplitude 0 at the optimum.
+
+    This requires rm W^2 b = 1 and r1 B(b) = 1. Here b is the amplitude of Z2, and r1 B(b) the
+    amplitude of the contact force, which grows as (b - d0)^(3/2).
+    """
+    excess = []
+    for stiffness in (2e3, 2e5, 2e7):
+        damper = ELASTIC | {"contact_stiffness": stiffness}
+        sweep = run(damper, 1.9, 2.3, points=3, starts=1)
+        rule = float(sweep.rule_clearance)
+        expected = brentq(
+            lambda d0, b=rule, r1=stiffness: r1 * contact_amplitude(b, d0)[0] - 1, 0.5 * rule, rule
+        )
+        assert_allclose(sweep.analytical_optimum, expected, rtol=1e-9)
+        assert sweep.analytical_kind == flag("optimum_kind", "kink")
+        excess.append(1 - float(sweep.analytical_optimum) / rule)
+    assert_allclose(np.divide(excess[:-1], excess[1:]), 100 ** (2 / 3), rtol=0.02)
+
+
+def test_inelastic_contact_has_no_analytical_curve(sweeps):
+    assert np.all(sweeps[1].analytical_status == flag("analytical_status", "inelastic"))
+    assert np.isnan(sweeps[1].analytical_amplitude).all() and np.isnan(sweeps[1].analytical_optimum)
+
+
+@pytest.mark.parametrize("mass_ratio", [0.05, 0.12, 0.25, 0.4])
+def test_straight_flight_ratio_is_where_two_extrema_are_equal(mass_ratio):
+    """With elastic contact and impulse q, two extrema of the displacement are equal at the optimum.
+
+    One is q - 1, at the impact, the other cos(t) - q + 2 q t/pi, at the time t with
+    sin(t) = 2 q/pi.
+    """
+
+    def difference(impulse):
+        turn = np.arcsin(2 * impulse / np.pi)
+        return impulse - 1 - (np.cos(turn) - impulse + 2 * impulse * turn / np.pi)
+
+    impulse = brentq(difference, 1.0, 1.3)
+    assert_allclose(
+        straight_flight_ratio(mass_ratio), (1 + mass_ratio) * impulse - mass_ratio, rtol=1e-7
+    )
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("mass_ratio, restitution", [(0.12, 1.0), (0.4, 1.0), (0.12, 0.75)])
+def test_straight_flight_ratio_is_the_limit_of_rigid_walls_at_high_frequency(
+    mass_ratio, restitution
+):
+    damper = {"mass_ratio": mass_ratio, "restitution": restitution, "contact_stiffness": 1e8}
+    frequency = 30.0
+    clearances = np.linspace(0.4, 1.6, 7) / (mass_ratio * frequency**2)
+    # With e = 1 about one start in twenty settles to the quiet motion, and does so within 600
+    # cycles. The other starts need not settle.
+    sweep = clearance_sweep(
+        Oscillator(0.1),
+        damper,
+        frequency,
+        clearances,
+        starts=32,
+        radius=2 * clearances[-1],
+        settling=Settling(limit=600, further=0),
+    )
+    assert_allclose(sweep.optimum_ratio, sweep.straight_flight_ratio, rtol=0.01)
+    assert_allclose(sweep.straight_flight_share, 1, atol=0.06)
+
+
+def test_first_harmonic_of_a_straight_flight():
+    """A triangular wave of height 1 has the first harmonic 8/pi^2."""
+    t = (np.arange(4096) + 0.5) * 2 * np.pi / 4096
+    wave = 1 - 2 * np.abs(t - np.pi) / np.pi
+    assert_allclose(2 * np.mean(wave * -np.cos(t)), 1 / FIRST_HARMONIC_RATIO, rtol=1e-6)
+
+
+def test_optimum_at_the_edge_of_the_sweep():
+    sweep = run(ELASTIC, 2.6, 3.0, points=3)
+    assert sweep.optimum_kind == flag("optimum_kind", "edge")
+    assert_allclose(sweep.optimum_clearance, 2.6, rtol=1e-6)
+    assert sweep.attrs["optimum"] == (
+        f"quiet motion of {float(sweep.optimum_displacement):.4g} at the clearance 2.6, the end of "
+        "the clearances from 2.6 to 3"
+    )
+    assert sweep.near_status[0] == flag("near_status", "sweep_ends")
+
+
+def test_no_quiet_motion(tmp_path):
+    """Beyond the fold of its branch there is no quiet motion.
+
+    The dataset is complete nevertheless.
+    """
+    sweep = run(INELASTIC | {"mass_ratio": 0.12}, 2.6, 3.0, points=3)
+    assert np.all(sweep.quiet_status == flag("quiet_status", "absent"))
+    assert sweep.optimum_kind == flag("optimum_kind", "not_found")
+    assert sweep.attrs["optimum"] == (
+        f"no quiet motion: none of the starts, {sweep.sizes['start']} of them random, at each of 3 "
+        "clearances from 2.6 to 3 leads to one"
+    )
+    save(sweep, tmp_path / "sweep.nc")
+    assert load(tmp_path / "sweep.nc").identical(sweep)
+
+
+class Line(Branch):
+    """A branch that ends at d0 = 1.3 and on which the displacement equals the clearance."""
+
+    def displacement(self, clearance):
+        return clearance if clearance >= 1.3 else np.inf
+
+    def limit(self, clearance, step):
+        if step > 0:
+            return (clearance, "sweep_ends") if clearance == 3 else (clearance // 1 + 1, "crossed")
+        return (1.3, "branch_ends") if clearance <= 2 else (2.0, "crossed")
+
+
+def test_optimum_at_the_end_of_the_branch():
+    parameters = np.zeros((3, packed.COUNT))
+    parameters[:, packed.CLEARANCE] = 1, 2, 3
+    branch = Line(parameters, np.zeros((3, 4)), np.array([np.nan, 2.0, 3.0]))
+    table = minimum_table(branch)
+    assert table["optimum_kind"] == flag("optimum_kind", "jump")
+    assert_allclose(table["optimum_clearance"], 1.3)
+    assert_allclose(table["near_clearance"], [1.3, 1.43])
+    assert _near(branch, 2.5, 4.0, 1) == (3, "sweep_ends")
+
+
+@pytest.mark.parametrize("clearances", [[2.0], [2.0, 1.0], [1.0, 1.0]])
+def test_clearances_are_checked(clearances):
+    with pytest.raises(ValueError, match="clearances"):
+        clearance_sweep(PAPER, ELASTIC, 2.0, clearances)
+
+
+@pytest.mark.parametrize("damper", [Damper(0.12, 2.0), ELASTIC | {"clearance": 2.0}])
+def test_damper_has_no_clearance(damper):
+    with pytest.raises(TypeError, match="without the clearance"):
+        clearance_sweep(PAPER, damper, 2.0, [1.0, 2.0])

@@ -1,0 +1,78 @@
+"""Branches over several parameters, compared with closed forms and a scaling law.
+
+A branch is the curve of the periodic orbits over a parameter.
+
+Z1 is the displacement of the primary mass and W T the phase of the forcing.
+"""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from impact_damper.model.families import PARAMETERS, family_of
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.orbits.orbit_branch import orbit_branch
+
+FREQUENCY = 1.7
+
+
+def harmonic(oscillator, frequency=FREQUENCY):
+    """Complex amplitude of the steady motion of a linear oscillator."""
+    o, w = oscillator, frequency
+    return o.forcing_amplitude(w) / (o.linear_frequency**2 - w**2 + 1j * o.damping * w)
+
+
+def at_strobe(amplitude, frequency=FREQUENCY):
+    """State at W T = pi/2 of a motion Re(c exp(i W T))."""
+    return (1j * amplitude).real, (-frequency * amplitude).real
+
+
+@pytest.mark.parametrize(
+    ("parameter", "span"), [("force", (0.0, 2.0)), ("unbalance", (0.0, 0.6)), ("damping", (0.1, 1))]
+)
+def test_branch_of_a_linear_oscillator(parameter, span):
+    """Branches reach both ends of the span, also the force 0, and agree with the closed form."""
+    own = {"damping": 0.2, "linear_frequency": 1.1, "cubic": 0.0, "force": 0.5, "unbalance": 0.2}
+    own |= {"unbalance" if parameter == "force" else "force": 0.0}
+    oscillator = Oscillator(**own)
+    state = at_strobe(harmonic(oscillator))
+    found = orbit_branch(oscillator, None, FREQUENCY, state, span=span, parameter=parameter)
+    values = found["followed_value"].values
+    assert_allclose([values.min(), values.max()], span, rtol=1e-12, atol=1e-12)
+    expected = [abs(harmonic(Oscillator(**own | {parameter: value}))) for value in values]
+    assert_allclose(found["orbit_displacement"], expected, atol=1e-9)
+    assert len(found["event_kind"]) == 0
+
+
+def test_branches_over_force_and_cubic_agree_by_scaling():
+    """With k3, sqrt(k3) Z1 and sqrt(k3) F in place of 1, Z1 and F the equation is the same.
+
+    k3 is the cubic coefficient and F the force.
+    """
+    oscillator = Oscillator(1.2, 1.0, 0.05, 1.0)
+    state = at_strobe(harmonic(oscillator))
+    cubic = orbit_branch(oscillator, None, FREQUENCY, state, span=(-0.02, 4.0), parameter="cubic")
+    values, size = cubic["followed_value"].values, cubic["orbit_displacement"].values
+    linear = abs(harmonic(Oscillator(1.2, 1.0, 0.0, 1.0)))
+    order = np.argsort(values)
+    assert np.interp(0.0, values[order], size[order]) == pytest.approx(linear, rel=1e-4)
+    root = np.sqrt(values[values > 0.01])
+    start = np.multiply(state, np.sqrt(0.05))
+    scaled = Oscillator(1.2, 1.0, 1.0, float(np.sqrt(0.05)))
+    force = orbit_branch(scaled, None, FREQUENCY, start, span=(0.0, 2.0), parameter="force")
+    assert abs(force["followed_value"].values.min()) < 1e-12
+    assert force["orbit_displacement"].values.min() < 1e-9
+    known, expected = force["followed_value"].values, force["orbit_displacement"].values
+    order = np.argsort(known)
+    found = np.interp(root, known[order], expected[order])
+    assert_allclose(size[values > 0.01] * root, found, rtol=3e-3)
+
+
+def test_spans_are_those_of_the_parameter():
+    oscillator, damper = Oscillator(0.2, 1.0, 0.5, 0.7), Damper(0.1, 2.0, 0.8)
+    for parameter in ("force", "unbalance", "clearance", "damping", "restitution"):
+        with pytest.raises(ValueError, match="span"):
+            family_of(oscillator, damper, 2.0, parameter, (-0.5, 2.5))
+    pack_at, here, ends = family_of(oscillator, damper, 2.0, "cubic", (-0.5, 2.5))
+    assert here == 0.5 and ends == (-0.5, 2.5)
+    assert set(PARAMETERS) >= {"cubic", "force", "unbalance"}

@@ -1,0 +1,188 @@
+"""The quiet orbit over a grid: its ends, multipliers and bifurcations.
+
+The quiet orbit is the symmetric periodic motion with two contacts for which a damper is designed.
+Its root is the derivative of the map over half a cycle.
+
+W is the forcing frequency and d0 the clearance. A strobe is the time in each cycle at which the
+forcing has the phase W T = pi/2. Multipliers are Floquet multipliers.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, PAPER
+
+from impact_damper.data.datasets import flag
+from impact_damper.model import packed
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import Oscillator
+from impact_damper.model.settling import Settling
+from impact_damper.motions import ensemble, strobe_map
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.orbit import STROBE
+from impact_damper.orbits.quiet_orbits import (
+    PHASE,
+    find_quiet_orbit,
+    follow_quiet_orbits,
+    is_symmetric_pair,
+    straight_flight_end,
+)
+from impact_damper.orbits.shooting import shoot
+
+LEFT, RIGHT = 0, 1
+SETTLING = Settling(patience=300, limit=3000)
+
+
+def row(damper, frequencies, oscillator=PAPER):
+    return np.array([[pack(oscillator, damper, w) for w in frequencies]])
+
+
+def seeded(parameters, state, column=-1):
+    states = np.full((*parameters.shape[:2], 4), np.nan)
+    states[0, column] = state
+    return follow_quiet_orbits(parameters, states)
+
+
+def at_phase(p, state):
+    """State at `PHASE` of the orbit through a state at the strobe."""
+    return shoot(p, state, 1, STROBE)[0].at(PHASE)
+
+
+def orbit_at(damper, frequency, design_orbit):
+    """The quiet orbit, followed from the design point in clearance and then in frequency."""
+    y, p = at_phase(design_orbit.parameters, design_orbit.state), design_orbit.parameters
+    for q in (pack(PAPER, damper, 2.0), pack(PAPER, damper, frequency)):
+        for share in np.linspace(0, 1, 201)[1:]:
+            orbit, status = find_quiet_orbit((1 - share) * p + share * q, y)
+            assert status == "found"
+            y = orbit.state
+        p = q
+    return orbit
+
+
+def settled(orbit, push):
+    """Return the record of the motion that starts near an orbit."""
+    state = orbit.strobe_states[0] + push
+    return ensemble.settle(orbit.p[None], state[None], SETTLING, from_strobe=True)[0]
+
+
+def test_multipliers_are_squares_of_those_of_the_root(design_orbit):
+    orbit, status = find_quiet_orbit(
+        design_orbit.parameters, at_phase(design_orbit.parameters, design_orbit.state)
+    )
+    _, _, multiplier = strobe_map.polish(
+        design_orbit.parameters, design_orbit.state.copy(), 1, 0.1, 1e-12
+    )
+    assert status == "found"
+    found = seeded(design_orbit.parameters[None, None], design_orbit.state).multiplier[0, 0]
+    assert abs(found**2) == pytest.approx(abs(multiplier), abs=1e-9)
+    decay = np.exp(-0.215 * np.pi / 2.0)
+    assert np.linalg.det(orbit.root) == pytest.approx(decay, rel=1e-9)
+
+
+def test_a_row_ends_at_the_fold_that_continuation_locates(design_orbit):
+    frequencies = np.arange(1.0, 2.01, 0.04)
+    found = seeded(row(DESIGN, frequencies), design_orbit.state)
+    orbit, _ = find_quiet_orbit(
+        design_orbit.parameters, at_phase(design_orbit.parameters, design_orbit.state)
+    )
+    branch = follow_branch(lambda w: pack(PAPER, DESIGN, w), orbit, 2.0, (1.0, 2.0))
+    folds = [event.point.value for _, event in branch.events if event.kind == "fold"]
+    end = np.interp(found.end[0, LEFT], np.arange(len(frequencies)), frequencies)
+    # The branch goes on beyond this fold and has further folds.
+    assert np.min(np.abs(np.array(folds) - end)) < 1e-6
+    assert list(found.end_event[0]) == [
+        flag("quiet_end_event", "fold"),
+        flag("quiet_end_event", "map_ends"),
+    ]
+
+
+def test_the_fold_by_simulation_on_both_sides(design_orbit):
+    frequencies = np.arange(1.0, 2.01, 0.04)
+    found = seeded(row(DESIGN, frequencies), design_orbit.state)
+    fold = np.interp(found.end[0, LEFT], np.arange(len(frequencies)), frequencies)
+    orbit = orbit_at(DESIGN, fold + 5e-3, design_orbit)
+    record = settled(orbit, 0.0)
+    assert is_symmetric_pair(record) and record["outcome"] == flag("outcome", "settled")
+    beyond = pack(PAPER, DESIGN, fold - 5e-3)
+    state = orbit.strobe_states[0]
+    left = ensemble.settle(beyond[None], state[None], SETTLING, from_strobe=True)[0]
+    assert not is_symmetric_pair(left)
+
+
+def test_the_loss_of_symmetry_by_simulation_on_both_sides(design_orbit):
+    damper = replace(DESIGN, clearance=0.8)
+    push = np.array([1e-4, 0.0, 0.0, 0.0])
+    sides = {}
+    for frequency in (1.3, 1.6):
+        orbit = orbit_at(damper, frequency, design_orbit)
+        values = np.linalg.eigvals(orbit.root)
+        sides[frequency] = np.min(values.real[values.imag == 0], initial=0.0)
+        record = settled(orbit, push)
+        assert is_symmetric_pair(record) == (sides[frequency] > -1)
+    assert sides[1.3] < -1 < sides[1.6]
+
+
+def test_all_cells_hold_one_orbit_whichever_it_is_followed_from(design_orbit):
+    clearances, frequencies = np.linspace(1.6, 2.0, 3), np.linspace(1.0, 2.0, 6)
+    grid = np.concatenate([row(replace(DESIGN, clearance=d), frequencies) for d in clearances])
+    states = np.full((3, 6, 4), np.nan)
+    states[2, -1] = design_orbit.state
+    first = follow_quiet_orbits(grid, states)
+    corner, _ = find_quiet_orbit(
+        grid[0, 1], orbit_at(replace(DESIGN, clearance=1.6), 1.2, design_orbit).state
+    )
+    states = np.full((3, 6, 4), np.nan)
+    states[0, 1] = corner.strobe_states[0]
+    second = follow_quiet_orbits(grid, states)
+    assert np.isnan(first.displacement[:, 0]).all() and np.isfinite(first.displacement[:, 1:]).all()
+    assert np.allclose(first.displacement, second.displacement, atol=1e-9, equal_nan=True)
+
+
+@pytest.mark.parametrize("restitution", [0.5, 0.6])
+def test_with_inelastic_contact_it_ends_where_straight_flight_predicts(restitution):
+    """The closed form holds for rigid walls and high frequency; d0 = 0.5 is close to this limit."""
+    oscillator = Oscillator(0.02)
+    damper = replace(DESIGN, clearance=0.5, restitution=restitution, contact_stiffness=2e6)
+    expected = straight_flight_end(oscillator, 0.5, restitution)
+    frequencies = np.linspace(0.8, 1.1, 31) * expected
+    grid = row(damper, frequencies, oscillator)
+    start = ensemble.settle(
+        np.repeat(grid[0, :1], 8, axis=0),
+        np.random.default_rng(3).uniform(-0.4, 0.4, (8, 4)),
+        Settling(patience=300, limit=3000),
+    )
+    quiet = start[is_symmetric_pair(start)]
+    assert len(quiet)
+    found = seeded(grid, quiet["state"][0], column=0)
+    end = np.interp(found.end[0, RIGHT], np.arange(31), frequencies)
+    assert found.end_event[0, RIGHT] == flag("quiet_end_event", "fold")
+    assert end == pytest.approx(expected, rel=0.005)
+
+
+def test_straight_flight_end():
+    assert straight_flight_end(PAPER, 2.0, 1.0) == np.inf
+    phase = np.linspace(0, np.pi, 100001)
+    work = np.pi / 2 * 1.75 / 0.25
+    greatest = np.max(work * np.sin(phase) - np.cos(phase))
+    assert straight_flight_end(PAPER, 2.0, 0.75) ** 2 * 2.0 == pytest.approx(greatest)
+    # With a forcing of amplitude f = F + U W^2 + V/W^2 the end has W^2 d0/f = `greatest`.
+    shaken = Oscillator(0.2, force=0.3, unbalance=0.1)
+    end = straight_flight_end(shaken, 2.0, 0.75)
+    assert end**2 * 2.0 == pytest.approx(shaken.forcing_amplitude(end) * greatest)
+    assert straight_flight_end(replace(shaken, unbalance=2.0), 2.0, 0.75) == np.inf
+    shaken = replace(shaken, cubic=0.0, shaker=0.4)
+    end = straight_flight_end(shaken, 2.0, 0.75)
+    assert end**2 * 2.0 == pytest.approx(shaken.forcing_amplitude(end) * greatest)
+
+
+def test_a_row_without_a_known_orbit_has_the_flag_no_orbit():
+    found = follow_quiet_orbits(row(DESIGN, [1.9, 2.0]), np.full((1, 2, 4), np.nan))
+    assert (found.end_event == flag("quiet_end_event", "no_orbit")).all()
+    assert np.isnan(found.end).all()
+
+
+def test_shapes_are_checked():
+    with pytest.raises(ValueError, match="must be of shapes"):
+        follow_quiet_orbits(np.zeros((2, 3, packed.COUNT)), np.zeros((3, 2, 4)))

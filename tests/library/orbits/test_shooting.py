@@ -1,0 +1,139 @@
+"""Periodic orbits: residual, Liouville's theorem, symmetry, and multipliers by heyoka.
+
+Multipliers are Floquet multipliers.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER, STARTS, polished_orbit
+from numpy.testing import assert_allclose
+
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import Damper
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.orbit import STROBE, TURN
+from impact_damper.orbits.shooting import find_orbit, shoot
+
+
+@pytest.fixture(scope="module", params=list(STARTS))
+def orbit(request):
+    known_orbit = polished_orbit(request.param)
+    return find_orbit(known_orbit.parameters, known_orbit.state)
+
+
+def test_residual_and_phase(orbit):
+    assert orbit.converged and orbit.residual <= 1e-12 * max(1, np.abs(orbit.state).max())
+    assert orbit.margin(orbit.phase) > 0.1
+
+
+def test_liouville(orbit):
+    """The determinant of the map's derivative is known from the damping and the time in contact."""
+    assert orbit.liouville_error < 1e-11
+
+
+def test_multipliers_by_heyoka(orbit):
+    pytest.importorskip("heyoka")
+    from references.variational import Variational
+
+    length = TURN / orbit.p[0]
+    end, matrix = Variational().monodromy(
+        orbit.p, orbit.state, orbit.phase / orbit.p[0], orbit.periods * length
+    )
+    assert_allclose(end, orbit.state, atol=1e-11)
+    expected = np.linalg.eigvals(matrix[: orbit.active, : orbit.active])
+    found = orbit.multipliers[: orbit.active]
+    order = np.lexsort((-expected.imag.round(9), -np.abs(expected).round(9)))
+    again = np.lexsort((-found.imag.round(9), -np.abs(found).round(9)))
+    assert_allclose(found[again], expected[order], atol=1e-9)
+
+
+def test_half_the_map_squared_is_the_whole(orbit):
+    """A symmetric orbit solves y = -map(half a period, y).
+
+    This map applied twice is the map over a period.
+    """
+    if not orbit.record["asymmetry"] < 1e-6:
+        pytest.skip("the orbit is not symmetric")
+    half, end = shoot(orbit.p, orbit.state, 1, orbit.phase, symmetric=True)
+    assert_allclose(end, orbit.state, atol=1e-11)
+    assert_allclose(half.monodromy, orbit.monodromy, atol=1e-9)
+    assert_allclose(half.touching, orbit.touching, rtol=1e-9)
+
+
+def test_multipliers_do_not_depend_on_the_phase(orbit):
+    moved = find_orbit(orbit.p, orbit.at(orbit.phase + 0.5), 1, orbit.phase + 0.5)
+    assert_allclose(np.abs(moved.multipliers), np.abs(orbit.multipliers), atol=1e-9)
+
+
+def test_contacts_of_the_design_orbit():
+    """There are two contacts half a period apart.
+
+    Speeds of approach and departure differ only by the work of the forcing.
+    """
+    known_orbit = polished_orbit("design")
+    orbit = find_orbit(known_orbit.parameters, known_orbit.state)
+    wall, begin, end, approach, departure = orbit.contacts.T
+    assert orbit.sequence == "+-"
+    assert_allclose(begin[1] - begin[0], known_orbit.period / 2, atol=1e-11)
+    assert_allclose(np.sign(approach), wall)
+    duration = math.pi / math.sqrt(DESIGN.contact_stiffness * (1 + 1 / DESIGN.mass_ratio))
+    assert_allclose(end - begin, duration, rtol=0.01)
+    assert_allclose(-departure, approach, rtol=0.01)
+    assert orbit.least_speed == np.abs(approach).min()
+
+
+def test_unstable_orbit_is_found_and_left_by_simulation():
+    """Newton's method finds the large symmetric orbit.
+
+    A simulation leaves it at the rate of its multiplier.
+    """
+    branch = follow_branch(
+        lambda value: pack(PAPER, DESIGN, value),
+        find_orbit(pack(PAPER, DESIGN, 2.0), polished_orbit("design").state),
+        2.0,
+        (1.1, 2.0),
+    )
+    upper = max(branch.points, key=lambda point: point.orbit.record["maximum_displacement"])
+    unstable = upper.orbit
+    growth = unstable.multipliers[0].real
+    assert growth > 5
+    direction = np.linalg.eig(unstable.monodromy)
+    leading = direction.eigenvectors[:, np.argmax(np.abs(direction.eigenvalues))].real
+    nudged, end = shoot(unstable.p, unstable.state + 1e-7 * leading, 1, unstable.phase)
+    assert_allclose(end - unstable.state, growth * 1e-7 * leading, atol=2e-9)
+
+
+def test_without_an_orbit_the_result_has_not_converged():
+    """Far from all orbits Newton's method does not converge, or finds an orbit of period 1."""
+    orbit = find_orbit(pack(PAPER, Damper(0.12, 2.0), 2.0), np.array([1.0, 1.0, 0.0, 4.0]), 2)
+    assert not orbit.converged or orbit.repeats_sooner()
+
+
+def test_phase_leaves_a_contact():
+    """From a state in contact the orbit is found with its state at a later phase, in flight."""
+    known_orbit = polished_orbit("design")
+    reference = find_orbit(known_orbit.parameters, known_orbit.state)
+    inside = reference.p[0] * (reference.contacts[1, 1] + 0.01)
+    found = find_orbit(reference.p, reference.at(inside), 1, inside % TURN)
+    assert found.converged and found.margin(found.phase) > 0.1
+    assert found.is_same(reference)
+
+
+def test_mirror_image_counts_as_the_same():
+    known_orbit = polished_orbit("large")
+    orbit = find_orbit(known_orbit.parameters, known_orbit.state)
+    mirrored = find_orbit(orbit.p, -orbit.at(STROBE + TURN / 2), 1)
+    assert np.abs(mirrored.strobe_states - orbit.strobe_states).max() > 0.1
+    assert mirrored.is_same(orbit)
+
+
+def test_inelastic_volume_shrinks_by_the_time_in_contact():
+    known_orbit = polished_orbit("inelastic")
+    orbit = find_orbit(known_orbit.parameters, known_orbit.state)
+    h, period = known_orbit.parameters[1], known_orbit.period
+    rate = INELASTIC.dashpot * (1 + 1 / INELASTIC.mass_ratio)
+    expected = math.exp(-h * period - rate * orbit.touching)
+    assert_allclose(np.prod(orbit.multipliers).real, expected, rtol=1e-11)
+    assert_allclose(orbit.touching, np.sum(orbit.contacts[:, 2] - orbit.contacts[:, 1]), rtol=1e-10)

@@ -1,0 +1,137 @@
+"""One contact in closed form against its differential equation, energy and impulse.
+
+e is the restitution, z the damping ratio and w = sqrt(1 - z^2). The penetration u and the load G
+are dimensionless, as in `contact.contact_law`.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import quad, solve_ivp
+
+from impact_damper.model.parameters import Damper
+from impact_damper.theory.contact_law import contact, damping_ratio, natural_frequency, tension
+
+CASES = [(e, g) for e in (0.1, 0.3, 0.75, 0.95, 1.0) for g in (-5, -0.3, 0, 0.02, 0.3, 2)]
+LONG = 20.0
+
+
+def integrated(restitution, load, rule):
+    """Return SciPy's solution of a contact, and (time, penetration, speed) at its end, or None."""
+    z = damping_ratio(restitution)
+
+    def rate(_, y):
+        return [y[1], load - 2 * z * y[1] - y[0]]
+
+    def end(s, y):
+        return (y[0] if rule == "zero_penetration" else y[0] + 2 * z * y[1]) if s > 1e-9 else 1.0
+
+    end.terminal, end.direction = True, -1
+    found = solve_ivp(
+        rate,
+        (0, LONG),
+        [0, 1],
+        "DOP853",
+        rtol=1e-12,
+        atol=1e-14,
+        events=end,
+        dense_output=True,
+        max_step=0.1,
+    )
+    return found, (found.t_events[0][0], *found.y_events[0][0]) if len(found.t_events[0]) else None
+
+
+@pytest.mark.parametrize("rule", ["zero_penetration", "no_tension"])
+@pytest.mark.parametrize(("restitution", "load"), CASES)
+def test_against_its_differential_equation(restitution, load, rule):
+    _, expected = integrated(restitution, load, rule)
+    found = contact(restitution, load, rule)
+    if expected is None:
+        assert found.outcome == "no_release"
+        assert found.duration == math.inf
+        return
+    duration, left, speed = expected
+    assert found.duration == pytest.approx(duration, abs=1e-9)
+    square = speed**2 - 2 * load * left
+    assert found.outcome == ("released" if square >= 0 else "falls_back")
+    assert_allclose(found.departure, math.sqrt(square) if square >= 0 else np.nan, atol=1e-9)
+
+
+@pytest.mark.parametrize("restitution", [0.05, 0.3, 0.6, 0.75, 0.9, 1.0])
+def test_without_load(restitution):
+    """Without load the restitution is e, or the closed form for walls that cannot pull.
+
+    This form is exp(-(z/w) (pi - atan(2 z w/(w^2 - z^2)))), equation (21) of Schwager and Poeschel,
+    Granular Matter 9, 465-469, 2007.
+    """
+    z = damping_ratio(restitution)
+    w = math.sqrt(1 - z * z)
+    found = contact(restitution, 0.0, "zero_penetration")
+    assert found.departure == pytest.approx(restitution, abs=1e-14)
+    assert found.duration == pytest.approx(math.pi / w, abs=1e-14)
+    expected = math.exp(-z / w * (math.pi - math.atan2(2 * z * w, w * w - z * z)))
+    assert contact(restitution, 0.0, "no_tension").departure == pytest.approx(expected, abs=1e-14)
+
+
+@pytest.mark.parametrize("load", [-10, -0.1, 0.1, 10])
+def test_an_elastic_contact_returns_what_it_got_whatever_the_load(load):
+    """A constant load does no work over a contact that ends where it began."""
+    for rule in ("zero_penetration", "no_tension"):
+        assert contact(1.0, load, rule).departure == pytest.approx(1, abs=1e-12)
+    assert tension(1.0, load) == pytest.approx((0, 0, 0), abs=1e-12)
+
+
+@pytest.mark.parametrize(("restitution", "load"), [(0.3, 0.05), (0.3, -1), (0.75, 0.2), (0.9, -3)])
+def test_energy_and_impulses(restitution, load):
+    """Energy lost in the dashpot and impulse of the pull against numerical integrals.
+
+    The dashpot dissipates 2 z times the integral of u'^2.
+    """
+    z = damping_ratio(restitution)
+    solution, (end, *_) = integrated(restitution, load, "zero_penetration")
+    begin = integrated(restitution, load, "no_tension")[1][0]
+    speed = contact(restitution, load, "zero_penetration").departure
+
+    def force(s):
+        u, v = solution.sol(s)
+        return u + 2 * z * v
+
+    lost = quad(lambda s: 2 * z * solution.sol(s)[1] ** 2, 0, end)[0]
+    assert 1 - speed**2 == pytest.approx(2 * lost, abs=1e-9)
+    found = tension(restitution, load)
+    push, pull = quad(force, 0, begin)[0], -quad(force, begin, end)[0]
+    s = np.linspace(0, end, 20001)
+    assert found.impulse == pytest.approx(pull / push, abs=1e-9)
+    assert found.time == pytest.approx((end - begin) / end, abs=1e-9)
+    assert found.peak == pytest.approx(-force(s).min() / force(s).max(), abs=1e-6)
+
+
+@pytest.mark.parametrize("restitution", [0.3, 0.75, 0.95])
+def test_first_order_in_the_load(restitution):
+    """A load G changes the restitution by -2 z (1 + e) G plus a remainder of order G^2."""
+    slope = -2 * damping_ratio(restitution) * (1 + restitution)
+    left = [
+        contact(restitution, load, "zero_penetration").departure - restitution - slope * load
+        for load in (2e-3, 1e-3)
+    ]
+    assert left[0] / left[1] == pytest.approx(4, rel=0.05)
+
+
+def test_natural_frequency():
+    assert natural_frequency(Damper(0.25, 1.0)) == pytest.approx(100)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error"),
+    [
+        ((0, 0.0, "no_tension"), "restitution = 0: must be finite and greater than 0"),
+        ((1.1, 0.0, "no_tension"), "restitution = 1.1: must be .*at most 1"),
+        ((0.5, math.nan, "no_tension"), "load = nan: must be finite"),
+        ((0.5, 0.0, "glue"), "rule = 'glue': must be one of zero_penetration, no_tension"),
+    ],
+)
+def test_bad_arguments_are_named(arguments, error):
+    with pytest.raises(ValueError, match=error):
+        contact(*arguments)

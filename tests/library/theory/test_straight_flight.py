@@ -1,0 +1,174 @@
+"""Closed forms for the optimum clearance, against sampled motions, laws, and exact orbits.
+
+Symbols of the system are as in `system.parameters`, those of the model as in
+`theory.straight_flight.Flight`.
+"""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq, minimize_scalar
+
+from chatterjee1995.stages.design_rules import QuietMotion
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.theory.straight_flight import (
+    IMPULSE,
+    TURN,
+    Flight,
+    elastic_ratios,
+    flight_of,
+    least_displacement_ratio,
+    least_harmonic_ratio,
+)
+
+PHASES = np.linspace(0, np.pi, 40001)
+
+
+def straight(mass_ratio, restitution, impulse):
+    """Return Z1 over half a cycle after an impact at a rigid wall, rm W^2 d0, and the lag.
+
+    The formulas are independent of the package.
+    """
+    mean_speed = 2 * impulse / np.pi * (1 + 1 / mass_ratio)
+    lag = np.arcsin(mean_speed * (1 - restitution) / (1 + restitution))
+    flight = impulse * (1 - 2 * PHASES / np.pi)
+    primary = flight - np.cos(PHASES + lag)
+    loose = -flight / mass_ratio
+    return primary, mass_ratio * (primary - loose)[0], lag
+
+
+CASES = [(0.05, 1.0), (0.12, 1.0), (0.4, 1.0), (0.12, 0.97), (0.25, 0.9), (0.12, 0.75), (0.4, 0.5)]
+
+
+@pytest.mark.parametrize(("mass_ratio", "restitution"), CASES)
+def test_optima_of_sampled_straight_flights(mass_ratio, restitution):
+    """The optima of the displacement and of the first harmonic, against samples of the motion."""
+    loss = 2 / np.pi * (1 + 1 / mass_ratio) * (1 - restitution) / (1 + restitution)
+    most = min(1.5, 0.999 / loss) if loss else 1.5
+
+    def largest(impulse):
+        return np.max(np.abs(straight(mass_ratio, restitution, impulse)[0]))
+
+    def harmonic(impulse):
+        wave = straight(mass_ratio, restitution, impulse)[0] * np.exp(-1j * PHASES)
+        return abs(np.trapezoid(wave, PHASES))
+
+    flight = Flight(mass_ratio, restitution)
+    for size, rule in ((largest, least_displacement_ratio), (harmonic, least_harmonic_ratio)):
+        grid = np.linspace(0.02, most, 100)
+        k = np.argmin([size(impulse) for impulse in grid])
+        bounds = grid[max(k - 1, 0)], grid[min(k + 1, 99)]
+        best = minimize_scalar(size, bounds=bounds, method="bounded", options={"xatol": 1e-9}).x
+        assert_allclose(rule(flight), straight(mass_ratio, restitution, best)[1], rtol=2e-4)
+
+
+@pytest.mark.parametrize("mass_ratio", [0.05, 0.4])
+def test_first_harmonic_vanishes_at_pi_squared_over_eight_for_a_light_mass_alone(mass_ratio):
+    ratio = least_harmonic_ratio(Flight(mass_ratio))
+    assert_allclose(ratio, (1 + mass_ratio) * np.pi**2 / 8 - mass_ratio, rtol=1e-12)
+
+
+@pytest.mark.parametrize("loss", [0.38, 0.6, 1.0, 3.0])
+def test_smooth_minimum_with_restitution(loss):
+    """Above a loss (1 + 1/rm) (1 - e)/(1 + e) of 0.369 the minimum is smooth."""
+    mass_ratio = 0.12
+    share = loss / (1 + 1 / mass_ratio)
+    lag = brentq(lambda s: loss * np.cos(s + np.tan(s)) - np.sin(s), 0, 1.2)
+    impulse = np.pi * np.sin(lag) / (2 * loss)
+    expected = (1 + mass_ratio) * impulse - mass_ratio * np.cos(lag)
+    found = least_displacement_ratio(Flight(mass_ratio, (1 - share) / (1 + share)))
+    assert_allclose(found, expected, rtol=1e-6)
+
+
+def test_constants_of_the_kink():
+    assert_allclose(np.sin(TURN), 2 * IMPULSE / np.pi, rtol=1e-14)
+    assert_allclose(IMPULSE - 1, np.cos(TURN) - IMPULSE + 2 * IMPULSE * TURN / np.pi, rtol=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("damping", "stiffness"), [(0, 0), (0.2, 0), (0, 0.6), (0.3, 0.15), (0.1, 0.5)]
+)
+def test_flight_of_the_primary_mass_solves_its_equation(damping, stiffness):
+    """The motion solves x'' + g x' + l^2 x = cos(phi) between two impulses of 4 q/pi.
+
+    The impulses are half a cycle apart, and the motion at the second is the mirror image.
+    """
+    flight, impulse = Flight(0.12, 0.9, damping=damping, stiffness=stiffness), 0.9
+    lag = flight.lag(impulse)
+
+    def rates(phase, x):
+        forcing = np.cos(phase - flight.forced_lag)
+        return x[1], forcing - damping * x[1] - stiffness**2 * x[0]
+
+    start = flight.motion(lag, impulse)[:2]
+    end = solve_ivp(rates, (lag, lag + np.pi), start, rtol=1e-11, atol=1e-12).y[:, -1]
+    assert_allclose(end, flight.motion(lag + np.pi, impulse)[:2], atol=1e-8)
+    assert_allclose(end[0], -start[0], atol=1e-4 if damping == stiffness == 0 else 1e-8)
+    before = -end[1]
+    assert_allclose(before - start[1], 4 * impulse / np.pi, rtol=1e-8)
+    # the relative velocities before and after an impact have the ratio -e, with e = 0.9
+    loose = 2 * impulse / (np.pi * flight.mass_ratio)
+    assert_allclose(start[1] - loose, -0.9 * (before + loose), rtol=1e-8)
+
+
+def optima(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
+    """Return optimum values of rm W^2 d0 by exact orbits and by the closed forms, and the `Flight`.
+
+    The two optima have the smallest displacement and the smallest first harmonic of Z1.
+    """
+    damper = Damper(mass_ratio, 1.0, restitution, contact_stiffness)
+    flight = flight_of(oscillator, damper, frequency)
+    motion = QuietMotion(oscillator, damper, frequency)
+    rules = least_displacement_ratio(flight), least_harmonic_ratio(flight)
+    exact = np.array([motion.least(i, rule)[0] for i, rule in enumerate(rules)])
+    return exact, np.array(rules), flight
+
+
+@pytest.mark.parametrize("restitution", [1.0, 0.75])
+def test_what_a_contact_of_finite_duration_leaves_is_of_second_order(restitution):
+    """With 16 times the r1 a contact lasts a quarter of the time.
+
+    The errors fall to a sixteenth, without corrections to a quarter.
+    """
+    errors, uncorrected = [], []
+    for stiffness in (4e3, 6.4e4):
+        exact, rules, flight = optima(Oscillator(0.02), 0.25, restitution, stiffness, 8.0)
+        rigid = flight._replace(contact=0.0)
+        uncorrected.append(least_displacement_ratio(rigid) - exact[0])
+        errors.append(np.abs(rules - exact))
+    assert_allclose(uncorrected[0] / uncorrected[1], 4, rtol=0.1)
+    assert np.all(errors[0] / errors[1] > 8)
+    assert np.all(errors[1] < 2e-4)
+
+
+@pytest.mark.parametrize(
+    ("oscillator", "mass_ratio", "restitution"),
+    [
+        (Oscillator(0.8), 0.12, 1.0),
+        (Oscillator(0.8), 0.25, 0.85),
+        (Oscillator(0.1, 2.0), 0.4, 1.0),
+        (Oscillator(0.4, 2.4), 0.12, 0.9),
+    ],
+)
+def test_damping_and_linear_stiffness_are_exact(oscillator, mass_ratio, restitution):
+    exact, rules, _ = optima(oscillator, mass_ratio, restitution, 1e8, 4.0)
+    assert_allclose(rules, exact, rtol=3e-4)
+
+
+def test_explicit_ratios_are_of_first_order():
+    """Halving the time in contact and the damping quarters the error of the explicit formulas."""
+    left = []
+    for half in (1.0, 0.5):
+        flight = Flight(0.2, 1.0, 0.02 * half, 0.04 * half)
+        whole = least_displacement_ratio(flight), least_harmonic_ratio(flight)
+        left.append(np.subtract(whole, elastic_ratios(flight)))
+    assert_allclose(left[0] / left[1], 4, rtol=0.1)
+    assert np.isnan(elastic_ratios(Flight(0.2, 0.9))).all()
+
+
+def test_frequency_lies_above_the_linear_one():
+    with pytest.raises(ValueError, match=r"frequency = 1.5: must be finite and greater than 1.5"):
+        flight_of(Oscillator(0.1, 1.5), Damper(0.12, 1.0), 1.5)
+    with pytest.raises(TypeError, match="damper"):
+        flight_of(Oscillator(0.1), {"mass_ratio": 0.1}, 1.5)

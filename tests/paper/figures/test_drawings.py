@@ -1,0 +1,322 @@
+"""Every figure of data: no warnings, nothing cut off, and a legend entry for all that is drawn."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from chatterjee1995.figures.free import draw_free
+from chatterjee1995.figures.release import draw_release
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION, OUTCOME
+from impact_damper.plot.panels.branches import draw_branches
+from impact_damper.plot.panels.harmonic_balance import draw_harmonic_balance
+from impact_damper.plot.panels.migration import draw_migration
+from impact_damper.plot.panels.motion import draw_motion
+from impact_damper.plot.panels.optimum import draw_optimum
+from impact_damper.plot.panels.response import draw_response
+from impact_damper.plot.panels.style import ROLES, style
+
+pytestmark = pytest.mark.filterwarnings("error")
+
+FREQUENCY = np.linspace(1.0, 2.0, 11)
+DAMPER = {"mass_ratio": 0.12, "clearance": 2.0, "restitution": 1.0, "damping": 0.2}
+MOTIONS = [  # outcome, period, contacts
+    ("settled", 1, 2.0),
+    ("settled", 2, 2.0),
+    ("settled", 3, 2.0),
+    ("non_colliding", 1, 0.0),
+    ("chaotic", 0, 3.0),
+    ("unresolved", 0, 1.0),
+    ("quasi_periodic", 0, 2.0),
+    ("drifting", 1, 0.0),
+    ("chaotic", 0, 4.0),
+    ("absent", 0, 0.0),
+]
+
+
+def response(**parameters):
+    """Return a response with a branch of each kind, at different displacements."""
+    outcome, period, contacts = zip(*MOTIONS, strict=True)
+    shape = len(FREQUENCY), len(MOTIONS)
+    ends = {"end_direction": [1], "end_value": [2.0], "end_displacement": [1.0]}
+    data = {
+        "outcome": np.broadcast_to([OUTCOME[name] for name in outcome], shape),
+        "period": np.broadcast_to(period, shape),
+        "contacts": np.broadcast_to(contacts, shape),
+        "branch": np.broadcast_to(np.arange(len(MOTIONS)), shape),
+        "maximum_displacement": np.arange(len(MOTIONS)) + FREQUENCY[:, None],
+        "end_branch": [0],
+        # The first chaotic motion lasts; the second ends in some runs, and is a transient.
+        "life_ends": np.broadcast_to(np.array(contacts) == 4.0, shape).astype(int),
+    }
+    return dataset(data | ends, {"frequency": FREQUENCY}, DAMPER | parameters, "made up")
+
+
+def balance():
+    """Return solutions without damper on a curve with two folds, and a suppression band."""
+    phase = -np.stack([FREQUENCY - 0.9, 2.3 - FREQUENCY / 2, 1 + FREQUENCY], axis=1)
+    stable = [flag("free_stability", name) for name in ("stable", "unstable", "stable")]
+    shape = phase.shape
+    data = {
+        "free_amplitude": 3.0 + phase,
+        "free_phase": phase,
+        "free_stability": np.broadcast_to(stable, shape),
+        "amplitude": np.stack([1.5 - FREQUENCY, FREQUENCY, FREQUENCY], axis=1),
+        "kind": np.broadcast_to([1, 1, 2], shape),
+        "stability": np.broadcast_to([1, -1, 1], shape),
+        "band_status": flag("band_status", "found"),
+        "edge_frequency": np.array([1.4, 1.6]),
+    }
+    return dataset(data, {"frequency": FREQUENCY}, DAMPER, "made up")
+
+
+def motion():
+    time = np.linspace(0, 2 * np.pi, 201)
+    data = {
+        "displacement": np.sin(time),
+        "velocity": np.cos(time),
+        "contact_wall": [1, -1],
+        "contact_begin": [1.0, 4.0],
+        "contact_end": [1.5, np.nan],
+    }
+    return dataset(data, {"time": time}, DAMPER, "made up")
+
+
+def optimum(mass_ratio, restitution):
+    clearance = np.linspace(0.5, 3, 8)
+    elastic = restitution == 1
+    data = {
+        "quiet_displacement": 0.1 + np.abs(clearance - 2),
+        "analytical_amplitude": np.abs(clearance - 1.8) if elastic else np.full(8, np.nan),
+        "analytical_optimum": 1.8 if elastic else np.nan,
+        "optimum_clearance": 2.0,
+        "optimum_displacement": 0.1,
+        "near_clearance": np.array([1.99, 2.01]),
+    }
+    made = DAMPER | {"mass_ratio": mass_ratio, "restitution": restitution, "frequency": 2.0}
+    return dataset(data, {"clearance": clearance}, made, "made up")
+
+
+def migration():
+    """Return runs with one and two switchings, and releases to each motion without damper.
+
+    A release switches the damper off.
+    """
+    time = np.linspace(-30, 300, 2000)
+    kinds = [value for value in DAMPED_MOTION.values() if value >= 0]
+    destinations = list(FREE_MOTION.values())
+    phase = np.linspace(0, 6, len(destinations))
+    shape = len(kinds), len(destinations)
+    data = {
+        "displacement": np.cos(2 * time),
+        "on_time": np.array([[0.0, np.nan], [0.0, 120.0]]),
+        "off_time": np.array([[50.0, np.nan], [60.0, 180.0]]),
+        "example": 1,
+        "damped_kind": kinds,
+        "release_displacement": np.broadcast_to(np.cos(phase), shape),
+        "release_velocity": np.broadcast_to(np.sin(phase), shape),
+        "release_destination": np.broadcast_to(destinations, shape),
+    }
+    return dataset(data, {"time": time}, DAMPER | {"frequency": 2.0}, "made up")
+
+
+def orbits(**parameters):
+    """Return branches of periods 1, 2 and 3 at different heights, each stable up to a fold."""
+    periods = [1, 2, 3]
+    count = len(FREQUENCY)
+    value = np.concatenate([FREQUENCY, FREQUENCY[::-1]])
+    stable = np.repeat([flag("stability", "stable"), flag("stability", "unstable")], count)
+    size = np.concatenate([FREQUENCY + n + edge for n in periods for edge in (0.0, 0.5)])
+    data = {
+        "followed_value": np.tile(value, len(periods)),
+        "orbit_displacement": size,
+        "orbit_branch": np.repeat(np.arange(len(periods)), 2 * count),
+        "orbit_stability": np.tile(stable, len(periods)),
+        "branch_period": periods,
+        "branch_end": [[flag("branch_end", name) for name in ("range_ends", "point_limit")]] * 3,
+        "event_kind": [flag("event_kind", "fold"), flag("event_kind", "grazing")],
+        "event_value": [2.0, 1.5],
+        "event_displacement": [3.0, 2.5],
+        "event_branch": [0, 2],
+        "event_place": [1, 2],
+    }
+    return dataset(data, {}, DAMPER | parameters, "made up")
+
+
+FREE = orbits().assign_attrs(parameters='{"damping": 0.2}')
+DAMPED = {"branches": [orbits(), FREE]}
+STATUSES = ["period_1", "higher_period", "subharmonic_damped", "chaotic", "non_colliding"]
+STATUSES += ["chaotic_transient", "quasi_periodic", "unresolved"]
+FREE_ROLES = ["free_stable", "free_unstable", "subharmonic_free", "free_higher"]
+FREE_ROLES += ["subharmonic_unstable"]
+BALANCE_ROLES = ["harmonic_balance", "band"]
+DRAWINGS = {
+    "free": (lambda: draw_free(branches=[FREE]), FREE_ROLES),
+    "two free": (
+        lambda: draw_free(branches=[FREE, FREE]),
+        FREE_ROLES,
+    ),
+    "harmonic_balance": (
+        lambda: draw_harmonic_balance(harmonic_balance=[balance(), balance()]),
+        ["free_stable", "free_unstable", *BALANCE_ROLES],
+    ),
+    "response": (
+        lambda: draw_response(
+            response=[response()], harmonic_balance=[balance()], subharmonic=[response()], **DAMPED
+        ),
+        FREE_ROLES + BALANCE_ROLES + STATUSES + ["unstable_orbit"],
+    ),
+    "branches": (
+        lambda: draw_branches(**DAMPED),
+        [],
+    ),
+    "inelastic": (
+        lambda: draw_response(
+            response=[response(restitution=0.75), response()],
+            harmonic_balance=[balance()],
+            subharmonic=[response()],
+            branches=[orbits(restitution=0.75), orbits(), FREE],
+        ),
+        FREE_ROLES + BALANCE_ROLES + [*STATUSES, "unstable_orbit"],
+    ),
+    "motion": (lambda: draw_motion(motion=[motion()]), []),
+    "optimum": (
+        lambda: draw_optimum(optimum=[optimum(0.12, 1), optimum(0.18, 1)]),
+        ["optimum", "near_optimum"],
+    ),
+    "inelastic optimum": (
+        lambda: draw_optimum(optimum=[optimum(0.12, 0.75), optimum(0.12, 0.9)]),
+        ["optimum", "near_optimum"],
+    ),
+    "migration": (
+        lambda: draw_migration(migration=[migration()]),
+        ["damper_on", "switched_on", "switched_off"],
+    ),
+    "release": (
+        lambda: draw_release(migration=[migration()]),
+        ["non_resonance", "subharmonic", "resonance", "other", "lost"],
+    ),
+}
+
+
+@cache
+def drawn_once(name):
+    """Return the figure of this name. It is drawn only once, so tests must not change it."""
+    drawn = DRAWINGS[name][0]()
+    FigureCanvasAgg(drawn).draw()
+    return drawn
+
+
+@pytest.fixture(params=DRAWINGS)
+def drawing(request):
+    _, roles = DRAWINGS[request.param]
+    with style():
+        yield drawn_once(request.param), {ROLES[role]["label"] for role in roles}
+
+
+def words(drawn):
+    (legend,) = drawn.legends
+    return [text.get_text() for text in legend.get_texts()]
+
+
+def test_legend_names_all_that_is_drawn_once(drawing):
+    drawn, expected = drawing
+    assert expected <= set(words(drawn))
+    assert len(set(words(drawn))) == len(words(drawn))
+
+
+def test_all_lies_on_the_sheet_and_the_legend_beside_the_axes(drawing):
+    drawn, _ = drawing
+    box = drawn.get_tightbbox()
+    assert min(box.x0, box.y0) >= 0
+    assert box.x1 <= drawn.get_figwidth() and box.y1 <= drawn.get_figheight()
+    (legend,) = drawn.legends
+    for axes in drawn.axes:
+        assert not legend.get_window_extent().overlaps(axes.get_tightbbox())
+
+
+def test_letters_stand_above_a_second_axis(drawing):
+    drawn, _ = drawing
+    for axes in drawn.axes:
+        letter = axes._left_title.get_window_extent()
+        for second in axes.child_axes:
+            for words in [second.xaxis.label, *second.get_xticklabels()]:
+                assert letter.y0 >= words.get_window_extent().y1
+
+
+def test_axes_are_labelled(drawing):
+    drawn, _ = drawing
+    assert any(axes.get_xlabel() for axes in drawn.axes)
+    assert drawn.get_supylabel() or any(axes.get_ylabel() for axes in drawn.axes)
+
+
+def test_the_drawing_is_as_wide_as_a_column(drawing):
+    drawn, _ = drawing
+    assert drawn.get_figwidth() in (3.4, 7.0)
+
+
+def looks(drawn, labels):
+    """Return what distinguishes each line without its colour, by its label."""
+    found = {}
+    for line in drawn.axes[0].lines:
+        if line.get_label() in labels:
+            hollow = line.get_markerfacecolor() == "none"
+            found[line.get_label()] = (
+                line.get_linestyle(),
+                str(line._unscaled_dash_pattern[1]),
+                line.get_marker(),
+                hollow,
+                line.get_linewidth() > 2,
+            )
+    return found
+
+
+@pytest.mark.parametrize("name", ["response", "inelastic"])
+def test_what_differs_in_colour_differs_in_grey_too(name):
+    draw, roles = DRAWINGS[name]
+    labels = {ROLES[role]["label"] for role in roles if role != "band"}
+    found = looks(draw(), labels)
+    assert set(found) == labels
+    assert len(set(found.values())) == len(found)
+
+
+def test_balance_unstable_branch_reaches_both_folds():
+    drawn = draw_harmonic_balance(harmonic_balance=[balance()])
+    (line,) = (
+        line for line in drawn.axes[0].lines if line.get_label() == ROLES["free_unstable"]["label"]
+    )
+    shown = np.isfinite(line.get_ydata())
+    assert shown.sum() == len(FREQUENCY) + 2
+
+
+def test_stable_and_unstable_parts_of_a_branch_meet():
+    drawn = draw_free(branches=[FREE])
+    parts = {
+        line.get_label(): line.get_xydata()
+        for line in drawn.axes[0].lines
+        if line.get_label()
+        in (ROLES["subharmonic_free"]["label"], ROLES["subharmonic_unstable"]["label"])
+    }
+    stable, unstable = parts.values()
+    assert np.array_equal(stable[-1], unstable[0])
+
+
+def test_contacts_are_marked_where_they_are():
+    (axes,) = draw_motion(motion=[motion()]).axes
+    time = motion()["time"].values
+    _, first, second = axes.lines
+    assert np.array_equal(np.isfinite(first.get_ydata()), (time >= 1) & (time <= 1.5))
+    assert np.array_equal(np.isfinite(second.get_ydata()), time >= 4)
+
+
+def test_curves_are_named_by_what_tells_them_apart():
+    drawn = draw_optimum(optimum=[optimum(0.12, 0.75), optimum(0.12, 0.9)])
+    assert words(drawn)[:2] == ["$e = 0.75$, $r_m = 0.12$", "$e = 0.9$, $r_m = 0.12$"]
+
+
+def test_the_stored_run_is_drawn_with_its_own_switchings():
+    whole, part = draw_migration(migration=[migration()]).axes
+    assert [patch.get_x() for patch in whole.patches] == [0, 120]
+    assert part.get_xlim()[0] < 180 < part.get_xlim()[1]

@@ -1,0 +1,189 @@
+"""Contacts near grazing: passages compared with heyoka, SciPy's events, and counts.
+
+A passage is a flight without walls whose largest |Z2| is known.
+
+Z2 is the displacement of the primary mass relative to the loose mass.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.known_orbits import PAPER
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+from scipy.stats import binom
+
+from chatterjee1995.figures.missed_contacts import draw_missed_contacts
+from chatterjee1995.methods import merson
+from chatterjee1995.methods import missed_contacts as missed
+from chatterjee1995.methods.methods import integrators
+from chatterjee1995.methods.passages import draw_passages, without_walls
+from chatterjee1995.methods.scipy_methods import UNLIMITED, derivative
+from chatterjee1995.tables.integrators import SHOWN, missed_contacts
+from impact_damper.data.shares import missed_share
+from impact_damper.model.packed import pack
+
+PERIOD = math.pi
+DEPTHS = np.geomspace(1e-12, 1e-1, 12)
+
+
+@pytest.fixture(scope="module")
+def passages():
+    p = pack(PAPER, None, 2.0)
+    return p, draw_passages(p, 40, 2.0, DEPTHS[-1], 7)[0]
+
+
+@pytest.fixture(scope="module")
+def counted():
+    return missed.missed_contacts(
+        PAPER,
+        2.0,
+        passages=150,
+        implicit_passages=2,
+        radius=2.0,
+        depths=DEPTHS,
+        tolerances=[1e-12, 1e-6, 1e-3],
+        steps=[32, 256, 2048],
+    )
+
+
+def test_the_largest_displacement_agrees_with_heyoka(passages):
+    heyoka = pytest.importorskip("heyoka")
+    p, drawn = passages
+    x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
+    free = heyoka.cos(2.0 * heyoka.time) - p[1] * v - p[2] * x - x * x * x
+    turning = []
+    event = heyoka.nt_event(w, lambda motion, t, _: turning.append(at(motion, t)))
+    motion = heyoka.taylor_adaptive(
+        [(x, v), (v, free), (z, w), (w, free)], np.zeros(4), nt_events=[event], tol=1e-18
+    )
+
+    def at(motion, t):
+        motion.update_d_output(t)
+        return abs(motion.d_output[2])
+
+    for passage in drawn:
+        turning.clear()
+        motion.time, motion.state[:] = 0.0, passage.state
+        motion.propagate_until(PERIOD)
+        assert_allclose(max(turning), passage.extremum, rtol=4e-15)
+
+
+def test_the_taylor_series_misses_none_and_invents_none(passages):
+    p, drawn = passages
+    depths = np.geomspace(1e-13, 1e-1, 13)
+    touching, spurious, _ = missed._taylor_counts(p, drawn, depths, 1e-14)
+    assert_allclose(touching, np.array([[len(drawn), 0, 0, 0]] * len(depths)))
+    assert not spurious.any()
+
+
+@pytest.mark.parametrize("method", ["RK45", "DOP853", "LSODA"])
+def test_scipy_events_find_the_contacts_that_ends_of_steps_show(method, passages):
+    """SciPy's event location finds a contact exactly if a step ends beyond the wall."""
+    p, drawn = passages
+    free = without_walls(p)
+
+    def wall(level):
+        return lambda t, y, *_: abs(y[2]) - level
+
+    for passage in drawn[:10]:
+        levels = passage.extremum - DEPTHS
+        run = solve_ivp(
+            derivative,
+            (0, PERIOD),
+            passage.state,
+            method,
+            args=(free, 0, np.array([UNLIMITED])),
+            events=[wall(level) for level in levels],
+            rtol=1e-8,
+            atol=1e-8,
+        )
+        ends, _ = integrators()[method].flight(free, passage.state, PERIOD, 1e-8, passage.time)
+        seen = ends.max() > levels
+        assert_allclose([len(times) > 0 for times in run.t_events], seen)
+
+
+@pytest.mark.parametrize("method", ["RK45", "DOP853"])
+def test_scipy_misses_on_a_sine(method):
+    """In ten turns sin t crosses the level 1 - depth twenty times; SciPy finds fewer crossings."""
+    for depth, most in ((1e-3, 10), (1e-6, 2)):
+        run = solve_ivp(
+            lambda t, y: (y[1], -y[0]),
+            (0, 20 * math.pi),
+            (0.0, 1.0),
+            method,
+            events=lambda t, y, depth=depth: 1 - depth - y[0],
+            rtol=1e-6,
+            atol=1e-6,
+        )
+        assert len(run.t_events[0]) <= most
+
+
+@pytest.mark.thorough
+def test_fixed_steps_miss_contacts_with_the_expected_probability(counted):
+    """A step h ends beyond the wall with the probability (time beyond the wall)/h."""
+    counts = counted.passage_count.sel(integrator="runge_kutta_4", method_tolerance=1e-12)
+    count, expected = int(counted.passages[0]), counted.expected_unseen[0]
+    for depth in DEPTHS[DEPTHS > 1e-8]:
+        missing = count - int(counts.sel(contact_outcome="found", depth=depth))
+        share = float(expected.sel(depth=depth))
+        low, high = binom.interval(1 - 1e-4, count, share)
+        assert low <= missing <= high
+
+
+@pytest.mark.thorough
+def test_every_passage_is_counted_once(counted):
+    total = counted.passage_count.sum("contact_outcome")
+    assert (total == counted.passages).all()
+    assert (counted.passage_count >= 0).all()
+    assert (counted.passage_count.sel(contact_outcome="failed") == 0).all()
+
+
+@pytest.mark.parametrize("method", ["merson", "RK45", "DOP853"])
+def test_a_failed_run_is_an_outcome_of_its_own(method, passages):
+    """An infinite stiffness makes the rate infinite, so that every run fails."""
+    p, drawn = passages
+    p = without_walls(p)
+    p[2] = -np.inf
+    integrator = integrators()[method]
+    touching, spurious, error, steps = missed._counts(integrator, p, drawn[:2], DEPTHS, 1e-8)
+    assert_allclose(touching, [[0, 0, 0, 2]] * len(DEPTHS))
+    assert not spurious.any() and np.isnan([error, steps]).all()
+
+
+def test_more_steps_than_are_kept_are_a_failure(passages, monkeypatch):
+    p, drawn = passages
+    monkeypatch.setattr(merson, "MOST_FLIGHT_ENDS", 10)
+    given = without_walls(p), drawn[0].state, PERIOD, 1e-8, drawn[0].time
+    assert integrators()["merson"].flight(*given) is None
+
+
+@pytest.mark.thorough
+def test_failed_runs_are_neither_found_nor_missed(counted):
+    """In table and figure the share of missed contacts counts only runs that reached their end."""
+    data = counted.copy(deep=True)
+    given = data.passage_count.sel(integrator="merson")
+    given[0] = 0
+    given.loc[{"contact_outcome": "failed"}][0] = data.passages.sel(integrator="merson")
+    assert missed_share(data).sel(integrator="merson")[0].isnull().all()
+    table = missed_contacts({"missed_contacts": {"one": data}})
+    assert SHOWN["missed_contacts"].keys() <= set(table)
+    row = table.set_index("method").loc["merson"].iloc[0]
+    assert row["failed"] == row["contacts"] and np.isnan(row["half missed to depth"])
+    drawn = draw_missed_contacts(missed_contacts=[data])
+    assert any("failed" in text.get_text() for text in drawn.legends[0].get_texts())
+
+
+def test_wrong_arguments_are_told():
+    given = dict(
+        passages=2, implicit_passages=1, radius=2.0, depths=[0.1], tolerances=[1e-6], steps=[8]
+    )
+    for changes, words in (
+        ({"implicit_passages": 3}, "implicit_passages = 3"),
+        ({"steps": [8, 16]}, "as many as tolerances"),
+        ({"tolerances": [0.0]}, "= 0: must be finite and at least 1e-14"),
+        ({"depths": [0.2, 0.1]}, "depths = .*: must be increasing"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            missed.missed_contacts(PAPER, 2.0, **(given | changes))

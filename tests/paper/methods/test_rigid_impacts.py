@@ -1,0 +1,158 @@
+"""The rigid-impact model: laws of one impact, volume, derivative, SciPy, and compliant contact.
+
+Symbols are as in `system.parameters`.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER, polished_orbit
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+
+from chatterjee1995.methods.rigid_impacts import MOST_IMPACTS, rebound, rigid_map
+from chatterjee1995.methods.rigid_orbits import rigid_orbit
+from impact_damper.model.packed import DASHPOT, pack
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.motions.strobe_map import period_map
+
+CASES = [(DESIGN, "design"), (INELASTIC, "inelastic")]
+
+
+def rigid(damper, frequency, oscillator=PAPER):
+    p = pack(oscillator, damper, frequency)
+    p[DASHPOT] = 0.0
+    return p
+
+
+@pytest.mark.parametrize("damper", [DESIGN, INELASTIC, Damper(3.0, 1.0, 0.1)])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_one_impact(damper, side):
+    """An impact conserves momentum and changes Z2' to -e Z2'.
+
+    The energy falls by (1 - e^2) m Z2'^2/2 with the reduced mass m.
+    """
+    mass, e = damper.mass_ratio, damper.restitution
+    before = np.array([0.3, -0.4, side * damper.clearance, side * 1.7])
+    after = before.copy()
+    rebound(rigid(damper, 2.0), e, after, np.empty((0, 4)), 0.1)
+    assert_allclose(after[[0, 2]], before[[0, 2]], atol=0)
+    assert after[3] == pytest.approx(-e * before[3])
+
+    def momentum(y):
+        return y[1] + mass * (y[1] - y[3])
+
+    def energy(y):
+        return y[1] ** 2 / 2 + mass * (y[1] - y[3]) ** 2 / 2
+
+    assert momentum(after) == pytest.approx(momentum(before))
+    lost = (1 - e**2) * mass / (1 + mass) * before[3] ** 2 / 2
+    assert energy(before) - energy(after) == pytest.approx(lost, abs=1e-14)
+
+
+@pytest.mark.parametrize("damper", [DESIGN, INELASTIC, Damper(0.4, 0.625, 0.5)])
+def test_volume(damper):
+    """The determinant is exp(-h period) e^(2 impacts): an impact multiplies volumes by e^2."""
+    p = rigid(damper, 1.8, Oscillator(0.15, 1.2))
+    generator = np.random.default_rng(3)
+    seen = set()
+    for _ in range(20):
+        y = generator.uniform(-1, 1, 4) * [1, 1, damper.clearance, 2]
+        _, matrix, impacts, *_ = rigid_map(p, damper.restitution, y, 1e-14)
+        condition = np.linalg.cond(matrix)
+        if impacts == MOST_IMPACTS or condition > 1e6:
+            continue
+        expected = math.exp(-0.15 * 2 * math.pi / 1.8) * damper.restitution ** (2 * impacts)
+        error = np.linalg.det(matrix) / expected - 1
+        assert abs(error) < 1e-13 * condition
+        seen.add(impacts)
+    assert len(seen) > 2
+
+
+def by_scipy(damper, frequency, y):
+    """Return the state after a period of the rigid model by SciPy, and the largest sampled |Z1|."""
+    mass, e = damper.mass_ratio, damper.restitution
+    t, end = 0.5 * math.pi / frequency, 2.5 * math.pi / frequency
+    y, largest = np.array(y), 0.0
+
+    def rate(t, y):
+        a = math.cos(frequency * t) - PAPER.damping * y[1] - y[0] ** 3
+        return [y[1], a, y[3], a]
+
+    def wall(side):
+        def gap(_, y):
+            return side * y[2] - damper.clearance
+
+        gap.terminal, gap.direction = True, 1
+        return gap
+
+    while t < end:
+        run = solve_ivp(
+            rate, (t, end), y, "DOP853", rtol=1e-13, atol=1e-14, events=[wall(1), wall(-1)],
+            dense_output=True, max_step=0.05,
+        )  # fmt: skip
+        largest = max(largest, np.max(np.abs(run.sol(np.linspace(t, run.t[-1], 4001))[0])))
+        t, y = run.t[-1], run.y[:, -1].copy()
+        if run.status == 1:
+            y[1] -= mass / (1 + mass) * (1 + e) * y[3]
+            y[3] *= -e
+    return y, largest
+
+
+@pytest.mark.parametrize(("damper", "name"), CASES)
+@pytest.mark.parametrize("frequency", [2.0, 2.3])
+def test_against_scipy(damper, name, frequency):
+    """At W = 2.3 |Z1| is largest at an impact, where Z1' does not vanish."""
+    y = polished_orbit(name).state
+    state, _, impacts, _, _, largest = rigid_map(
+        rigid(damper, frequency), damper.restitution, y, 1e-13
+    )
+    expected, size = by_scipy(damper, frequency, y)
+    assert impacts > 0
+    assert_allclose(state, expected, atol=1e-9)
+    assert largest == pytest.approx(size, abs=1e-6)
+
+
+@pytest.mark.parametrize(("damper", "name"), CASES)
+def test_derivative(damper, name):
+    """Against central differences, whose error falls as the square of their step."""
+    p, y = rigid(damper, 2.0), polished_orbit(name).state
+    _, matrix, *_ = rigid_map(p, damper.restitution, y, 1e-14)
+
+    def differences(step):
+        ends = [
+            [rigid_map(p, damper.restitution, y + s * step * row, 1e-14)[0] for s in (1, -1)]
+            for row in np.eye(4)
+        ]
+        return np.array([(up - down) / (2 * step) for up, down in ends]).T
+
+    coarse, fine = (np.max(np.abs(differences(step) - matrix)) for step in (2e-3, 1e-3))
+    assert coarse / fine == pytest.approx(4, rel=0.05)
+    assert fine < 1e-4
+
+
+@pytest.mark.parametrize(("damper", "name"), CASES)
+def test_compliant_contact_comes_to_it(damper, name):
+    """State and derivative of the map over a period differ from compliant contact by r1^(-1/2)."""
+    y = polished_orbit(name).state
+    state, matrix, *_ = rigid_map(rigid(damper, 2.0), damper.restitution, y, 1e-13)
+    errors = []
+    for stiffness in (1e6, 1e8):
+        each = Damper(damper.mass_ratio, damper.clearance, damper.restitution, stiffness)
+        soft, soft_matrix, _ = period_map(pack(PAPER, each, 2.0), y, 1, 1e-13)
+        errors.append([np.max(np.abs(soft - state)), np.max(np.abs(soft_matrix - matrix))])
+    assert_allclose(np.divide(*errors), 10, rtol=0.1)
+
+
+def test_chatter_ends_with_a_status():
+    """A loose mass that is pressed to a wall and loses nearly all its speed at an impact chatters.
+
+    Infinitely many impacts would follow each other in a finite time. The map stops with a status.
+    """
+    damper = Damper(0.12, 2.0, 0.05)
+    y = np.array([-2.0, 0.0, 1.999, 0.0])
+    assert rigid_map(rigid(damper, 0.5), 0.05, y, 1e-9)[2] == MOST_IMPACTS
+    orbit, status = rigid_orbit(PAPER, damper, 0.5, y, 0.1)
+    assert orbit is None
+    assert status == "chatter"

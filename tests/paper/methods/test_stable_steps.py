@@ -1,0 +1,77 @@
+"""Largest stable steps: exact orbits compared with heyoka and a power law; verdicts and slopes.
+
+r1 is the contact stiffness.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
+from numpy.testing import assert_allclose
+
+from chatterjee1995.methods import stable_steps as steps
+from impact_damper.data.datasets import flag
+from impact_damper.model.parameters import Damper
+
+
+@pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
+def test_orbits_return_by_heyoka(damper, heyoka_references):
+    found = steps.orbits_over_stiffness(PAPER, damper, 2.0, [100.0, 2000.0, 1e5])
+    for orbit in found:
+        begin = 0.25 * math.pi
+        run = heyoka_references[0].run(orbit.parameters, orbit.state, begin, [begin + math.pi])
+        assert len(run.contacts) == 2
+        assert_allclose(run.states[-1], orbit.state, atol=1e-8)
+        assert abs(orbit.multiplier) < 1
+
+
+def test_the_displacement_tends_to_that_of_rigid_walls():
+    """The difference falls as r1^(-1/2), like the time in contact."""
+    r1 = 10.0 ** np.array([4.0, 5.0, 6.0, 7.0])
+    found = steps.orbits_over_stiffness(PAPER, DESIGN, 2.0, r1)
+    sizes = np.array([orbit.displacement for orbit in found])
+    differences = np.diff(sizes)
+    assert_allclose(differences[:-1] / differences[1:], math.sqrt(10), rtol=0.1)
+
+
+def test_largest_step_needs_all_smaller_ones():
+    sizes = np.arange(9.0, 0.0, -1.0)
+    held = np.array([1, 0, 1, 0, 1, 1, 1, 1, 1], bool)
+    tested = np.ones(9, bool)
+    assert steps._largest_step(held, tested, sizes) == 5
+    tested[-2:] = False
+    assert np.isnan(steps._largest_step(held, tested, sizes))
+    held[-1] = False
+    assert np.isnan(steps._largest_step(held, np.ones(9, bool), sizes))
+
+
+def test_slope_of_a_power_law():
+    r1 = np.geomspace(10, 1e6, 11)
+    slope, error = steps._slope(r1, 0.3 / np.sqrt(r1))
+    assert_allclose([slope, error], [0.5, 0], atol=1e-12)
+
+
+def test_verdicts_follow_from_the_deviation():
+    data = steps.stable_steps(
+        PAPER,
+        Damper(0.25, 1.0, 0.75),
+        2.0,
+        stiffnesses=[100.0, 1000.0],
+        scaled_steps=np.geomspace(0.02, 4, 9),
+        most_steps=5000,
+        periods=5,
+    )
+    verdict, deviation = data.step_verdict.values, data.step_deviation.values
+    within = verdict == flag("step_verdict", "within_1_percent")
+    assert (deviation[within] <= 0.01).all() and within.any()
+    off = verdict == flag("step_verdict", "off")
+    assert (deviation[off] > 0.1).all() and off.any()
+    not_run = verdict == flag("step_verdict", "not_run")
+    assert np.isnan(deviation[not_run]).all()
+    assert (not_run == (data.steps_per_period.values > 5000)).all()
+
+
+def test_no_quiet_motion_is_told():
+    with pytest.raises(ArithmeticError, match="has no quiet motion"):
+        steps.orbits_over_stiffness(PAPER, Damper(0.12, 0.3), 1.0, [1000.0])

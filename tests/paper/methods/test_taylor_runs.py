@@ -1,0 +1,79 @@
+"""Contacts and peaks from the steps of the Taylor series, compared with `motions.records`."""
+
+import math
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
+from numpy.testing import assert_allclose
+
+from chatterjee1995.methods import taylor_runs
+from impact_damper.model.packed import pack
+from impact_damper.motions import records, traces
+from impact_damper.motions.strobe_map import strobe_time
+
+PERIODS = 20
+START = np.array([0.9, -0.4, 0.3, 1.1])
+cases = pytest.mark.parametrize("damper", [None, DESIGN, INELASTIC])
+
+
+def run(damper, start=START, tolerance=1e-11, **orders):
+    p = pack(PAPER, damper, 2.0)
+    return p, taylor_runs.taylor(p, start, strobe_time(p), PERIODS, tolerance, **orders)
+
+
+@cases
+def test_a_run_agrees_with_the_records_of_the_motion(damper):
+    p, found = run(damper)
+    begin = strobe_time(p)
+    times, log = np.array([begin, begin + PERIODS * math.pi]), np.empty((400, 5))
+    state, states = START.copy(), np.empty((2, 4))
+    count = traces.trace(p, state, begin, times, 1e-11, states, log)
+    assert_allclose(found.state, states[-1], atol=1e-13)
+    assert_allclose(found.contact_times, log[:count, 1], atol=1e-13)
+    largest = records.measured(p, START, PERIODS, 1e-11)["maximum_displacement"]
+    assert found.displacement == pytest.approx(largest, rel=1e-8)
+    assert (np.diff(found.peak_times) > 0).all()
+    assert found.displacement == found.peaks.max()
+
+
+@cases
+def test_peaks_are_turning_points(damper):
+    """A second run that ends at the time of a peak has the speed 0 at its end."""
+    p, found = run(damper)
+    begin = strobe_time(p)
+    for k in (1, len(found.peaks) // 2, -2):
+        at, states = found.peak_times[k], np.empty((2, 4))
+        none = np.empty((0, 5))
+        traces.trace(p, START.copy(), begin, np.array([begin, at]), 1e-11, states, none)
+        assert abs(states[-1, 0]) == pytest.approx(found.peaks[k], abs=1e-7)
+        assert abs(states[-1, 1]) < 1e-6
+
+
+@pytest.mark.thorough
+@cases
+@pytest.mark.parametrize("orders", [(10, 13), (24, 30)])
+def test_other_orders_give_the_same_motion(damper, orders):
+    start = START if damper is None else np.array([0.0057201257, 0.18739354, 0.00194, -2.4079124])
+    _, found = run(damper, start)
+    _, other = run(damper, start, orders=orders)
+    assert len(other.contact_times) == len(found.contact_times)
+    assert_allclose(other.state, found.state, atol=1e-7)
+    assert other.operations != found.operations
+
+
+def test_a_contact_at_the_start_counts_and_a_run_that_overflows_fails():
+    p, found = run(DESIGN, np.array([0.1, 0.0, 2.01, 0.5]))
+    assert found.contact_times[0] == strobe_time(p)
+    _, lost = run(DESIGN, np.array([1e200, 0.0, 0.0, 1.0]))
+    assert lost.status == "failed" and np.isnan(lost.displacement)
+
+
+def test_the_work_of_a_run_is_the_sum_over_its_steps():
+    p, found = run(DESIGN)
+    rows, _ = taylor_runs.all_steps(p, START, strobe_time(p), PERIODS, 1e-11)
+    counts = taylor_runs.counted(rows)
+    assert sum(counts) == len(rows)
+    assert counts[taylor_runs.MEETING] == len(found.contact_times)
+    assert found.operations == taylor_runs.steps_work(counts)
+    assert_allclose(rows[1:, 0], (rows[:, 0] + rows[:, 1])[:-1], rtol=1e-14)

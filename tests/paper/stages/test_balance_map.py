@@ -1,0 +1,185 @@
+"""Maps of harmonic balance compared with exact motions, and their counts.
+
+W is the forcing frequency, Wp the frequency of the resonance peak without the damper and e the
+restitution. A start is an initial state.
+"""
+
+import numpy as np
+import pytest
+from helpers.known_orbits import PAPER
+
+from chatterjee1995.stages.balance_map import balance_map
+from chatterjee1995.stages.map_cells import HIGH
+from chatterjee1995.tables.balance_map import SHOWN
+from chatterjee1995.tables.balance_map import balance_map as table_of
+from chatterjee1995.variables.balance_map import HIGH_VERDICT, QUIET_VERDICT
+from impact_damper.data.datasets import flag
+from impact_damper.model.parameters import Damper
+from impact_damper.model.settling import Settling
+from impact_damper.motions.simulate import simulate
+from impact_damper.motions.steady import steady_motion
+from impact_damper.theory.design_rule import peak_frequency
+from impact_damper.theory.free_oscillator import free_folds
+from impact_damper.theory.harmonic_balance import harmonic_balance_response, optimum_clearance
+
+FIXED = {"damping": 0.215, "mass_ratio": 0.12, "clearance": 2.0}
+RATIOS = np.linspace(0.4, 1.2, 9)
+SETTLING = Settling(patience=100, limit=800, watched=20)
+
+
+@pytest.fixture(scope="module")
+def over_restitution():
+    return balance_map("restitution", [0.6, 0.8, 1.0], RATIOS, FIXED, settling=SETTLING)
+
+
+def names(data, variable):
+    """Return the meanings of a flag variable in all cells."""
+    attributes = data[variable].attrs
+    known = dict(zip(attributes["flag_values"], attributes["flag_meanings"].split(), strict=True))
+    return np.vectorize(known.get)(data[variable].values)
+
+
+def test_balance_is_that_of_the_design(over_restitution):
+    frequencies = RATIOS * peak_frequency(PAPER)
+    design = harmonic_balance_response(PAPER, Damper(0.12, 2.0), frequencies)
+    size = np.abs(design["amplitude"].where(design["kind"] == flag("kind", "impacting")))
+    least = size.min("solution")
+    quiet = over_restitution["balance_quiet_amplitude"].values
+    limit = HIGH * over_restitution["resonance_amplitude"].values
+    for row in range(3):
+        shown = np.where(least < limit[row], least, np.nan)
+        assert np.array_equal(quiet[row], shown, equal_nan=True)
+    stable = size.where(design["stability"] == flag("stability", "stable"))
+    largest = stable.max("solution").values
+    shown = np.where(largest >= limit[0], largest, np.nan)
+    assert np.array_equal(over_restitution["balance_high_amplitude"][0], shown, equal_nan=True)
+
+
+def test_balance_does_not_depend_on_restitution(over_restitution):
+    for name in ("balance_quiet", "balance_high", "balance_quiet_growth"):
+        values = over_restitution[name].values
+        assert np.array_equal(values, np.broadcast_to(values[:1], values.shape), equal_nan=True)
+
+
+def test_verdicts_combine_balance_and_orbit(over_restitution):
+    said = names(over_restitution, "balance_quiet")
+    orbit = names(over_restitution, "quiet_orbit")
+    orbit = np.where(np.isin(orbit, ["stable", "absent", "unresolved"]), orbit, "unstable")
+    verdict = names(over_restitution, "quiet_verdict")
+    for cell in np.ndindex(said.shape):
+        unresolved = "unresolved" in (said[cell], orbit[cell])
+        expected = "unresolved" if unresolved else f"{said[cell]}_{orbit[cell]}"
+        assert verdict[cell] == expected
+    high = names(over_restitution, "high_verdict")
+    said = names(over_restitution, "balance_high")
+    assert all(
+        each in ("not_run", "unresolved") or each.startswith(who)
+        for each, who in zip(high.flat, said.flat, strict=True)
+    )
+
+
+def test_the_orbit_exists_only_before_the_fold_with_restitution(over_restitution):
+    """At e = 0.6 and W = Wp harmonic balance predicts a stable quiet orbit, but there is none."""
+    verdict = names(over_restitution, "quiet_verdict")
+    design = np.argmin(np.abs(RATIOS - 1))
+    assert verdict[0, design] == "stable_absent"
+    assert verdict[2, design] == "stable_stable"
+    end = over_restitution["quiet_end"].values[0]
+    assert end[0] < 0.7 < end[1] < 1
+    assert end[1] == pytest.approx(over_restitution["straight_flight_end"].values[0], rel=0.05)
+
+
+def test_absence_by_simulation():
+    """At W/Wp = 0.7 some starts lead to the quiet orbit; at W/Wp = 1, beyond its fold, none do."""
+    damper = Damper(0.12, 2.0, restitution=0.6)
+    for ratio, expected in ((0.7, True), (1.0, False)):
+        frequency = ratio * peak_frequency(PAPER)
+        ends = [
+            steady_motion(PAPER, damper, frequency, state, settling=SETTLING)
+            for state in ((0.3, 0, 1, -1), (-0.2, 0.4, 0, 2), (0.1, 0.2, -1, 1), (0, 0, 0, -2))
+        ]
+        quiet = [
+            end["outcome"] == flag("outcome", "settled")
+            and end["period"] == 1
+            and end["contacts"] == 2
+            and end["asymmetry"] < 1e-6
+            for end in ends
+        ]
+        assert any(quiet) == expected
+
+
+def test_displacement_is_that_of_a_simulation(over_restitution):
+    row, column = 2, np.argmin(np.abs(RATIOS - 1))
+    frequency = float(over_restitution["map_frequency"][row, column])
+    damper = Damper(0.12, 2.0)
+    steady = steady_motion(PAPER, damper, frequency, (1, 0.5, 0, 0))
+    begin = {"start": np.pi / 2 / frequency, "samples": 5000}
+    motion = simulate(PAPER, damper, frequency, steady["state"].values, **begin)
+    found = float(over_restitution["quiet_orbit_displacement"][row, column])
+    assert np.abs(motion["displacement"].values).max() == pytest.approx(found, rel=1e-5)
+    growth = float(over_restitution["quiet_orbit_growth"][row, column])
+    multiplier = abs(complex(steady["multiplier_real"], steady["multiplier_imaginary"]))
+    assert growth == pytest.approx(np.log(multiplier) * frequency / (2 * np.pi), abs=1e-8)
+
+
+def test_chaos_has_an_exponent_that_is_positive_beyond_doubt(over_restitution):
+    chaotic = names(over_restitution, "high_run_motion") == "high_chaotic"
+    assert chaotic.any()
+    exponent, error = (
+        over_restitution[name].values[chaotic] for name in ("high_run_exponent", "high_run_error")
+    )
+    assert (exponent > 4 * error).all()
+    ran = names(over_restitution, "high_long_outcome") != "absent"
+    assert ran.any() and not (ran & ~chaotic).any()
+
+
+def test_free_resonance_is_followed_to_its_end_only(over_restitution):
+    end = free_folds(PAPER)[-1].frequency
+    frequency = over_restitution["map_frequency"].values
+    missing = names(over_restitution, "high_run_motion") == "not_run"
+    assert np.array_equal(missing, frequency > end)
+
+
+def test_clearance_follows_the_rule_where_none_is_given():
+    fixed = {"mass_ratio": 0.12}
+    found = balance_map("damping", [0.2, 0.3], [0.98, 1.0], fixed, settling=SETTLING)
+    for value, clearance in zip(found["map_value"], found["map_clearance"], strict=True):
+        oscillator = type(PAPER)(float(value))
+        assert clearance == pytest.approx(optimum_clearance(oscillator, 0.12))
+        row = found["map_frequency"].sel(map_value=value)
+        assert row[1] == pytest.approx(peak_frequency(oscillator))
+
+
+def test_counts_add_up(over_restitution):
+    table = table_of({"balance_map": {"made": over_restitution}})
+    assert SHOWN["balance_map"].keys() <= set(table)
+    cells = over_restitution["quiet_verdict"].size
+    for question in ("quiet motion", "high motion", "start at the quiet solution"):
+        assert table[table.question == question].cells.sum() == cells
+        assert (table[table.question == question].of == cells).all()
+    assert (table.cells <= table.of).all()
+    assert ((table.lower <= table.share) & (table.share <= table.upper)).all()
+    counted = table[(table.question == "quiet motion") & (table.truth == "absent")]
+    verdict = names(over_restitution, "quiet_verdict")
+    assert counted.cells.sum() == np.char.endswith(verdict.astype(str), "absent").sum()
+    assert table_of({}).empty
+
+
+def test_every_class_is_named_once():
+    assert len(set(QUIET_VERDICT.values())) == len(QUIET_VERDICT)
+    assert len(set(HIGH_VERDICT.values())) == len(HIGH_VERDICT)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("frequency", [1, 2], [1, 2], FIXED), "must be one of damping"),
+        (("clearance", [1, 2], [1, 2], FIXED), "must not hold clearance"),
+        (("restitution", [1, 0.9], [1, 2], FIXED), "must be increasing"),
+        (("restitution", [0.9, 1.1], [1, 2], FIXED), "restitution = 1.1"),
+        (("restitution", [0.9, 1], [0, 1], FIXED), "greater than 0"),
+    ],
+)
+def test_arguments_are_checked(arguments, words):
+    with pytest.raises(ValueError, match=words):
+        balance_map(*arguments)

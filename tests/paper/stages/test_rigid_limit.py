@@ -1,0 +1,110 @@
+"""The quiet motion between rigid walls, corrected walls (`mended`) and compliant walls.
+
+Corrected walls are rigid walls that account for the penetration at finite stiffness r1.
+
+The quiet orbit is the small symmetric periodic motion for which a damper is designed.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER, polished_orbit
+from numpy.testing import assert_allclose
+
+from chatterjee1995.figures.rigid_limit import draw_rigid_limit
+from chatterjee1995.methods.rigid_orbits import mended_orbit, rigid_orbit
+from chatterjee1995.stages.rigid_limit import rigid_limit
+from chatterjee1995.tables.contact import SHOWN
+from chatterjee1995.tables.contact import rigid_limit as table
+from impact_damper.data.datasets import flag
+from impact_damper.model.packed import pack
+from impact_damper.orbits.compliant_orbits import compliant_orbit
+
+NEAR = 0.2
+
+
+@pytest.mark.parametrize(
+    ("damper", "name"),
+    [(DESIGN, "design"), (INELASTIC, "inelastic"), (replace(INELASTIC, restitution=0.7), None)],
+)
+def test_orders(damper, name):
+    """Errors of the state fall as r1^(-1/2) with rigid walls and as 1/r1 with corrected walls."""
+    guess = polished_orbit(name or "inelastic").state
+    errors = []
+    for stiffness in (1e5, 1e6):
+        each = replace(damper, contact_stiffness=stiffness)
+        soft, status = compliant_orbit(pack(PAPER, each, 2.0), guess, NEAR)
+        assert status == "found"
+        plain, _ = rigid_orbit(PAPER, each, 2.0, guess, NEAR)
+        mended, _ = mended_orbit(PAPER, each, 2.0, plain, NEAR)
+        errors.append([np.max(np.abs(each.state - soft.state)) for each in (plain, mended)])
+    orders = np.log10(np.divide(*errors))
+    assert_allclose(orders, [0.5, 1.0], atol=0.02)
+
+
+def test_an_orbit_repeats_and_is_symmetric():
+    orbit, _ = rigid_orbit(PAPER, INELASTIC, 2.0, polished_orbit("inelastic").state, NEAR)
+    again, _ = rigid_orbit(PAPER, INELASTIC, 2.0, orbit.state + 1e-3, NEAR)
+    assert_allclose(again.state, orbit.state, atol=1e-10)
+    mirrored, _ = rigid_orbit(PAPER, INELASTIC, 2.0, -orbit.state, NEAR)
+    # The mirror image at the same phase of the forcing belongs to no orbit.
+    assert mirrored is None
+
+
+@pytest.fixture(scope="module")
+def limit():
+    return rigid_limit(
+        PAPER, INELASTIC, 2.0, [1.0, 1.95, 2.0], [500, 2000, 1e4, 1e5, 1e6], starts=6
+    )
+
+
+def test_dataset(limit):
+    assert (limit.compliant_status.sel(frequency=2.0) == 0).all()
+    own = limit.sel(frequency=2.0, stiffness=2000)
+    assert float(own.rigid_error) == pytest.approx(float(limit.own_error), abs=1e-9)
+    assert float(own.compliant_displacement) == pytest.approx(0.1262368, abs=1e-6)
+    assert float(limit.rigid_order.sel(frequency=2.0)) == pytest.approx(0.5, abs=0.01)
+    assert float(limit.mended_order.sel(frequency=2.0)) == pytest.approx(1.0, abs=0.01)
+    neither = flag("rigid_verdict", "neither")
+    lost = (limit.compliant_status != 0) & (limit.rigid_status != 0)
+    assert ((limit.rigid_verdict == neither) == lost).all()
+    assert np.isnan(limit.rigid_error.values[lost.values]).all()
+
+
+def test_stiffness_needed(limit):
+    """At the stiffness stored for a threshold, an orbit computed separately has this error."""
+    row = limit.sel(frequency=1.95)
+    for level, r1, status in zip(
+        limit.threshold.values, row.needed_stiffness.values, row.needed_status.values, strict=True
+    ):
+        if status != flag("needed_status", "found"):
+            assert (np.abs(row.rigid_error) < level).all()
+            continue
+        each = replace(INELASTIC, contact_stiffness=float(r1))
+        guess = polished_orbit("inelastic").state
+        soft, _ = compliant_orbit(pack(PAPER, each, 1.95), guess, NEAR)
+        assert float(row.rigid_displacement) / soft.displacement - 1 == pytest.approx(level, 0.05)
+
+
+def test_table_and_figure(limit):
+    made = table({"rigid_limit": {"one": limit}})
+    assert SHOWN["rigid_limit"].keys() <= set(made)
+    row = made.iloc[0]
+    verdicts = ["both stable", "both unstable", "stability differs", "rigid only"]
+    assert row[[*verdicts, "compliant only", "neither"]].sum() == row["cells"] == 15
+    assert row["rigid error"] == pytest.approx(float(limit.own_error))
+    # A map with its colour scale, and the errors at one frequency.
+    assert len(draw_rigid_limit(rigid_limit=[limit]).axes) == 3
+
+
+def test_no_quiet_motion_is_told():
+    with pytest.raises(ArithmeticError, match="frequency = 0.3: none of 2 starts leads to"):
+        rigid_limit(PAPER, DESIGN, 0.3, [0.3, 0.4], [1e3, 1e4], starts=2)
+
+
+def test_bad_arguments_are_named():
+    with pytest.raises(ValueError, match="stiffnesses = .*: must be increasing"):
+        rigid_limit(PAPER, DESIGN, 2.0, [1.9, 2.0], [1e4, 1e3])
+    with pytest.raises(TypeError, match="must be a Damper"):
+        rigid_limit(PAPER, None, 2.0, [1.9, 2.0], [1e3, 1e4])

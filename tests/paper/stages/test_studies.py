@@ -1,0 +1,220 @@
+"""A study does not depend on its division into chunks, and each chunk fills its own cells.
+
+A study runs motions in each cell of a grid of dampers and frequencies; a chunk is a range of cells.
+"""
+
+import json
+import math
+import re
+import tracemalloc
+
+import numpy as np
+import pytest
+from helpers.known_orbits import PAPER
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+
+from chatterjee1995.stages import studies
+from chatterjee1995.stages.study_grid import blocks, gather_chunks
+from chatterjee1995.variables.studies import OUTCOMES
+from impact_damper.data.datasets import dataset, load, save
+from impact_damper.data.whole_files import BrokenFileError
+from impact_damper.model.parameters import Damper
+from impact_damper.model.settling import Settling
+from impact_damper.motions.simulate import random_states
+from impact_damper.motions.steady import steady_motion
+
+QUICK = Settling(tolerance=1e-6, patience=100, limit=200, watched=10)
+AXES = {
+    "mass_ratio": [0.25, 0.4],
+    "clearance": [1.0, 1.2],
+    "frequency": [2.0],
+    "restitution": [0.75, 1.0],
+}
+
+
+def chunk(cells, **others):
+    given = {"starts": 3, "radius": 2.0, "settling": QUICK} | others
+    return studies.study_chunk(PAPER, AXES, cells, **given)
+
+
+@pytest.fixture(scope="module")
+def entire():
+    return chunk((0, 8))
+
+
+def made_up(shape, cells, seed=7):
+    """Return a chunk whose values are functions of the number of the cell."""
+    names = ("mass_ratio", "clearance", "frequency", "restitution")
+    axes = {name: np.linspace(0.1, 1, n) for name, n in zip(names, shape, strict=True)}
+    numbers = np.arange(*cells)
+    data = {
+        "quiet_count": numbers.astype(np.int32),
+        "outcome_count": np.outer(numbers, range(1, len(OUTCOMES) + 1)).astype(np.int32),
+        "largest_displacement": (("cell",), np.cos(numbers)),
+    }
+    made = {"damping": 0.215, "seed": seed}
+    return dataset(data, axes | {"cell": numbers, "counted_outcome": list(OUTCOMES)}, made, "")
+
+
+def saved(folder, shape, bounds, seed=7):
+    """Save made-up chunks, whose cells end at successive `bounds`, and return their files."""
+    paths = []
+    for first, last in zip(bounds, bounds[1:], strict=False):
+        paths.append(folder / f"{first}-{last}.nc")
+        save(made_up(shape, (first, last), seed), paths[-1])
+    return paths
+
+
+@given(
+    st.lists(st.integers(1, 5), min_size=1, max_size=5).flatmap(
+        lambda shape: st.tuples(
+            st.just(tuple(shape)),
+            st.tuples(*[st.integers(0, math.prod(shape))] * 2).map(sorted),
+        )
+    )
+)
+def test_blocks_hold_a_range_of_cells_once_and_are_few(drawn):
+    shape, (first, last) = drawn
+    grid = np.zeros(shape, int)
+    found = list(blocks(first, last, shape))
+    for cells, block in found:
+        grid[block] += np.arange(cells.start, cells.stop).reshape(grid[block].shape) + 1
+    numbers = np.arange(grid.size)
+    assert_array_equal(
+        grid.ravel(), np.where((first <= numbers) & (numbers < last), numbers + 1, 0)
+    )
+    assert len(found) <= 2 * len(shape) - 1
+
+
+def test_chunks_come_back_to_their_cells_however_they_are_cut(tmp_path):
+    shape, results = (3, 4, 2, 5), []
+    for number, bounds in enumerate([(0, 120), (0, 1, 60, 120), range(0, 121, 7), (0, 119, 120)]):
+        folder = tmp_path / str(number) / "studies"
+        bounds = [*bounds] if bounds[-1] == 120 else [*bounds, 120]
+        gather_chunks(saved(folder, shape, bounds), folder / "all.nc")
+        results.append((folder / "all.nc").read_bytes())
+    assert len(set(results)) == 1
+    data = load(folder / "all.nc")
+    numbers = np.arange(120).reshape(shape)
+    assert_array_equal(data["quiet_count"], numbers)
+    assert_array_equal(data["outcome_count"].sel(counted_outcome=OUTCOMES[2]), 3 * numbers)
+    assert_array_equal(data["largest_displacement"], np.cos(numbers))
+    best = np.take(data["clearance"].values, np.argmin(np.cos(numbers), axis=1))
+    assert_array_equal(data["best_clearance"], best)
+    rm, w = data["mass_ratio"], data["frequency"]
+    assert_allclose(data["rule_clearance"] * rm * w**2, 1)
+
+
+@pytest.mark.thorough
+def test_gathering_takes_the_memory_of_a_chunk(tmp_path):
+    peaks = []
+    for number in (2, 16):
+        shape = number, 100, 100, 1
+        paths = saved(tmp_path / str(number), shape, range(0, number * 10000 + 1, 10000))
+        tracemalloc.start()
+        gather_chunks(paths, tmp_path / "all.nc")
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.2 * peaks[0]
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda paths, folder: paths[::-1],
+        lambda paths, folder: [paths[0], paths[2]],
+        lambda paths, folder: paths[:2],
+        lambda paths, folder: [*paths, paths[2]],
+        lambda paths, folder: [*paths[:2], saved(folder / "b", (2, 3, 2, 1), [8, 12], seed=8)[0]],
+        lambda paths, folder: [*paths[:2], saved(folder / "b", (2, 3, 1, 2), [8, 12])[0]],
+    ],
+    ids=["out of order", "one lost", "last lost", "one twice", "other parameters", "other grid"],
+)
+def test_chunks_that_do_not_make_a_study_are_told(spoil, tmp_path):
+    paths = spoil(saved(tmp_path, (2, 3, 2, 1), [0, 4, 8, 12]), tmp_path)
+    with pytest.raises(BrokenFileError, match=r"\.nc .*cell"):
+        gather_chunks(paths, tmp_path / "all.nc")
+    assert not list(tmp_path.glob("all.nc*"))
+
+
+@pytest.mark.parametrize("spoil", [lambda b: b[:-1], lambda b: b[:-9] + b"\xff" + b[-8:]])
+def test_a_damaged_chunk_is_named_and_nothing_is_written(spoil, tmp_path):
+    paths = saved(tmp_path, (2, 3, 2, 1), [0, 4, 8, 12])
+    paths[1].write_bytes(spoil(paths[1].read_bytes()))
+    with pytest.raises(BrokenFileError, match=rf"^{re.escape(str(paths[1]))} .*"):
+        gather_chunks(paths, tmp_path / "all.nc")
+    assert not list(tmp_path.glob("all.nc*"))
+
+
+def test_chunks_agree_with_the_whole_study(entire):
+    for cells in ((0, 3), (3, 4), (4, 8)):
+        part = chunk(cells, workers=2)
+        for name in part.data_vars:
+            assert_array_equal(part[name], entire[name].sel(cell=slice(*cells))[: np.ptp(cells)])
+        assert json.loads(part.attrs["parameters"]) == json.loads(entire.attrs["parameters"])
+
+
+def test_a_cell_counts_the_motions_from_its_starts(entire):
+    damper = Damper(0.4, 1.0, restitution=0.75)
+    number = np.ravel_multi_index((1, 0, 0, 0), (2, 2, 1, 2))
+    motions = [
+        steady_motion(PAPER, damper, 2.0, state, settling=QUICK)
+        for state in random_states(3, 2.0, damper, [1995, number])
+    ]
+    cell = entire.sel(cell=number)
+    assert cell["largest_displacement"] == max(float(m["maximum_displacement"]) for m in motions)
+    values = [int(motion["outcome"]) for motion in motions]
+    assert_array_equal(cell["outcome_count"], [values.count(k) for k in range(len(OUTCOMES))])
+
+
+def test_every_start_is_counted_once(entire):
+    assert_array_equal(entire["outcome_count"].sum("counted_outcome"), 3)
+    assert (entire["quiet_count"] <= entire["outcome_count"].sel(counted_outcome="settled")).all()
+
+
+def test_without_a_radius_placed_starts_count_in_the_sizes_alone(entire):
+    wide = chunk((0, 2), radius=None)
+    assert_array_equal(wide["outcome_count"].sum("counted_outcome"), 3)
+    assert np.all(wide["largest_displacement"] > 0)
+    assert_array_equal(chunk((1, 2), radius=None)["outcome_count"], wide["outcome_count"][1:])
+
+
+def test_in_a_wide_gap_the_largest_displacement_is_that_of_the_free_oscillator():
+    axes = AXES | {"mass_ratio": [0.12], "clearance": [1000], "restitution": [1]}
+    # The run is shorter than a flight from wall to wall, so the loose mass meets no wall.
+    settling = Settling(patience=100, limit=100, watched=20)
+    given = {"starts": 20, "radius": 2.0, "settling": settling}
+    wide = studies.study_chunk(PAPER, axes, (0, 1), **given).isel(cell=0)
+    starts = random_states(20, 2.0, Damper(0.12, 1000), [1995, 0])[:, :2]
+    free = [steady_motion(PAPER, None, 2.0, state) for state in starts]
+    without_contact = wide["outcome_count"].sel(counted_outcome=["drifting", "non_colliding"])
+    assert without_contact.sum() >= 19
+    assert wide["quiet_count"] == 0 and np.isnan(wide["quiet_displacement"])
+    largest = max(float(motion["maximum_displacement"]) for motion in free)
+    assert_allclose(wide["largest_displacement"], largest, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"axes": AXES | {"clearance": [2, 1]}}, "clearance.*increasing"),
+        ({"axes": {"clearance": [1]}}, "mass_ratio, clearance, frequency, restitution"),
+        ({"axes": AXES | {"restitution": [0.01]}}, "restitution = 0.01: must be .*at least 0.05"),
+        ({"cells": (0, 9)}, r"cells\[1\] = 9: must be from 1 to 8"),
+        ({"cells": (3, 3)}, r"cells\[1\] = 3: must be from 4 to 8"),
+        ({"cells": (-1, 3)}, r"cells\[0\] = -1: must be from 0 to 7"),
+        ({"starts": 0}, "starts = 0"),
+        # The first chunk raises the error, although only the last cell is out of range.
+        ({"axes": AXES | {"mass_ratio": [1, 20]}}, "mass_ratio = 20: must be .*at most 10"),
+        (
+            {"axes": AXES | {"clearance": [1e-3, 1]}, "radius": 2.0},
+            "radius = 2: must be .*at most 1",
+        ),
+        ({"oscillator": None}, "oscillator = None: must be an Oscillator"),
+    ],
+)
+def test_bad_arguments_are_named(change, told):
+    with pytest.raises((TypeError, ValueError), match=told):
+        studies.study_chunk(**{"oscillator": PAPER, "axes": AXES, "cells": (0, 1)} | change)

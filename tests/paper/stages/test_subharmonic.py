@@ -1,0 +1,183 @@
+"""One-third subharmonic compared with long runs on both sides of its ends, and the energy balance.
+
+Without the damper (free) the subharmonic is a motion of period 3.
+
+W is the forcing frequency and W T the phase of the forcing. The quiet orbit is the small symmetric
+periodic motion for which a damper is designed.
+"""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from chatterjee1995.stages.subharmonic import (
+    SWITCHED_MOTIONS,
+    _suppression,
+    subharmonic_suppression,
+)
+from impact_damper.data.datasets import flag, load, save
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.motions.free_subharmonic import free_subharmonic, switched_on
+from impact_damper.motions.simulate import simulate
+from impact_damper.motions.steady import steady_motion
+
+PAPER = Oscillator(0.215)
+DAMPER = Damper(0.12, 2.0)
+
+
+@pytest.fixture(scope="module")
+def free():
+    return free_subharmonic(PAPER, 1.6, 2.2, starts=12)
+
+
+@pytest.fixture(scope="module")
+def damped():
+    return subharmonic_suppression(PAPER, DAMPER, np.linspace(1.6, 2.2, 21), starts=32)
+
+
+def from_strobe(state, damper, frequency, periods=1):
+    """Simulate a motion from a state at W T = pi/2 over some forcing cycles."""
+    return simulate(
+        PAPER,
+        damper,
+        frequency,
+        state,
+        periods=periods,
+        samples=4000,
+        start=0.5 * np.pi / frequency,
+    )
+
+
+def settled(state, damper, frequency):
+    """Return the motion to which a state at W T = pi/2 leads."""
+    last = from_strobe(state, damper, frequency, 0.75).isel(time=-1)
+    start = [
+        float(last[name])
+        for name in ("displacement", "velocity", "relative_displacement", "relative_velocity")
+    ]
+    return steady_motion(PAPER, damper, frequency, start)
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_free_subharmonic_ends_where_long_runs_leave_it(free, side):
+    inward = 1 if side == 0 else -1
+    end = free.ends[side]
+    assert free.events[side] == flag("free_subharmonic_event", "fold")
+    state = free.at(end + inward * 2e-4)["state"]
+    assert settled(state, None, end + inward * 2e-4).period == 3
+    assert settled(state, None, end - inward * 2e-4).period == 1
+    assert free.at(end - inward * 2e-4) is None
+
+
+def test_free_subharmonic_is_symmetric_and_balances_its_energy(free):
+    """Half a period later the motion is mirrored; the damping dissipates the work of the force."""
+    state = free.at(1.9)["state"]
+    motion = from_strobe(state, None, 1.9, 3)
+    half = motion.displacement.values[len(motion.time) // 2 :]
+    assert_allclose(half, -motion.displacement.values[: len(half)], atol=1e-9)
+    assert_energy_balance(motion, 1.9)
+    assert_allclose(
+        np.abs(motion.displacement).max(), free.at(1.9)["maximum_displacement"], rtol=1e-6
+    )
+
+
+def assert_energy_balance(motion, frequency):
+    velocity = motion.velocity.values
+    work = np.trapezoid(np.cos(frequency * motion.time.values) * velocity, motion.time.values)
+    loss = PAPER.damping * np.trapezoid(velocity**2, motion.time.values)
+    assert_allclose(work, loss, rtol=1e-4)
+
+
+@pytest.mark.thorough
+def test_free_subharmonic_is_absent_at_low_frequencies(damped):
+    """With the paper's damping of 0.215 the subharmonic begins above W = 1.7."""
+    lower, upper = damped.free_subharmonic_frequency.values
+    assert 1.7 < lower < 1.72 and 2.07 < upper < 2.08
+
+
+@pytest.mark.thorough
+def test_damped_subharmonic_is_a_motion_of_period_3(damped):
+    row = damped.sel(frequency=1.85, method="nearest")
+    assert row.suppression == flag("suppression", "reduced")
+    frequency = float(row.frequency)
+    place = int(np.flatnonzero(row.period.values == 3)[0])
+    motion = from_strobe(row.state.values[place], DAMPER, frequency, 3)
+    values = motion.displacement.values
+    assert_allclose(values[-1], values[0], atol=1e-7)
+    assert abs(values[4000] - values[0]) > 1e-3
+    assert_allclose(np.abs(values).max(), row.damped_subharmonic, rtol=1e-5)
+    assert_energy_balance(motion, frequency)
+
+
+@pytest.mark.thorough
+def test_damped_branch_ends_where_long_runs_leave_it(damped):
+    """The upper end of the branch is a fold, beyond which a run leads to the quiet motion."""
+    branch = int(np.flatnonzero(damped.subharmonic_period.values == 3)[0])
+    end = float(damped.subharmonic_frequency[branch, 1])
+    assert damped.subharmonic_event[branch, 1] == flag("subharmonic_event", "fold")
+    third = damped.period.values == 3
+    row, place = (indices[-1] for indices in np.nonzero(third))
+    state = damped.state.values[row, place]
+    gap = end - float(damped.frequency[row])
+    while gap > 1e-4:
+        gap *= 0.8
+        motion = settled(state, DAMPER, end - gap)
+        assert motion.period == 3
+        state = motion.state.values
+    assert settled(state, DAMPER, end + 1e-4).period == 1
+
+
+def test_switching_on_keeps_the_primary_on_the_subharmonic_until_a_contact(free):
+    """With walls out of reach the state at T = 0 is one of three states of the free motion."""
+    p = pack(PAPER, Damper(0.12, 500.0), 1.9)
+    state = free.at(1.9)["state"]
+    loose = np.tile([0.0, 0.0, 1.0, 2.0], (20, 1))
+    states = switched_on(PAPER, p, state, loose, np.random.default_rng(1))
+    motion = simulate(PAPER, None, 1.9, state, periods=3, samples=4, start=0.5 * np.pi / 1.9)
+    free_states = np.stack([motion.displacement, motion.velocity], axis=1)[[3, 7, 11]]
+    away = np.abs(states[:, None, :2] - free_states).max(axis=2)
+    assert np.all(away.min(axis=1) < 1e-9)
+    assert len(set(away.argmin(axis=1))) == 3
+
+
+@pytest.mark.thorough
+def test_shares_of_switching_on(damped):
+    shares = damped.switched_share.sum("switched_motion", skipna=False)
+    present = np.isfinite(damped.free_subharmonic)
+    assert_allclose(shares.values[present], 1)
+    assert np.isnan(shares.values[~present]).all()
+    assert list(damped.switched_motion.values) == list(SWITCHED_MOTIONS)
+
+
+def test_suppression_by_size():
+    meanings = ["no_subharmonic_without_damper", "removed", "reduced", "unchanged", "unchanged"]
+    flags = _suppression(
+        np.array([0.5, -np.inf, 0.5, 0.99, 1.2]), np.array([np.nan, 1.0, 1.0, 1.0, 1.0])
+    )
+    assert flags.tolist() == [flag("suppression", meaning) for meaning in meanings]
+
+
+def test_no_free_subharmonic(tmp_path):
+    """With heavy damping there is no subharmonic.
+
+    The frequencies are then those given, and the dataset is complete.
+    """
+    frequencies = np.linspace(1.6, 2.2, 3)
+    data = subharmonic_suppression(Oscillator(1.0), DAMPER, frequencies, starts=4)
+    assert_allclose(data.frequency, frequencies)
+    assert np.all(data.suppression == flag("suppression", "no_subharmonic_without_damper"))
+    assert np.isnan(data.free_subharmonic_frequency).all()
+    save(data, tmp_path / "data.nc")
+    assert load(tmp_path / "data.nc").identical(data)
+
+
+@pytest.mark.parametrize("frequencies", [[2.0], [2.0, 1.0]])
+def test_frequencies_are_checked(frequencies):
+    with pytest.raises(ValueError, match="frequencies"):
+        subharmonic_suppression(PAPER, DAMPER, frequencies)
+
+
+def test_a_damper_is_needed():
+    with pytest.raises(TypeError, match="damper = None"):
+        subharmonic_suppression(PAPER, None, [1.6, 2.2])

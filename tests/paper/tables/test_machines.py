@@ -1,0 +1,61 @@
+"""The table of dampers designed for machines."""
+
+import numpy as np
+import pytest
+from helpers.made_up_design import made_up_design
+
+from chatterjee1995.tables.machines import machines
+
+
+def row(**changed):
+    (found,) = machines({"machines": {"made_up": made_up_design(**changed)}}).to_dict("records")
+    return found
+
+
+def test_a_row_states_what_to_build_what_it_does_and_how_sure_it_is():
+    assert row() == {
+        "machine": "made_up",
+        "loose mass, kg": 0.6,
+        "band, Hz": "26 to 34",
+        "gap (full play), mm": "7 ± 10 %",
+        "advice": "build it",
+        "largest without damper, mm": 10.0,
+        "largest with it, mm": 0.8,
+        "quiet share of 1000 unseen starts": 1.0,
+        "corners of the tolerances": 2,
+        "least quiet share at a corner": 0.98,
+        "promise": "kept within all tolerances",
+        "best tuned absorber, mm": 0.5,
+    }
+
+
+@pytest.mark.parametrize(
+    ("choice", "advice"),
+    [
+        ("needs_tolerance", "build it, with a closer tolerance of the gap"),
+        ("least_worst", "do not build it"),
+    ],
+)
+def test_the_advice_follows_the_choice(choice, advice):
+    assert row(choice=choice)["advice"] == advice
+
+
+def test_a_gap_to_be_held_more_closely_has_its_range():
+    found = row(choice="needs_tolerance")["gap (full play), mm"]
+    assert found == "7, held from 6 or less to 8.5"
+
+
+@pytest.mark.parametrize(
+    ("promise", "words"),
+    [("nominal_kept", "kept at nominal values"), ("broken", "BROKEN"), ("none_made", "none made")],
+)
+def test_the_promise_is_told(promise, words):
+    assert row(promise=promise)["promise"] == words
+
+
+def test_a_motion_that_escapes_has_no_size():
+    assert row(reached_displacement=[1, np.inf, 1, 1, 1])["largest with it, mm"] == "escapes"
+
+
+def test_no_machines_make_no_rows():
+    assert machines({}).empty

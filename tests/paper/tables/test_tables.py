@@ -1,0 +1,171 @@
+"""Tables: a row for each computed case; files are complete and reproducible."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from helpers.made_up import matched_sweep, world
+from helpers.made_up_orbits import branch, branches
+
+from chatterjee1995.claims import extract
+from chatterjee1995.tables import branches as table_branches
+from chatterjee1995.tables import clearance, design, migration, motions, responses
+from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.table_files import save_table
+
+
+@pytest.fixture(scope="module")
+def data():
+    return world()
+
+
+def test_harmonic_balance(data):
+    table = design.harmonic_balance(data).set_index("curve")
+    assert len(table) == len(data["harmonic_balance"])
+    assert table.loc["figure_05a", "rm Wp^2 d0"] == pytest.approx(1)
+    assert table.loc["figure_03b", "d0 of (19)"] == pytest.approx(1 / (0.12 * 2.1**2))
+
+
+def test_bands(data):
+    table = responses.bands(data).set_index("curve")
+    assert set(table.index) == set(data["harmonic_balance"]) | set(data["response"])
+    row = table.loc["figure_05b"]
+    assert row["width, balance"] == pytest.approx(row["width, motions"])
+    assert row["event at lower edge"] == "other motion appears"
+    assert row["widest range of high chaos"] == pytest.approx(3 * 0.01)
+    assert row["share of band with one motion"] == 1
+    assert np.isnan(table.loc["figure_03a", "width, motions"])
+    assert np.isnan(table.loc["figure_10", "width, balance"])
+
+
+def test_no_band_is_read_off_without_the_resonance_branch(data):
+    damped = extract.damped(data, "branches")
+    table = responses.bands(data | {"branches": damped}).set_index("curve")
+    assert table.loc["figure_05b", "width, balance"] > 0
+    assert "width, motions" not in table
+
+
+def test_optimum(data):
+    table = clearance.optimum(data).set_index("sweep")
+    assert len(table) == len(data["optimum"])
+    assert table.loc["0.107_0.12_1.0", "excess over (18)"] == pytest.approx(0.05)
+    assert (table.kind == "kink").all()
+
+
+def test_subharmonic(data):
+    table = responses.subharmonic(data)
+    free = table[table.damper == "off"].set_index("data")
+    assert free.loc["free_h215", "from W"] == pytest.approx(0.8 * 2)
+    assert free.loc["free_h215", "to W"] == pytest.approx(1.1 * 2)
+    damped = table[table.data == "figure_05c"]
+    assert list(damped.branch) == ["all", "4"]
+    assert list(damped["largest max |Z1|"]) == pytest.approx([0.1, 0.1])
+    assert damped["largest ratio to free max |Z1|"].iloc[0] == pytest.approx(0.1 / 0.8)
+    assert list(table[table.data == "figure_05a"].branch) == ["all"]
+
+
+def test_free_oscillator_without_subharmonic(data):
+    free = data["branches"]["free_h215"]
+    changed = data | {"branches": {"none": free.assign(branch_period=0 * free.branch_period)}}
+    assert responses.subharmonic(changed).branch.iloc[0] == "none"
+
+
+@pytest.mark.parametrize("start", range(8))
+def test_stable_parts_of_a_closed_branch_do_not_depend_on_its_first_orbit(start):
+    frequency = np.roll([1.0, 1.1, 1.2, 1.3, 1.25, 1.2, 1.1, 1.05], start)
+    stable = np.roll([True, True, False, False, False, True, False, True], start)
+    made = orbit_columns(frequency, stable)
+    table = table_branches.orbits({"branches": {"closed": made}})
+    assert table.loc[0, "stable W"] == "1 to 1.1, 1.2 to 1.2"
+
+
+def test_an_end_that_is_left_open_has_its_reason():
+    made = orbit_columns(np.array([1.0, 1.1]), np.array([True, True]))
+    ends = [[flag("branch_end", "unstable"), flag("branch_end", "range_ends")]]
+    left = made.assign(branch_end=made["branch_end"].copy(data=ends))
+    table = table_branches.orbits({"branches": {"closed": made, "left": left}}).set_index("data")
+    assert table["one end"]["closed"] == "closed" and table["other end"]["left"] == "range ends"
+    assert table["one end"]["left"].startswith("left where it becomes unstable, since")
+
+
+def orbit_columns(frequency, stable):
+    """Return the dataset of one closed branch, as `tables.branches.orbits` reads it."""
+    frequency, stable = np.append(frequency, frequency[0]), np.append(stable, stable[0])
+    made = branches(branch(frequency, 1.0), parameters={"damping": 0.1})
+    stability = [flag("orbit_stability", "stable" if each else "unstable") for each in stable]
+    nothing = np.zeros(len(frequency))
+    data = {
+        "orbit_stability": np.array(stability),
+        "orbit_status": nothing.astype(int),
+        "orbit_residual": nothing,
+        "liouville_error": nothing,
+        "branch_end": np.full((1, 2), flag("branch_end", "closed")),
+        "branch_met": np.full((1, 2), -1),
+        "branch_events_lost": np.zeros(1, int),
+    }
+    return made.assign(dataset(data, {}, {}, "made up").variables)
+
+
+def test_motions_without_contact_are_told_from_others(data):
+    case = data["migration"]["figure_16"]
+    data["migration"]["figure_16"] = case.assign(damped_contacts=("damped", [np.nan, 0.0]))
+    table = migration.migration(data).set_index("case")
+    assert list(table["released from"]["figure_16"]) == ["unsettled", "quiet, without contact"]
+    assert list(table["released from"]["figure_13"]) == ["unsettled", "quiet"]
+
+
+def test_migration(data):
+    table = migration.migration(data)
+    assert len(table) == 2 * len(data["migration"])
+    row = table[(table.case == "figure_15") & (table["released from"] == "quiet")].iloc[0]
+    assert row["to subharmonic"] == 0.5
+    assert row["runs that arrive"] == 1
+    assert row["median cycles, all runs"] == pytest.approx(150)
+
+
+def test_release_scan(data):
+    table = migration.release_scan(data).set_index(["scan", "released from", "leads to"])
+    both = table.loc["wide", "quiet", "non-resonance, subharmonic"]
+    assert both["at W"] == "1.5, 1.7 to 1.8"
+    assert both["frequencies"] == 3
+    assert both["to subharmonic"] == 0.5
+    assert table.loc["wide", "quiet", "non-resonance"]["at W"] == "1.6"
+    assert table.loc["wide", "unsettled", "subharmonic"]["at W"] == "1.9"
+    assert set(table.index.get_level_values("released from")) == {"unsettled", "quiet"}
+    shares = table[[name for name in table if name.startswith("to ")]]
+    assert shares.sum(axis=1).to_list() == pytest.approx([1] * len(table))
+
+
+def test_shares_of_motions():
+    table = motions.shares({"response": {"figure_05a": matched_sweep()}})
+    assert list(table.motion) == ["chaotic", "period 1"]
+    assert list(table["share"]) == [1.0, 0.9] and list(table["at"]) == [2.0, 1.5]
+    assert list(table["at least"]) == [0.5, 0.45] and list(table["at most"]) == [1.0, 0.95]
+    assert list(table["starts"]) == [16, 14]
+    assert np.all(table["not seen, at most"] == 0.3)
+
+
+def test_files(tmp_path):
+    table = pd.DataFrame({"name": ["a|b", "c"], "number": [1 / 3, np.nan], "count": [10, 2000000]})
+    csv, markdown = tmp_path / "new" / "table.csv", tmp_path / "new" / "table.md"
+    save_table(table, csv, markdown)
+    assert csv.read_bytes() == b"name,number,count\na|b,0.333333,10\nc,,2000000\n"
+    assert markdown.read_text().splitlines()[2].split() == [
+        "|",
+        r"a\|b",
+        "|",
+        "0.3333",
+        "|",
+        "10",
+        "|",
+    ]
+    before = csv.read_bytes(), markdown.read_bytes()
+    save_table(table, csv, markdown)
+    assert (csv.read_bytes(), markdown.read_bytes()) == before
+    assert sorted(path.name for path in csv.parent.iterdir()) == ["table.csv", "table.md"]
+
+
+def test_failed_table_leaves_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr("os.replace", lambda *paths: (_ for _ in ()).throw(OSError("full")))
+    with pytest.raises(OSError, match="full"):
+        save_table(pd.DataFrame({"a": [1]}), tmp_path / "a.csv", tmp_path / "a.md")
+    assert list(tmp_path.iterdir()) == []

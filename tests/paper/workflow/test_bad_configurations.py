@@ -1,0 +1,92 @@
+"""A wrong configuration is refused with a line that names the key, its value and what is allowed.
+
+Each fault is known from the way in which the configuration was made (`helpers.broken`), not from
+the models that check the configuration.
+"""
+
+import re
+import reprlib
+
+import pytest
+import yaml
+from helpers.broken import GONE, MAPPINGS, SMALL, at, broken, changed, junk, places
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from chatterjee1995.workflow.configuration import check_configuration
+from impact_damper.command.messages import dotted
+from impact_damper.command.yaml_files import LOADER, ConfigurationError, check_file
+
+ALLOWED = re.compile(r"(: must |: name must be |: unknown key; known: \w|: missing; needed )")
+TEXT = yaml.safe_dump(SMALL)
+
+
+def problems(config):
+    """Return the lines with which a configuration is refused."""
+    with pytest.raises(ConfigurationError) as caught:
+        check_configuration(config)
+    return str(caught.value).split("\n")
+
+
+def test_the_small_configuration_is_accepted():
+    check_configuration(SMALL)
+
+
+@settings(max_examples=100)
+@given(broken)
+def test_what_is_broken_is_told(made):
+    lines = problems(made.config())
+    assert all(line.isprintable() and ALLOWED.search(line) for line in lines), lines
+    key = dotted(made.told)
+    if made.shown is GONE:
+        assert any(line.startswith((f"{key}: ", f"{key}.")) for line in lines), lines
+    else:
+        told = f"{key} = {reprlib.repr(made.shown)}: "
+        assert any(line.startswith(told) for line in lines), (told, lines)
+
+
+@settings(max_examples=100)
+@given(st.sampled_from([path for path, _ in places(SMALL) if path]), junk)
+def test_nothing_at_any_place_is_worse_than_rejected(path, value):
+    """A random value is refused, or it is accepted and has the type of the valid value."""
+    try:
+        check_configuration(changed(path, value).config())
+    except ConfigurationError as error:
+        assert all(ALLOWED.search(line) for line in str(error).split("\n"))
+    else:
+        assert type(value) is type(at(path)) or {type(value), type(at(path))} == {int, float}
+
+
+@settings(max_examples=50)
+@given(junk)
+def test_no_junk_is_a_configuration(value):
+    assert all(ALLOWED.search(line) for line in problems(value))
+
+
+@settings(max_examples=15)
+@given(data=st.data())
+def test_a_key_that_stands_twice_is_told(data, tmp_path_factory):
+    """The second key stands in any mapping of the file, with the same value or another."""
+    path = data.draw(st.sampled_from([path for path in MAPPINGS if at(path)]))
+    root = node = yaml.compose(TEXT, Loader=LOADER)
+    for key in path:
+        node = next(value for name, value in node.value if name.value == key)
+    key, value = data.draw(st.sampled_from(node.value))
+    node.value.append((key, data.draw(st.sampled_from([value, root.value[0][0]]))))
+    file = tmp_path_factory.mktemp("twice") / "mine.yaml"
+    file.write_text(yaml.serialize(root))
+    with pytest.raises(
+        ConfigurationError, match=rf"^mine.yaml, line \d+: {key.value} stands twice"
+    ):
+        check_file(file)
+
+
+@settings(max_examples=200)
+@given(st.binary(max_size=200) | st.text(max_size=200).map(str.encode))
+def test_no_file_is_worse_than_rejected(tmp_path_factory, content):
+    file = tmp_path_factory.mktemp("file") / "mine.yaml"
+    file.write_bytes(content)
+    try:
+        check_file(file)
+    except ConfigurationError as error:
+        assert all(line.startswith("mine.yaml") for line in str(error).split("\n"))

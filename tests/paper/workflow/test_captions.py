@@ -1,0 +1,41 @@
+"""Parameters as text in the captions of figures."""
+
+from dataclasses import fields
+
+from chatterjee1995.workflow.captions import caption, cases_in_words, in_words
+from impact_damper.model.parameters import Damper, Oscillator
+
+
+def test_numbers_ranges_lists_and_the_rule_are_told_in_the_order_of_the_fields():
+    values = {"frequency": {"first": 1.0, "last": 3.0}, "clearance": "rule", "damping": 0.215}
+    assert list(in_words(values).items()) == [
+        ("h", "= 0.215"), ("d0", "by (19)"), ("W", "from 1 to 3")
+    ]  # fmt: skip
+    assert in_words({"restitution": [0.5, 1], "oscillator": "h215"}) == {"e": "= 0.5, 1"}
+    assert in_words({"contact_stiffness": [1e6, 1, 2, 3, 4, 5]}) == {"r1": "from 1 to 1e6"}
+    assert in_words({"linear_frequency": 0, "damping": 0.1}) == {"h": "= 0.1"}
+
+
+def test_every_parameter_is_told():
+    names = [field.name for part in (Oscillator, Damper) for field in fields(part)]
+    assert list(in_words(dict.fromkeys(names, 0.5)).values()) == ["= 0.5"] * len(names)
+
+
+def test_shared_parameters_are_told_once():
+    light, heavy = {"h": "= 0.2", "rm": "= 0.1"}, {"h": "= 0.2", "rm": "= 0.4"}
+    assert cases_in_words({"a": light}) == "h = 0.2, rm = 0.1"
+    assert cases_in_words({"a": light, "b": heavy}) == "h = 0.2; rm = 0.1, 0.4"
+    assert cases_in_words({"a": light, "b": {"h": "= 0.2"}}) == "h = 0.2; rm = 0.1"
+    other = {"h": "= 0.3", "rm": "= 0.4"}
+    assert cases_in_words({"a": light, "b": other}) == "h = 0.2, rm = 0.1; h = 0.3, rm = 0.4"
+    named = cases_in_words({"a_c": light, "b": heavy}, named=True)
+    assert named == "h = 0.2; a c: rm = 0.1; b: rm = 0.4"
+    assert cases_in_words({"elastic_model": {}}) == ""
+
+
+def test_captions_use_the_symbol_of_the_axes():
+    figure = {"title": "Response", "cases": "h = 0.2, W from 1 to 3", "remark": "At W = 2, Wp = 3."}
+    words = caption(figure, "Against W; W² in |Z1|.")
+    assert words == (
+        "Response: h = 0.2, Ω from 1 to 3.\nAgainst Ω; Ω² in \\|Z1\\|.\nAt Ω = 2, Ωp = 3."
+    )

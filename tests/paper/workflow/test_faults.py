@@ -1,0 +1,136 @@
+"""Faults of a run that can be tried quickly; `make faults` tries all (tests/faults)."""
+
+import os
+import subprocess
+import sys
+import time
+
+import pytest
+from faults.project import DELETE, Project
+
+from chatterjee1995.workflow.sources import compiled_kernels
+
+pytestmark = pytest.mark.workflow
+
+FILE = "results/harmonic_balance/figure_05a.nc"
+KERNELS = "results/kernels.compiled"
+COMPILING = "Compiling the kernels again"
+YEAR = 365 * 86400
+
+# Code of a job: it opens its log, prints "begun" and runs a statement that is inserted.
+JOB = (
+    "import sys, time; from types import SimpleNamespace; from chatterjee1995.workflow.job "
+    "import Job; "
+    "Job(SimpleNamespace(log=[{!r}], output=['a.nc'], params=[])); print('begun'); {}"
+)
+LONG = "time.sleep(60); sys.__stdout__.write('lived on')"
+# Code of a process in place of Snakemake: it starts a job, and waits.
+RUN = "import subprocess, sys; subprocess.Popen([sys.executable, '-c', {!r}]); sys.stdin.read()"
+
+
+def job_log(folder):
+    """Return the path of a job's log in a folder of results, which is created."""
+    log = folder / "logs/stage/job.log"
+    log.parent.mkdir(parents=True)
+    return log
+
+
+@pytest.fixture(scope="module")
+def first(tmp_path_factory):
+    """Return a copy of the project with the result of one job, and what its run printed.
+
+    Before the run the marker file says that the kernels were edited.
+    """
+    project = Project(tmp_path_factory.mktemp("faults") / "a project")
+    marker = project.folder / KERNELS
+    marker.parent.mkdir()
+    marker.write_text("the digest of other sources")
+    code, told = project.run(targets=[FILE])
+    assert code == 0, told
+    return project, told
+
+
+@pytest.fixture
+def finished(first):
+    """Return the copy of the project with the result of one job."""
+    return first[0]
+
+
+def test_kernels_that_were_edited_are_compiled_before_the_first_job(first):
+    project, told = first
+    assert told.count(COMPILING) == 1
+    assert told.index(COMPILING) < told.index("Harmonic balance of the curve")
+    expected = compiled_kernels({"comparison": {"orders": []}})
+    assert (project.folder / KERNELS).read_text() == expected
+
+
+def test_a_file_that_is_cut_off_is_told_and_made_again(finished):
+    path = finished.folder / FILE
+    whole, stat = path.read_bytes(), path.stat()
+    path.write_bytes(whole[:-1])
+    os.utime(path, ns=(stat.st_atime_ns, stat.st_mtime_ns))
+    code, told = finished.run(targets=[FILE])
+    assert code == 1 and "Traceback" not in told
+    assert f"{FILE} has {len(whole) - 1} bytes instead of {len(whole)}: {DELETE}." in told
+    path.unlink()
+    code, told = finished.run(targets=[FILE])
+    assert code == 0 and COMPILING not in told, told
+    assert path.read_bytes() == whole
+
+
+def test_a_dry_run_sees_an_edit_after_the_clock_was_set_back_and_compiles_nothing(finished):
+    path, script = finished.folder / FILE, finished.folder / "workflow/scripts/harmonic_balance.py"
+    marker = finished.folder / KERNELS
+    text, compiled = script.read_text(), marker.read_text()
+    for edited in ("", "# A word.\n"):
+        os.utime(path, (time.time() + YEAR,) * 2)
+        script.write_text(text + edited)
+        marker.write_text("the digest of other sources")
+        code, told = finished.run("-n", targets=[FILE])
+        script.write_text(text)
+        marker.write_text(compiled)
+        assert code == 0 and COMPILING not in told, told
+        assert "dates in the future" in told
+        assert ("Harmonic balance of the curve" in told) == bool(edited)
+
+
+def test_a_job_ends_with_its_run(tmp_path):
+    log = job_log(tmp_path)
+    command = [sys.executable, "-c", RUN.format(JOB.format(str(log), LONG))]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen(command, text=True, **pipes) as run:
+        while not (log.exists() and log.read_text()):
+            time.sleep(0.05)
+        run.kill()
+        # The job holds the other end of this pipe, so reading blocks until the job has ended.
+        assert run.stdout.read() == ""
+
+
+@pytest.mark.parametrize("kind, lines", [("OSError", 1), ("ValueError", None)])
+def test_what_stops_a_job_is_told(kind, lines, tmp_path):
+    """An error about a file is one line on terminal and log; others are tracebacks in the log."""
+    log = job_log(tmp_path)
+    command = JOB.format(str(log), f"raise {kind}('a.nc is broken')")
+    job = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True)
+    assert job.returncode == 1
+    if lines:
+        assert job.stderr == "Error: a.nc is broken\n"
+        assert log.read_text() == "begun\nError: a.nc is broken\n"
+    else:
+        assert job.stderr == ""
+        assert "Traceback" in log.read_text() and "a.nc is broken" in log.read_text()
+
+
+@pytest.mark.parametrize("megabytes", [0, 300])
+def test_the_timing_of_a_job_is_its_own(megabytes, tmp_path):
+    """The timing holds the memory of the job, and not of the process that starts the job."""
+    kept = bytearray(b"1") * (200 * 2**20)
+    work = f"kept = bytearray(b'1') * ({megabytes} * 2**20); time.sleep(0.5)"
+    code = JOB.format(str(job_log(tmp_path)), work)
+    subprocess.run([sys.executable, "-c", code], check=True)
+    assert len(kept) == 200 * 2**20
+    header, values = (tmp_path / "timings/stage/job.tsv").read_text().splitlines()
+    timing = dict(zip(header.split(), map(float, values.split()), strict=True))
+    assert 0.5 < timing["seconds"] < 30
+    assert 0 < timing["cpu_seconds"] < 10
+    assert megabytes < timing["peak_memory_mb"] < megabytes + 100

@@ -1,0 +1,60 @@
+"""`provenance.json` records versions, commit and configuration of a run completely."""
+
+import shutil
+import subprocess
+from importlib.metadata import version
+
+import pytest
+from helpers.running import ROOT
+
+from chatterjee1995.workflow.provenance import provenance
+
+
+def git(folder, *arguments):
+    name = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
+    command = ["git", "-C", folder, *name, *arguments]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+
+
+@pytest.fixture
+def project(tmp_path):
+    shutil.copy(ROOT / "requirements.lock", tmp_path)
+    return tmp_path
+
+
+def test_configurations_are_told_apart_by_value_and_not_by_order(project):
+    def digest(**configuration):
+        return provenance(configuration, project)["configuration"]
+
+    assert digest(seed=1, points={"free": 2}) == digest(points={"free": 2}, seed=1)
+    assert digest(seed=1, points={"free": 2}) != digest(seed=1, points={"free": 3})
+
+
+def test_versions_are_those_installed(project):
+    versions = provenance({}, project)["versions"]
+    assert {name: versions[name] for name in ("numpy", "numba")} == {
+        name: version(name) for name in ("numpy", "numba")
+    }
+
+
+def test_the_lock_file_counts(project):
+    before = provenance({}, project)["lock"]
+    (project / "requirements.lock").write_text("numpy==1.0\n")
+    assert provenance({}, project)["lock"] != before
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="git is not installed")
+def test_the_commit_is_told_and_whether_files_were_changed_since(project):
+    git(project, "init", "--quiet")
+    git(project, "add", "requirements.lock")
+    git(project, "commit", "--quiet", "--message", "All")
+    made = provenance({}, project)
+    assert (made["commit"], made["modified"]) == (git(project, "rev-parse", "HEAD"), False)
+    (project / "requirements.lock").write_text("")
+    assert provenance({}, project)["modified"]
+
+
+def test_without_a_repository_there_is_no_commit(project, monkeypatch):
+    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(project.parent))
+    made = provenance({}, project)
+    assert (made["commit"], made["modified"]) == (None, None)

@@ -1,0 +1,296 @@
+"""After an edit exactly the jobs that depend on the edited value or file run again.
+
+Snakemake only plans the jobs, for a copy of the project whose results are empty files.
+"""
+
+import copy
+import json
+import re
+from base64 import b64decode
+from modulefinder import ModuleFinder
+from pathlib import Path
+
+import pytest
+import yaml
+from helpers import configurations, planning
+from helpers.running import ROOT, copy_of_project, snakemake
+from netCDF4 import Dataset
+
+from chatterjee1995.workflow import selection
+from chatterjee1995.workflow.registry import CHAPTERS, STAGES
+from chatterjee1995.workflow.sources import compiled_kernels
+from impact_damper.kernel.sources import module_file, sources
+
+pytestmark = pytest.mark.workflow
+
+SCRIPTS = sorted(path.stem for path in (ROOT / "workflow/scripts").glob("*.py"))
+
+
+def chapters(*names):
+    """Return the names of the jobs of chapters of the report."""
+    return {f"chapter/{name}" for name in names}
+
+
+# Paths of values in the configuration, and the jobs that run again after an edit. A final star
+# stands for any text.
+VALUES = {
+    ("curves", "figure_08", "clearance"): {
+        *(f"{s}/figure_08" for s in ("harmonic_balance", "response", "subharmonic", "branches")),
+        *chapters("design", "responses", "claims"),
+    },
+    ("curves", "free_h150", "oscillator"): {
+        *(f"{stage}/free_h150" for stage in ("harmonic_balance", "response", "branches")),
+        *chapters("design", "responses", "claims"),
+    },
+    ("points", "clearances"): {"optimum/*", *chapters("clearance", "responses", "claims")},
+    ("collisions", "figure_05a", "mass_ratio"): {"collisions", *chapters("claims")},
+    ("comparison", "harmonics"): {"accuracy/*", *chapters("methods")},
+    ("oscillators", "l100", "damping"): {
+        *(f"{stage}/free_l100" for stage in ("harmonic_balance", "response", "branches")),
+        *("harmonic_balance/figure_03b*", "design_orbit"),
+        *chapters("design", "responses", "claims"),
+    },
+    ("oscillators", "l150", "frequencies", "last"): {
+        *(f"{stage}/free_l150" for stage in ("harmonic_balance", "response", "branches")),
+        *("harmonic_balance/figure_03a", "harmonic_balance/figure_03a_rule"),
+        *chapters("design", "responses", "claims"),
+    },
+    ("comparison", "orders"): {"accuracy/*", *chapters("methods")},
+    ("figures", "figure_08", "title"): chapters("responses"),
+}
+# Files, and the jobs that run again after an edit.
+FILES = {
+    "requirements.lock": {"*"},
+    "src/impact_damper/figures/style.py": {"pages/machines", *chapters(*CHAPTERS)},
+    "src/impact_damper/pages/templates/page.html": {"pages/machines"},
+    "src/impact_damper/tables/migration.py": chapters("migration"),
+    "src/impact_damper/figures/response.py": chapters("responses"),
+    "workflow/scripts/motion.py": {"motion/figure_04", *chapters("responses", "claims")},
+    "src/impact_damper/stages/studies.py": {
+        "studies/design_plane",
+        *chapters("clearance", "responses"),
+    },
+    "src/impact_damper/migration/legs.py": {
+        *("migration/*", "release_scan/*", "release_policies/*", "release_dampers/*"),
+        *chapters("migration", "claims"),
+    },
+}
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory):
+    """Return a copy of the project that looks as after a complete run; all results are empty."""
+    project = copy_of_project(tmp_path_factory.mktemp("a project"))
+    for line in snakemake(project, "everything", "--summary").stdout.splitlines()[1:]:
+        output = project / line.split("\t")[0]
+        output.parent.mkdir(parents=True, exist_ok=True)
+        with Dataset(output, "w") if output.suffix == ".nc" else output.open("w"):
+            pass
+    config = configurations.read(project / "config/config.yaml")
+    (project / "results/kernels.compiled").write_text(compiled_kernels(config))
+    result = snakemake(project, "everything", "--touch", "--forceall")
+    assert result.returncode == 0, result.stdout + result.stderr
+    return project
+
+
+@pytest.fixture(scope="module")
+def config(project):
+    return configurations.read(project / "config/config.yaml")
+
+
+@pytest.fixture(scope="module")
+def jobs(config):
+    return planning.jobs(config)
+
+
+@pytest.fixture
+def edit(project):
+    """Return a function that changes the text of a file until the test ends."""
+    originals = {}
+
+    def change(name, text):
+        path = project / name
+        originals.setdefault(path, path.read_text())
+        path.write_text(text)
+
+    yield change
+    for path, text in originals.items():
+        path.write_text(text)
+
+
+def leaves(value, path=()):
+    """Yield path and value of each value that is not a mapping."""
+    if isinstance(value, dict):
+        for key, part in value.items():
+            yield from leaves(part, (*path, key))
+    else:
+        yield path, value
+
+
+def changed(config, path):
+    """Return the configuration with another value at a path; None for other kinds of values."""
+    config = place = dict(config)
+    for key in path[:-1]:
+        place[key] = dict(place[key])
+        place = place[key]
+    value = place[path[-1]]
+    if path[-1] == "oscillator":
+        place[path[-1]] = next(name for name in config["oscillators"] if name != value)
+    elif path[-1] in ("title", "remark"):
+        place[path[-1]] = f"{value} Again."
+    elif path[-1] == "orders":
+        place[path[-1]] = value[:1]
+    elif isinstance(value, int | float):
+        place[path[-1]] = value + 1 if isinstance(value, int) else 1.01 * value
+    else:
+        return None
+    return config
+
+
+def to_do(project, config):
+    """Return the names of the jobs that Snakemake would run, from its summary of the outputs."""
+    result = snakemake(project, "everything", "--summary")
+    assert result.returncode == 0, result.stdout + result.stderr
+    lines = [line.split("\t") for line in result.stdout.splitlines()[1:]]
+    return {planning.job_of_file(config, line[0]) for line in lines if line[-1] != "no update"}
+
+
+def matching(jobs, patterns):
+    """Return the jobs whose names match one of the patterns, as in `VALUES`."""
+    return {
+        job
+        for job in jobs
+        for pattern in patterns
+        if job == pattern or pattern.endswith("*") and job.startswith(pattern[:-1])
+    }
+
+
+@pytest.fixture(scope="module")
+def noted(project, config):
+    """Return what Snakemake recorded of the complete run: {job: its parameters and inputs}."""
+    found = {}
+    for path in (project / ".snakemake/metadata").iterdir():
+        record = json.loads(path.read_text())
+        name = planning.job_of_file(config, b64decode(path.name).decode())
+        found[name] = frozenset(record["params"]), frozenset(record["input"])
+    del found["kernels"]
+    return found
+
+
+def test_snakemake_compares_what_the_registry_says(noted, config, jobs):
+    found = {}
+    for name, (parameters, files) in noted.items():
+        read = {planning.job_of_file(config, file) for file in files if file.endswith(".nc")}
+        found[name] = planning.Job(parameters, frozenset(read))
+    assert found == jobs
+
+
+def test_each_value_is_read_and_reruns_not_everything(config, jobs):
+    for path, _ in leaves(config):
+        edited = changed(config, path)
+        if edited and path != ("chunks",):
+            again = planning.reruns(jobs, planning.jobs(edited))
+            assert 0 < len(again) < len(jobs), path
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_a_script_uses_all_of_its_parameters(stage, config):
+    """Otherwise a change of the parameter would rerun the job without need."""
+    text = (ROOT / f"workflow/scripts/{stage}.py").read_text()
+    parameters = STAGES[stage].parameters(config, selection.entries(config, stage)[0])
+    unused = {key for key in parameters if f'"{key}"' not in text and f".{key}" not in text}
+    assert not unused
+    assert "config" not in text
+
+
+@pytest.mark.parametrize("path", VALUES, ids=".".join)
+def test_an_edit_of_a_value_concerns_what_reads_it(path, config, jobs):
+    again = planning.reruns(jobs, planning.jobs(changed(config, path)))
+    assert again == matching(jobs, VALUES[path])
+
+
+@pytest.mark.parametrize("path", FILES)
+def test_an_edit_of_a_file_concerns_what_runs_it(path, noted, jobs):
+    edited = {name for name, (_, files) in noted.items() if path in files}
+    assert planning.reruns(jobs, jobs, edited) == matching(jobs, FILES[path])
+
+
+def test_snakemake_reruns_what_edits_concern(project, edit, config, jobs):
+    """The edits concern values, a script, a module that two stages import, and a template.
+
+    Jobs that both an edit of a value and an edit of a file concern are jobs of chapters.
+    """
+    paths = [
+        "workflow/scripts/motion.py",
+        "src/impact_damper/stages/studies.py",
+        "src/impact_damper/pages/templates/page.html",
+    ]
+    edited = config
+    for path in VALUES:
+        edited = changed(edited, path)
+    edit("config/config.yaml", yaml.safe_dump(edited, sort_keys=False))
+    for path in paths:
+        edit(path, (project / path).read_text() + "\n")
+    by_values = planning.reruns(jobs, planning.jobs(edited))
+    by_files = matching(jobs, set().union(*(FILES[path] for path in paths)))
+    assert by_values & by_files <= matching(jobs, chapters(*CHAPTERS))
+    assert to_do(project, config) == by_values | by_files
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_sources_of_a_script_are_what_python_imports(script, config):
+    """Python's own search for imports finds the files that `sources` finds."""
+    paths = [ROOT / f"workflow/scripts/{script}.py"]
+    if script == "chapter":
+        modules = {m for chapter in CHAPTERS for m in selection.chapter_modules(config, chapter)}
+        paths += map(module_file, modules)
+    finder = ModuleFinder(path=[str(ROOT / "src")])
+    for path in paths:
+        finder.run_script(str(path))
+    found = {Path(m.__file__) for m in finder.modules.values() if m.__file__} | set(paths)
+    own = sources(*paths)
+    # `sources` omits an `__init__.py` from which no name is imported, since it affects no result.
+    assert own <= found and {path.name for path in found - own} <= {"__init__.py"}
+
+
+def test_touched_files_comments_and_order_rerun_nothing(project, edit, config):
+    for part in ("src", "workflow", "config"):
+        for path in (project / part).rglob("*.*"):
+            path.touch()
+
+    def turned(value):
+        if not isinstance(value, dict):
+            return value
+        return {key: turned(part) for key, part in reversed(value.items())}
+
+    edit("config/config.yaml", f"# A word.\n{yaml.safe_dump(turned(config), sort_keys=False)}")
+    marker = project / "results/kernels.compiled"
+    text = marker.read_text()
+    marker.unlink()
+    result = snakemake(project, "-n")
+    marker.write_text(text)
+    assert "Nothing to be done" in result.stdout + result.stderr
+
+
+def test_a_dry_run_shows_what_changed(project, edit, config):
+    """The edits concern a value, a script, and the number of chunks, which recomputes a study."""
+    edited = copy.deepcopy(config) | {"chunks": 2}
+    edited["curves"]["figure_08"]["clearance"] = 1.07
+    edit("config/config.yaml", yaml.safe_dump(edited))
+    edit("workflow/scripts/motion.py", "# A word.")
+    result = snakemake(project, "-n")
+    told = result.stdout + result.stderr
+    before, now = re.search(
+        r"Motions over frequency, of the curve figure_08\n"
+        r"Reason: Params have changed .* before: (.*) now: (.*)",
+        told,
+    ).groups()
+    damper = {"mass_ratio": 0.12, "restitution": 1, "contact_stiffness": 2000}
+    assert yaml.safe_load(before) == {"damper": damper | {"clearance": 1.063}}
+    assert yaml.safe_load(now) == {"damper": damper | {"clearance": 1.07}}
+    assert "Reason: Updated input files: workflow/scripts/motion.py" in told
+    assert sorted(re.findall(r"^Job \d+: (.* design_plane)$", told, re.M)) == [
+        "Chunk 1-of-2 of the study design_plane",
+        "Chunk 2-of-2 of the study design_plane",
+        "The study design_plane",
+    ]

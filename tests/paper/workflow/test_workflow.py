@@ -1,0 +1,113 @@
+"""Plans of the workflow for its targets, and its messages about wrong configurations."""
+
+import re
+
+import pytest
+from helpers import configurations
+from helpers.running import ROOT, snakemake
+from snakemake.common.configfile import load_configfile
+from snakemake.utils import update_config
+
+from chatterjee1995.workflow.configuration import check_configuration, without_left_out
+from chatterjee1995.workflow.registry import CHAPTERS, PAPER, STAGES
+from impact_damper.command.yaml_files import ConfigurationError
+
+pytestmark = pytest.mark.workflow
+
+
+def jobs(result):
+    """Return the number of jobs by rule, from the table that Snakemake prints first."""
+    assert result.returncode == 0, result.stdout + result.stderr
+    table = re.search(
+        r"^job +count\n[- ]+\n(.*?)^total", result.stderr + result.stdout, re.M | re.S
+    )
+    return (
+        {line.split()[0]: int(line.split()[1]) for line in table[1].splitlines()} if table else {}
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "beside"), [((), 81), (("--configfile", "config/smoke.yaml"), 12)]
+)
+def test_every_script_serves_the_paper_and_the_smoke_run(arguments, beside, tmp_path):
+    """Every target is known. The number of jobs is limited, because each takes seconds to start.
+
+    `beside` is the largest number of jobs in addition to one for each script.
+    """
+    scripts = {path.stem for path in (ROOT / "workflow/scripts").glob("*.py")}
+    targets = {"everything", "figures", "tables", *(f"all_{stage}" for stage in STAGES)}
+    planned = snakemake(ROOT, *targets, *arguments, "-n", "--directory", tmp_path / "elsewhere")
+    found = jobs(planned)
+    assert targets < found.keys()
+    for target in targets:  # they start no process
+        del found[target]
+    assert sum(found.values()) <= len(scripts) + beside
+    chapters = {f"chapter_{name}" for name in CHAPTERS}
+    assert chapters < found.keys()
+    # Only the smoke run (a small configuration) divides a study into chunks.
+    assert found.keys() - chapters | {"chapter", "study_chunks"} == scripts
+
+
+def test_the_paper_is_made_without_the_stages_beside_it(tmp_path):
+    found = jobs(snakemake(ROOT, "-n", "--directory", tmp_path / "elsewhere"))
+    del found["all"]
+    assert sum(found.values()) <= 100
+    beside = {name for name, stage in STAGES.items() if not stage.paper}
+    shown = {f"chapter_{name}" for name in CHAPTERS}
+    assert found.keys() & shown == {f"chapter_{name}" for name in PAPER}
+    assert not found.keys() & beside and found.keys() > STAGES.keys() - beside
+
+
+def test_a_broken_configuration_starts_no_job_and_is_told_in_one_line_each(tmp_path):
+    mine = tmp_path / "mine.yaml"
+    mine.write_text("curves: {figure_05a: {mass_ratio: -1}}\nsed: 3\n")
+    result = snakemake(ROOT, "--configfile", mine, "--directory", tmp_path / "elsewhere")
+    told = result.stderr + result.stdout
+    assert result.returncode == 1
+    assert "Traceback" not in told
+    assert re.search(
+        r"^ *curves\.figure_05a\.mass_ratio = -1: must be .*at least 1e-06", told, re.M
+    )
+    assert re.search(r"^ *sed = 3: unknown key; known: ", told, re.M)
+    assert not (tmp_path / "elsewhere/results").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "line"),
+    [
+        ("mine.yaml", "seed: .nan", r"seed = nan: must be a whole number"),
+        ("mine.yaml", "contact_stiffness: 1e3", r"contact_stiffness = '1e3': must be a finite num"),
+        (
+            "mine.yaml",
+            "points: {free: 1000000000}",
+            r"points\.free = 1000000000: must be .*at most",
+        ),
+        ("mine.yaml", "points: {free: 100000}", r"points\.free = 100000: with search\.starts"),
+        ("mine.yaml", "curves: 5", r"curves = 5: must be keys with values"),
+        ("mine.yaml", "search: {starts: []}", r"search\.starts = \[\]: must be a whole number"),
+        ("mine.yaml", '"se\\ned": 3', r"'se\\ned' = 3: unknown key; known: balance_map"),
+        ("mine.json", '{"seed": Infinity}', r"seed = inf: must be a whole number"),
+    ],
+)
+def test_a_broken_file_is_told_as_snakemake_reads_it(name, text, line, tmp_path):
+    mine = tmp_path / name
+    mine.write_text(text)
+    config = configurations.read()
+    update_config(config, load_configfile(mine))
+    with pytest.raises(ConfigurationError, match=rf"(?m)^{line}"):
+        check_configuration(without_left_out(config))
+
+
+def test_a_key_that_stands_twice_is_told(tmp_path):
+    mine = tmp_path / "mine.yaml"
+    mine.write_text("seed: 1\nseed: 2\n")
+    result = snakemake(ROOT, "-n", "--configfile", mine)
+    assert result.returncode == 1
+    assert "mine.yaml, line 2: seed stands twice" in result.stderr + result.stdout
+
+
+def test_each_hook_stands_once():
+    """Snakemake replaces the first of two hooks `onstart` by the second, without a message."""
+    files = [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")]
+    hooks = re.findall("^(on[a-z]+):", "".join(path.read_text() for path in files), re.MULTILINE)
+    assert sorted(hooks) == ["onstart", "onsuccess"]
