@@ -1,6 +1,4 @@
-"""Helpers of the tables: columns with the parameters of a dataset, and runs of True in an array."""
-
-import numpy as np
+"""Columns with the parameters of a dataset."""
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.model.parameters import SYMBOLS
@@ -14,8 +12,3 @@ def parameter_columns(data, *names) -> dict:
     """
     parameters = parameters_of(data)
     return {SYMBOLS[name]: parameters[name] for name in names if name in parameters}
-
-
-def runs_of_true(mask) -> np.ndarray:
-    """Return for each run of True its first index and the index after its last, shape (n, 2)."""
-    return np.flatnonzero(np.diff(np.asarray(mask, int), prepend=0, append=0)).reshape(-1, 2)

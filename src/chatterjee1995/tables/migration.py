@@ -10,8 +10,9 @@ import numpy as np
 import pandas as pd
 
 from chatterjee1995.claims import extract
-from chatterjee1995.tables.columns import parameter_columns, runs_of_true
+from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import flag
+from impact_damper.data.sweeps import runs_of_true
 
 # Columns of the Markdown tables with their heads; the CSV files have all columns.
 SHOWN = {

@@ -13,7 +13,7 @@ from chatterjee1995.claims.claim import Missing
 from chatterjee1995.claims.suppression import high_motions
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import flag
-from impact_damper.data.families import families
+from impact_damper.data.sweeps import families
 from impact_damper.data.variables.orbits import TORUS
 from impact_damper.data.variables.variable import OUTCOME
 

@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 from impact_damper.model.bounds import MASS_RATIO_RANGE, check_number, shown
 from impact_damper.model.machine import Machine
 from impact_damper.model.names import names_arguments
-from impact_damper.model.units import check_si, convert, physical, with_unit
+from impact_damper.model.text import with_unit
+from impact_damper.model.units import check_si, convert, physical
 
 
 @names_arguments

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from impact_damper.model.bounds import shown
-from impact_damper.model.units import with_unit
+from impact_damper.model.text import with_unit
 from impact_damper.theory.free_oscillator import free_folds, maximum_response
 
 

@@ -12,7 +12,8 @@ from impact_damper.model.bounds import (
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.names import names_arguments
 from impact_damper.model.parameters import Damper
-from impact_damper.model.units import check_si, convert, physical, with_unit
+from impact_damper.model.text import with_unit
+from impact_damper.model.units import check_si, convert, physical
 
 
 @names_arguments

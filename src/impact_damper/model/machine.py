@@ -9,7 +9,8 @@ from impact_damper.model.dampers import MachineDamper
 from impact_damper.model.names import names_arguments
 from impact_damper.model.parameters import Oscillator
 from impact_damper.model.scales import Scales, static_deflection
-from impact_damper.model.units import check_si, convert, physical, with_unit
+from impact_damper.model.text import with_unit
+from impact_damper.model.units import check_si, convert, physical
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
 # Largest damping ratio for which `Machine.oscillator` approximates the force of a moving base over

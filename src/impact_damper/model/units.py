@@ -12,6 +12,7 @@ from functools import cache
 from typing import NamedTuple
 
 from impact_damper.model.bounds import check_number, shown
+from impact_damper.model.text import with_unit
 
 
 class Quantity(NamedTuple):
@@ -196,11 +197,6 @@ def check_si(name, value, quantity, *, above=None, least=None, most=None, why=""
     reason = f" ({why})" if why else ""
     given = shown(value) if isinstance(value, str) else with_unit(number, unit)
     raise ValueError(f"{name} = {given}: must be {' and '.join(allowed)}{reason}")
-
-
-def with_unit(value, unit) -> str:
-    """Return a number with its unit as text."""
-    return f"{value:.6g} {unit}".rstrip()
 
 
 def physical(quantity, **others):

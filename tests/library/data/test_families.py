@@ -3,7 +3,7 @@
 import numpy as np
 from helpers.made_up import matched_sweep
 
-from impact_damper.data.families import families
+from impact_damper.data.sweeps import families
 
 
 def test_motions_over_a_sweep():

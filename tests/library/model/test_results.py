@@ -250,7 +250,7 @@ def test_branches_are_followed_from_motions_in_si():
         ),
         (
             lambda d: idm.clearance_sweep(LINEAR, d, 20, ["1 nm", "2 mm"]),
-            "clearances[0] = '1 nm': must be at least 2e-09 m",
+            "clearances[0] = '1 nm': must be at least 2e-9 m",
         ),
         (
             lambda d: idm.orbit_branch(LINEAR, d, 20, (0, 0, 0, 0), span=(19, 21), parameter="gap"),

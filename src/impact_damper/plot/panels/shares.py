@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 
 from impact_damper.data.datasets import parameters_of
-from impact_damper.data.families import families
+from impact_damper.data.sweeps import families
 from impact_damper.plot.panels.style import (
     BLACK,
     BLUE,

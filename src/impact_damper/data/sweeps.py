@@ -1,4 +1,4 @@
-"""Motions of a sweep, each with all values of the swept parameter at which it was found."""
+"""Sweeps: the motions found along the swept parameter, and runs of True in a mask."""
 
 from typing import NamedTuple
 
@@ -53,3 +53,8 @@ def families(data) -> list:
         period = int(data["period"][row, column])
         found.append(Family(outcome, period, places, int(starts[places].sum())))
     return sorted(found, key=lambda each: -each.starts)
+
+
+def runs_of_true(mask) -> np.ndarray:
+    """Return for each run of True its first index and the index after its last, shape (n, 2)."""
+    return np.flatnonzero(np.diff(np.asarray(mask, int), prepend=0, append=0)).reshape(-1, 2)

@@ -1,0 +1,42 @@
+"""Numbers as text for people: the one place that rounds, and that words a missing number.
+
+This module imports no NumPy, because Snakemake reads it at every dry run.
+"""
+
+import math
+
+# Numbers below 10**POSITIONAL are written without an exponent.
+POSITIONAL = 5
+
+
+def number(value, digits=3) -> str:
+    """Return a number with at most `digits` significant digits, such as "0.215", "12300" or "2e7".
+
+    With `digits=None` the text has all digits of the number. NaN becomes "none", infinity "∞".
+    """
+    value = float(value) + 0.0  # -0.0 becomes 0.0
+    if not math.isfinite(value):
+        return "none" if math.isnan(value) else "∞" if value > 0 else "-∞"
+    text = f"{value:g}" if digits is None else f"{value:.{digits}g}"
+    if digits is None and float(text) != value:
+        text = repr(value)
+    if "e" not in text:
+        return text
+    mantissa, power = text.split("e")
+    if 0 < int(power) < POSITIONAL:
+        return f"{float(text):.0f}"
+    return f"{mantissa}e{int(power)}"
+
+
+def percent(share, digits=3) -> str:
+    """Return a share in per cent; only a share of exactly 1 becomes "100 %"."""
+    if 0.9 < share < 1:  # rounding must not make it 1
+        digits = max(digits, 1 - math.floor(math.log10(1 - share)))
+    text = number(100 * share, digits)
+    return text if text == "none" else f"{text} %"
+
+
+def with_unit(value, unit, digits=6) -> str:
+    """Return a number with its unit; the unit "1" of a pure number is left out."""
+    text = number(value, digits)
+    return text if text == "none" or unit in ("", "1") else f"{text} {unit}"
