@@ -26,7 +26,6 @@ include: "workflow/rules/responses.smk"
 include: "workflow/rules/clearance.smk"
 include: "workflow/rules/migration.smk"
 include: "workflow/rules/methods.smk"
-include: "workflow/rules/published.smk"
 include: "workflow/rules/machines.smk"
 include: "workflow/rules/report.smk"
 

@@ -82,10 +82,6 @@ def is_named(path):
     """Return whether the keys at a path are names of entries, which the user chooses."""
     if len(path) == 3 and path[::2] == ("release_policies", "dampers"):
         return True
-    if path[:1] == ("method_verdicts",) and len(path) == 3:
-        return path[2] in ("damped", "free")
-    if path[:1] == ("release_policies",) and len(path) == 3:
-        return path[2] == "dampers"
     return len(path) == 1 and isinstance(next(iter(SMALL[path[0]].values())), dict)
 
 

@@ -94,26 +94,6 @@ rule stable_steps:
         "../scripts/stable_steps.py"
 
 
-rule method_verdicts:
-    input:
-        code=code("method_verdicts"),
-        kernels=KERNELS,
-    output:
-        "<results>/method_verdicts/{name}.nc",
-    log:
-        "<logs>/method_verdicts/{name}.log",
-    cache: SHARED
-    priority: 1
-    conda:
-        ENVIRONMENT
-    params:
-        **parameters("method_verdicts"),
-    message:
-        "Verdicts of integrators by tolerance, {wildcards.name}"
-    script:
-        "../scripts/method_verdicts.py"
-
-
 rule accuracy:
     input:
         references=local(ROOT / "workflow/resources/references.json"),

@@ -74,22 +74,3 @@ rule release_policies:
         "Policies of migration, the dampers {wildcards.name}"
     script:
         "../scripts/release_policies.py"
-
-
-rule release_dampers:
-    input:
-        code=code("release_dampers"),
-        kernels=KERNELS,
-    output:
-        "<results>/release_dampers/{name}.nc",
-    log:
-        "<logs>/release_dampers/{name}.log",
-    cache: SHARED
-    conda:
-        ENVIRONMENT
-    params:
-        **parameters("release_dampers"),
-    message:
-        "Dampers for migration and suppression, the maps {wildcards.name}"
-    script:
-        "../scripts/release_dampers.py"

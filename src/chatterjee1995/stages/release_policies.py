@@ -68,7 +68,7 @@ def release_policies(
     dampers,
     frequencies,
     *,
-    noisy_frequencies,
+    noisy_frequencies=(),
     trials=200,
     tested=10_000,
     cells=64,

@@ -109,7 +109,7 @@ def warm_up_settling() -> None:
     settling = Settling(patience=100, limit=100, watched=1)
     basins(OSCILLATOR, None, FREQUENCY, cells=2, settling=settling)
     numbers = {"trials": 1, "tested": 1, "cells": 4, "settling": settling}
-    release_policies(OSCILLATOR, [DAMPER], [FREQUENCY], noisy_frequencies=[], **numbers)
+    release_policies(OSCILLATOR, [DAMPER], [FREQUENCY], **numbers)
     frequency_response(
         OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling
     )
@@ -144,9 +144,6 @@ def warm_up_rivals(orders=()) -> None:
     for label in COMPARED["accuracy"]:
         name, locate = name_and_mode(label)
         rivals[name].run(p, start, begin, 1, 1e-3, locate, 1000)
-    for label in COMPARED["method_verdicts"]:
-        name, locate = name_and_mode(label)
-        rivals[name].strobes(p, start, begin, 1, resolution[name], locate)
     for name in COMPARED["missed_contacts"][1:]:
         rivals[name].flight(without_walls(p), start, 1.0, resolution[name], 0.5)
     for name in COMPARED["stable_steps"]:

@@ -71,7 +71,7 @@ FILES = {
         *chapters("clearance", "responses"),
     },
     "src/impact_damper/migration/legs.py": {
-        *("migration/*", "release_scan/*", "release_policies/*", "release_dampers/*"),
+        *("migration/*", "release_scan/*", "release_policies/*"),
         *chapters("migration", "claims"),
     },
 }

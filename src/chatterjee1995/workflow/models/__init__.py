@@ -15,7 +15,6 @@ from chatterjee1995.workflow.models import (
     figures,
     methods,
     motions,
-    published,
     studies,
 )
 from chatterjee1995.workflow.models.settings import (
@@ -31,7 +30,7 @@ from impact_damper.command import machine_entry
 from impact_damper.command.section import Section
 from impact_damper.command.values import count, entries
 
-SUBJECTS = (motions, balance, contact, methods, studies, published, machine_entry, figures)
+SUBJECTS = (motions, balance, contact, methods, studies, machine_entry, figures)
 ENTRIES = {"oscillators": Oscillators} | {
     name: model for subject in SUBJECTS for name, model in subject.SECTIONS.items()
 }

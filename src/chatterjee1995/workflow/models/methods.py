@@ -1,34 +1,22 @@
-"""Methods compared: verdicts on integrators, test cases (scenes) with references, settings.
-
-A verdict says whether an integrator finds the motion that exists in truth.
-"""
+"""Methods compared on test cases (scenes) with references: scenes and settings."""
 
 from pydantic import create_model
 
 from chatterjee1995.methods.methods import (
     ERRORS,
     LIMITED,
-    LONGEST_PERIOD,
     START_HARMONICS,
     STATISTICS,
     TOLERANCE_KEYS,
-    VERDICT_PERIODS_RANGE,
 )
-from chatterjee1995.workflow.models.contact import STEPS, TOLERANCES, close_steps
 from chatterjee1995.workflow.models.system import (
-    BOUNDS,
-    COMMON,
-    DAMPER,
     FREQUENCY,
-    NEEDED,
     RUN_PERIODS,
     MaybeWithDamper,
-    WithOscillator,
-    keys_of,
 )
 from impact_damper.command.messages import problem
 from impact_damper.command.section import Section
-from impact_damper.command.values import choice, count, entries, number, several
+from impact_damper.command.values import choice, count, number, several
 from impact_damper.model.bounds import (
     FARTHEST,
     HARMONIC_RANGE,
@@ -49,54 +37,6 @@ ORDER = count("order of the series", least=6, most=60)
 def state(meaning):
     """Return the type of a state: displacement and velocity of Z1 and Z2."""
     return several(COMPONENT, f"Z1, Z1', Z2, Z2': {meaning}", least=4, most=4)
-
-
-class FreeVerdict(Section):
-    """A motion without a damper near an orbit whose stability is known."""
-
-    frequency: FREQUENCY
-    orbit_frequency: number("W at which the orbit is found", **BOUNDS["frequency"])
-    near: state("state close to the orbit at W T = pi/2")
-    period: count(
-        "period of the orbit in forcing cycles, at most the number of states compared at the end",
-        least=1,
-        most=LONGEST_PERIOD,
-    )
-    offset: state("difference between the start of the run and the state of the orbit")
-    periods: count(
-        "forcing cycles of a run, at least the number of states compared", **VERDICT_PERIODS_RANGE
-    )
-    scipy_every: count(
-        "SciPy's slow methods are run at every tolerance whose position in the list is a multiple "
-        "of this number, or never if it is 0",
-        least=0,
-        most=100000,
-    )
-
-
-class DampedVerdict(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), FreeVerdict):
-    """A motion with a damper near an orbit whose stability is known."""
-
-
-class Verdicts(WithOscillator):
-    """Verdicts on integrators, by tolerance, on motions near orbits whose stability is known."""
-
-    tolerances: TOLERANCES
-    steps: STEPS
-    damped: entries(DampedVerdict, least=0)
-    free: entries(FreeVerdict, least=0)
-
-    def contradictions(self, path, config):
-        yield from super().contradictions(path, config)
-        yield from close_steps(path, self)
-        if not self.damped and not self.free:
-            reason = "must have an entry, here or in free (scenes to run)"
-            yield problem((*path, "damped"), {}, reason)
-        for name in sorted(self.damped.keys() & self.free.keys()):
-            reason = "must have another name (a damped scene is called the same)"
-            yield problem(
-                (*path, "free", name), self.free[name].model_dump(exclude_unset=True), reason
-            )
 
 
 class Accuracy(Section):
@@ -184,4 +124,4 @@ class Comparison(ByTolerances):
             yield problem((*path, "scipy_periods"), self.scipy_periods, reason)
 
 
-SECTIONS = {"method_verdicts": Verdicts, "scenes": Scene}
+SECTIONS = {"scenes": Scene}

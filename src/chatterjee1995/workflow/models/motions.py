@@ -7,9 +7,7 @@ from chatterjee1995.workflow.models.system import (
     DAMPER,
     FREQUENCIES,
     FREQUENCY,
-    MASS_RATIO,
     NEEDED,
-    RESTITUTION,
     MaybeWithDamper,
     WithDamper,
     WithOscillator,
@@ -18,7 +16,7 @@ from chatterjee1995.workflow.models.system import (
 )
 from chatterjee1995.workflow.registry import STAGES
 from impact_damper.command.messages import dotted, problem
-from impact_damper.command.section import Section, increasing
+from impact_damper.command.section import increasing
 from impact_damper.command.values import choice, count, entries, number, several, starts_of
 from impact_damper.model.bounds import (
     FARTHEST,
@@ -129,9 +127,6 @@ class ReleasePolicies(WithOscillator):
 
     dampers: entries(PolicyDamper)
     frequencies: several(FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)
-    noisy_frequencies: several(
-        FREQUENCY, "frequencies with noise, delay and a wrong model", least=1, distinct=True
-    )
     trials: count("trials of each policy", **RUNS_RANGE)
     tested: count("releases that test which states are predicted to lead to the goal", **RUNS_RANGE)
     cells: count("cells on each axis of the coarse grid of a basin", least=4, most=4096)
@@ -139,37 +134,6 @@ class ReleasePolicies(WithOscillator):
     def contradictions(self, path, config):
         yield from super().contradictions(path, config)
         yield from increasing((*path, "frequencies"), self.frequencies, "frequencies of a curve")
-        for index, frequency in enumerate(self.noisy_frequencies):
-            if frequency not in self.frequencies:
-                reason = f"must be one of {dotted((*path, 'frequencies'))}"
-                yield problem((*path, "noisy_frequencies", index), frequency, reason)
-
-
-class RestitutionCut(Section):
-    """A damper at several restitutions."""
-
-    mass_ratio: MASS_RATIO
-    clearance: CLEARANCE
-    restitutions: several(RESTITUTION, "increasing values of e", least=2, distinct=True)
-
-
-class ReleaseDampers(WithOscillator):
-    """Maps of dampers, for migration and for suppression."""
-
-    frequencies: several(FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)
-    mass_ratios: several(MASS_RATIO, "evenly spaced values of rm", least=2, distinct=True)
-    clearances: several(CLEARANCE, "evenly spaced values of d0", least=2, distinct=True)
-    restitutions: several(RESTITUTION, "values of e of the maps", least=1, distinct=True)
-    cut: RestitutionCut
-    trials: count("trials of each policy with each damper", **RUNS_RANGE)
-    starts: count("random starts of motions with each damper", **RUNS_RANGE)
-    cells: count("cells on each axis of the coarse grid of a basin", least=4, most=4096)
-
-    def contradictions(self, path, config):
-        yield from super().contradictions(path, config)
-        for key in ("frequencies", "mass_ratios", "clearances"):
-            yield from increasing((*path, key), getattr(self, key), "values of an axis")
-        yield from increasing((*path, "cut", "restitutions"), self.cut.restitutions, "a cut")
 
 
 SECTIONS = {
@@ -181,5 +145,4 @@ SECTIONS = {
     "release_scan": ReleaseScan,
     "basins": Basins,
     "release_policies": ReleasePolicies,
-    "release_dampers": ReleaseDampers,
 }

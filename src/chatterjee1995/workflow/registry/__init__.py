@@ -13,7 +13,6 @@ from chatterjee1995.workflow.registry import (
     machines,
     methods,
     migration,
-    published,
     responses,
 )
 
@@ -25,7 +24,6 @@ CHAPTERS = {
     "migration": migration,
     "methods": methods,
     "claims": claims,
-    "published": published,
     "machines": machines,
 }
 # Chapters of the paper, which `snakemake` without a target makes.

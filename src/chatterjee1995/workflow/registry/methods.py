@@ -8,7 +8,6 @@ cause.
 from chatterjee1995.workflow.registry.records import Kind, Stage, Table
 from chatterjee1995.workflow.registry.values import (
     axis,
-    damper,
     grid,
     oscillator,
     settling,
@@ -80,21 +79,6 @@ def stable_steps(config, name):
     }
 
 
-def method_verdicts(config, name):
-    entry = config["method_verdicts"][name]
-    scenes = {
-        scene: {key: value for key, value in given.items() if key not in pick(Damper, given)}
-        | {"damper": damper(config, given)}
-        for scene, given in (entry["damped"] | entry["free"]).items()
-    }
-    return {
-        "oscillator": oscillator(config, entry["oscillator"]),
-        "tolerances": axis(entry["tolerances"]),
-        "steps": grid(entry["steps"], entry["tolerances"]["points"]),
-        "scenes": scenes,
-    }
-
-
 def accuracy(config, name):
     entry = config["scenes"][name]
     return system(config, entry) | {
@@ -111,7 +95,6 @@ STAGES = (
     Stage("rigid_limit", "rigid_limit", rigid_limit),
     Stage("missed_contacts", "missed_contacts", missed_contacts),
     Stage("stable_steps", "stable_steps", stable_steps),
-    Stage("method_verdicts", "method_verdicts", method_verdicts),
     Stage("accuracy", "scenes", accuracy),
 )
 KINDS = (
@@ -120,7 +103,6 @@ KINDS = (
     Kind("rigid_limit", ("rigid_limit",)),
     Kind("missed_contacts", ("missed_contacts",), most=1),
     Kind("stable_steps", ("stable_steps",)),
-    Kind("method_verdicts", ("method_verdicts",), most=1),
     Kind("accuracy", ("accuracy",), named=True),
 )
 TABLES = (
@@ -160,13 +142,6 @@ TABLES = (
         "chatterjee1995.tables.integrators",
         ("stable_steps",),
         "Largest steps with which fixed-step methods keep the quiet motion accurate.",
-    ),
-    Table(
-        "method_verdicts",
-        "chatterjee1995.tables.integrators",
-        ("method_verdicts",),
-        "Loosest tolerance, or smallest number of steps, from which on a method finds the right "
-        "motion, or the kind of its error.",
     ),
     Table(
         "models",

@@ -47,23 +47,11 @@ def basins(config, name):
 
 def release_policies(config, name):
     entry = config["release_policies"][name]
-    keys = ("frequencies", "noisy_frequencies", "trials", "tested", "cells")
+    keys = ("frequencies", "trials", "tested", "cells")
     return {
         "oscillator": oscillator(config, entry["oscillator"]),
         "dampers": [damper(config, each) for _, each in sorted(entry["dampers"].items())],
         "policies": {key: entry[key] for key in keys} | {"seed": config["seed"]},
-        "settling": settling(config),
-    }
-
-
-def release_dampers(config, name):
-    entry = config["release_dampers"][name]
-    keys = ("frequencies", "mass_ratios", "clearances", "restitutions", "cut")
-    more = ("trials", "starts", "cells")
-    return {
-        "oscillator": oscillator(config, entry["oscillator"]),
-        "dampers": {key: entry[key] for key in keys},
-        "numbers": {key: entry[key] for key in more} | {"seed": config["seed"]},
         "settling": settling(config),
     }
 
@@ -74,15 +62,12 @@ STAGES = (
     Stage("release_scan", "release_scan", release_scan),
     Stage("basins", "basins", basins),
     Stage("release_policies", "release_policies", release_policies),
-    Stage("release_dampers", "release_dampers", release_dampers),
 )
 KINDS = (
     Kind("migration", ("migration",), PANELS.format("migration")),
     Kind("release", ("migration",)),
     Kind("basins", ("basins",), PANELS.format("basins"), damper=False, most=4),
     Kind("release_policies", ("release_policies",), most=1),
-    Kind("release_disturbances", ("release_policies",), most=1),
-    Kind("release_dampers", ("release_dampers",), damper=False, most=1),
 )
 TABLES = (
     Table(
@@ -110,24 +95,5 @@ TABLES = (
         ("release_policies",),
         "Predictions of the release set, tested with releases that were not used to build it, and "
         "time of the policy by state compared with release at a random phase.",
-    ),
-    Table(
-        "release_disturbances",
-        "chatterjee1995.tables.policies",
-        ("release_policies",),
-        "Success of the policy by state under noise, delay and a wrong model, with the best "
-        "margin.",
-    ),
-    Table(
-        "release_dampers",
-        "chatterjee1995.tables.policies",
-        ("release_dampers",),
-        "The best clearance for migration by state, and for suppression, at each mass ratio.",
-    ),
-    Table(
-        "release_answers",
-        "chatterjee1995.tables.policies",
-        ("release_dampers",),
-        "The best damper for migration by state, and whether it is the best for suppression.",
     ),
 )
