@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 from chatterjee1995.claims.verdicts import document
 from chatterjee1995.workflow.models.reference import reference
 from impact_damper.command.command_line import app as command
-from impact_damper.data.variables import MODULES
+from impact_damper.data.variables import VARIABLES
 
 ROOT = Path(__file__).parents[2]
 # Folders of results in the order of preference, and their names on the pages.
@@ -44,23 +44,19 @@ def write_pages(app):
 
 
 def variables():
-    """Return the page that lists all variables of datasets, by subject."""
+    """Return the page that lists all variables of datasets."""
     parts = [
         "# Variables of the datasets\n",
         "In datasets of a machine the attribute `units` holds the unit of a variable. A variable "
         "with named values stores numbers, and `idm.decode` returns the names.\n",
     ]
-    for module in MODULES:
-        parts.append(f"## {module.__name__.rpartition('.')[2].replace('_', ' ').capitalize()}\n")
-        parts.append(f"{module.__doc__.splitlines()[0]}\n")
-        parts.append("| name | meaning | symbol | values |\n|---|---|---|---|")
-        for name, each in module.VARIABLES.items():
-            values = ", ".join(f"{word} {number}" for word, number in (each.flags or {}).items())
-            values = values or ("" if each.units == "1" else each.units)
-            cells = (f"`{name}`", each.long_name, each.symbol, values)
-            parts.append(f"| {' | '.join(cell.replace('|', 'abs ') for cell in cells)} |")
-        parts.append("")
-    return "\n".join(parts)
+    parts.append("| name | meaning | symbol | values |\n|---|---|---|---|")
+    for name, each in sorted(VARIABLES.items()):
+        values = ", ".join(f"{word} {number}" for word, number in (each.flags or {}).items())
+        values = values or ("" if each.units == "1" else each.units)
+        cells = (f"`{name}`", each.long_name, each.symbol, values)
+        parts.append(f"| {' | '.join(cell.replace('|', 'abs ') for cell in cells)} |")
+    return "\n".join([*parts, ""])
 
 
 def commands():

@@ -11,7 +11,7 @@ import numpy as np
 
 from helpers.made_up_orbits import branch, branches
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
+from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION
 
 STIFFNESS = 2000.0  # r1 of the walls
 # Peak frequency by damping without linear stiffness, and by linear frequency at damping 0.215.

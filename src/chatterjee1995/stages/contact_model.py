@@ -20,8 +20,9 @@ from chatterjee1995.stages.logged_contacts import (
     compare_contacts,
     extreme_motions,
 )
-from chatterjee1995.variables.contact import SCENE, VARIABLES
+from chatterjee1995.variables.contact import SCENE
 from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.variables import VARIABLES
 from impact_damper.model.bounds import (
     LOAD_RANGE,
     PERIODS_RANGE,

@@ -13,9 +13,9 @@ from chatterjee1995.claims.claim import Missing
 from chatterjee1995.claims.suppression import high_motions
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import flag
+from impact_damper.data.motion_variables import TORUS
 from impact_damper.data.sweeps import families
-from impact_damper.data.variables.orbits import TORUS
-from impact_damper.data.variables.variable import OUTCOME
+from impact_damper.data.variables import OUTCOME
 
 DAMPER = ("mass_ratio", "clearance", "restitution")
 # Stages whose datasets hold the outcome of each random start and the motion to which it leads.

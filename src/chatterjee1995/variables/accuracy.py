@@ -4,59 +4,33 @@ A scene is a motion with a reference, which is taken as exact. A run is one inte
 one setting.
 """
 
-from impact_damper.data.variables.variable import Variable
+from impact_damper.data.variables import register
 
-RUN = ("run",)
-
-VARIABLES = {
-    "method": Variable(RUN, "integrator or model"),
-    "setting": Variable(
-        RUN, "tolerance of the integrator, or highest harmonic of a harmonic balance"
-    ),
-    "run_status": Variable(
-        RUN,
-        "end of the run; missed_contacts: fewer contacts than the reference, invented_contacts: "
-        "more contacts",
-        flags={
-            "ok": 0,
-            "missed_contacts": 1,
-            "invented_contacts": 2,
-            "failed": 3,
-            "capped": 4,
-            "not_applicable": 5,
-        },
-    ),
-    "operations": Variable(
-        RUN,
-        "floating-point operations of an integrator's run, or of a model's search for the orbit; "
-        "an elementary function counts as 20",
-    ),
-    "state_error": Variable(RUN, "largest error of a component of the state at the end of the run"),
-    "contact_time_error": Variable(
-        RUN,
-        "largest error of the time at which a contact begins; NaN if the number of contacts is "
-        "wrong",
-        "T",
-    ),
-    "contact_excess": Variable(RUN, "number of contacts minus the number in the reference"),
-    "amplitude_error": Variable(RUN, "relative error of max |Z1|"),
-    "statistic": Variable(("statistic",), "name of an average over a chaotic motion"),
-    "average": Variable(
-        (*RUN, "statistic"),
-        "average: contacts per cycle, max |Z1| in a cycle, or largest Lyapunov exponent",
-    ),
-    "average_error": Variable(
-        (*RUN, "statistic"),
-        "standard error of the average, from its values in batches of cycles",
-    ),
-    "reference_average": Variable(("statistic",), "average in the reference"),
-    "reference_average_error": Variable(
-        ("statistic",), "standard error of the average in the reference"
-    ),
-    "meets_accuracy": Variable(
-        RUN, "whether the run meets the accuracy required by the scene", flags={"no": 0, "yes": 1}
-    ),
-    "reference_state": Variable(("component",), "state of the reference at the end of the run"),
-    "reference_contacts": Variable((), "number of contacts in the reference"),
-    "reference_amplitude": Variable((), "max |Z1| of the reference", "max |Z1|"),
-}
+register(
+    """
+method | run | | | integrator or model
+setting | run | | | tolerance of the integrator, or highest harmonic of a harmonic balance
+run_status | run | | | end of the run; missed_contacts: fewer contacts than the reference,
+  invented_contacts: more contacts
+  : ok 0, missed_contacts 1, invented_contacts 2, failed 3, capped 4, not_applicable 5
+operations | run | | | floating-point operations of an integrator's run, or of a model's search
+  for the orbit; an elementary function counts as 20
+state_error | run | | | largest error of a component of the state at the end of the run
+contact_time_error | run | | T | largest error of the time at which a contact begins; NaN if the
+  number of contacts is wrong
+contact_excess | run | | | number of contacts minus the number in the reference
+amplitude_error | run | | | relative error of max |Z1|
+statistic | statistic | | | name of an average over a chaotic motion
+average | run statistic | | | average: contacts per cycle, max |Z1| in a cycle, or largest
+  Lyapunov exponent
+average_error | run statistic | | | standard error of the average, from its values in batches of
+  cycles
+reference_average | statistic | | | average in the reference
+reference_average_error | statistic | | | standard error of the average in the reference
+meets_accuracy | run | | | whether the run meets the accuracy required by the scene
+  : no 0, yes 1
+reference_state | component | | | state of the reference at the end of the run
+reference_contacts | | | | number of contacts in the reference
+reference_amplitude | | | max |Z1| | max |Z1| of the reference
+    """,
+)

@@ -8,12 +8,10 @@ half (`theory.map_cells`). The quiet run and the high run are simulations that s
 solutions.
 """
 
-from impact_damper.data.variables.variable import OUTCOME, Variable
+from impact_damper.data.variables import OUTCOME, register
 
 # Parameters that may change from row to row of a map.
 MAPPED = ("damping", "mass_ratio", "clearance", "restitution")
-CELL = ("map_value", "frequency_ratio")
-ROW_END = ("map_value", "edge")
 BALANCE_VERDICT = {"none": 0, "stable": 1, "unstable": 2, "unresolved": 3}
 RUN_MOTION = {
     "not_run": -1,
@@ -51,111 +49,74 @@ HIGH_VERDICT = {
     "none_no_contact": 9,
 }
 
-VARIABLES = {
-    "map_value": Variable(
-        ("map_value",), "value of the parameter that differs between the rows of a map"
-    ),
-    "frequency_ratio": Variable(
-        ("frequency_ratio",), "forcing frequency over the peak frequency", "Omega/Omega_p"
-    ),
-    "map_frequency": Variable(CELL, "forcing frequency", "Omega"),
-    "map_clearance": Variable(("map_value",), "clearance of the loose mass", "d0"),
-    "resonance_amplitude": Variable(
-        CELL, "amplitude of the free resonance branch; beyond its end, the amplitude at its end"
-    ),
-    # the quiet motion
-    "balance_quiet": Variable(
-        CELL,
-        "stability of the quiet solution of harmonic balance by the slow flow",
-        flags=BALANCE_VERDICT,
-    ),
-    "balance_quiet_amplitude": Variable(
-        CELL, "|a| of the quiet solution of harmonic balance", "|a|"
-    ),
-    "balance_quiet_growth": Variable(
-        CELL, "growth rate of the slow flow at the quiet solution, per unit time"
-    ),
-    "quiet_orbit": Variable(
-        CELL,
-        "stability of the exact quiet orbit, or the bifurcation by which it becomes unstable",
-        flags={
-            "unresolved": -1,
-            "absent": 0,
-            "stable": 1,
-            "fold": 2,
-            "symmetry_breaking": 3,
-            "neimark_sacker": 4,
-        },
-    ),
-    "quiet_orbit_growth": Variable(
-        CELL, "logarithm of the dominant Floquet multiplier of the quiet orbit, per unit time"
-    ),
-    "quiet_orbit_displacement": Variable(
-        CELL, "largest displacement in the quiet orbit", "max |Z1|"
-    ),
-    "quiet_orbit_harmonic": Variable(
-        CELL, "amplitude of the first harmonic of Z1 in the quiet orbit"
-    ),
-    "quiet_verdict": Variable(
-        CELL,
-        "quiet motion: stability by harmonic balance, then stability of the exact orbit",
-        flags=QUIET_VERDICT,
-    ),
-    "quiet_end": Variable(
-        ROW_END, "Omega/Omega_p at the ends of the range of quiet orbits in a row"
-    ),
-    "quiet_end_event": Variable(
-        ROW_END,
-        "event that ends the range of quiet orbits in a row",
-        flags={
-            "map_ends": 0,
-            "fold": 1,
-            "contacts_change": 2,
-            "not_converged": 3,
-            "no_orbit": 4,
-        },
-    ),
-    "straight_flight_end": Variable(
-        ("map_value",),
-        "Omega/Omega_p at the upper end of quiet orbits, for rigid walls at high frequency",
-    ),
-    # runs from the quiet solution
-    "quiet_run_motion": Variable(
-        CELL,
-        "motion to which a start at the quiet solution of harmonic balance leads",
-        flags=RUN_MOTION,
-    ),
-    "quiet_run_exponent": Variable(
-        CELL, "largest Lyapunov exponent of the quiet run, per unit time"
-    ),
-    "quiet_run_error": Variable(CELL, "standard error of quiet_run_exponent"),
-    # the high motion
-    "balance_high": Variable(
-        CELL, "stability of the high solution of harmonic balance", flags=BALANCE_VERDICT
-    ),
-    "balance_high_amplitude": Variable(
-        CELL, "|a| of the high stable solution of harmonic balance", "|a|"
-    ),
-    "high_run_motion": Variable(
-        CELL,
-        "motion to which the high run leads; the run starts at the high solution of harmonic "
-        "balance or, where none exists, on the free resonance branch",
-        flags=RUN_MOTION,
-    ),
-    "high_run_outcome": Variable(CELL, "outcome of the high run", flags=OUTCOME),
-    "high_run_period": Variable(CELL, "period of the motion of the high run in cycles", "n"),
-    "high_run_contacts": Variable(CELL, "contacts begun per cycle in the high run"),
-    "high_run_displacement": Variable(CELL, "largest displacement in the high run", "max |Z1|"),
-    "high_run_exponent": Variable(CELL, "largest Lyapunov exponent of the high run, per unit time"),
-    "high_run_error": Variable(CELL, "standard error of high_run_exponent"),
-    "high_long_outcome": Variable(
-        CELL,
-        "outcome of some chaotic high runs, repeated with ten times as many cycles",
-        flags=OUTCOME,
-    ),
-    "high_verdict": Variable(
-        CELL,
-        "high motion: result of harmonic balance, then motion to which the high run leads",
-        flags=HIGH_VERDICT,
-    ),
-}
+register(
+    """
+map_value | map_value | | | value of the parameter that differs between the rows of a map
+frequency_ratio | frequency_ratio | | Omega/Omega_p | forcing frequency over the peak frequency
+map_frequency | map_value frequency_ratio | | Omega | forcing frequency
+map_clearance | map_value | | d0 | clearance of the loose mass
+resonance_amplitude | map_value frequency_ratio | | | amplitude of the free resonance branch;
+  beyond its end, the amplitude at its end
+# the quiet motion
+balance_quiet | map_value frequency_ratio | | | stability of the quiet solution of harmonic
+  balance by the slow flow
+  : BALANCE_VERDICT
+balance_quiet_amplitude | map_value frequency_ratio | | |a| | |a| of the quiet solution of
+  harmonic balance
+balance_quiet_growth | map_value frequency_ratio | | | growth rate of the slow flow at the quiet
+  solution, per unit time
+quiet_orbit | map_value frequency_ratio | | | stability of the exact quiet orbit, or the
+  bifurcation by which it becomes unstable
+  : unresolved -1, absent 0, stable 1, fold 2, symmetry_breaking 3, neimark_sacker 4
+quiet_orbit_growth | map_value frequency_ratio | | | logarithm of the dominant Floquet multiplier
+  of the quiet orbit, per unit time
+quiet_orbit_displacement | map_value frequency_ratio | | max |Z1| | largest displacement in the
+  quiet orbit
+quiet_orbit_harmonic | map_value frequency_ratio | | | amplitude of the first harmonic of Z1 in
+  the quiet orbit
+quiet_verdict | map_value frequency_ratio | | | quiet motion: stability by harmonic balance, then
+  stability of the exact orbit
+  : QUIET_VERDICT
+quiet_end | map_value edge | | | Omega/Omega_p at the ends of the range of quiet orbits in a row
+quiet_end_event | map_value edge | | | event that ends the range of quiet orbits in a row
+  : map_ends 0, fold 1, contacts_change 2, not_converged 3, no_orbit 4
+straight_flight_end | map_value | | | Omega/Omega_p at the upper end of quiet orbits, for rigid
+  walls at high frequency
+# runs from the quiet solution
+quiet_run_motion | map_value frequency_ratio | | | motion to which a start at the quiet solution
+  of harmonic balance leads
+  : RUN_MOTION
+quiet_run_exponent | map_value frequency_ratio | | | largest Lyapunov exponent of the quiet run,
+  per unit time
+quiet_run_error | map_value frequency_ratio | | | standard error of quiet_run_exponent
+# the high motion
+balance_high | map_value frequency_ratio | | | stability of the high solution of harmonic balance
+  : BALANCE_VERDICT
+balance_high_amplitude | map_value frequency_ratio | | |a| | |a| of the high stable solution of
+  harmonic balance
+high_run_motion | map_value frequency_ratio | | | motion to which the high run leads; the run
+  starts at the high solution of harmonic balance or, where none exists, on the free resonance
+  branch
+  : RUN_MOTION
+high_run_outcome | map_value frequency_ratio | | | outcome of the high run
+  : OUTCOME
+high_run_period | map_value frequency_ratio | | n | period of the motion of the high run in cycles
+high_run_contacts | map_value frequency_ratio | | | contacts begun per cycle in the high run
+high_run_displacement | map_value frequency_ratio | | max |Z1| | largest displacement in the high
+  run
+high_run_exponent | map_value frequency_ratio | | | largest Lyapunov exponent of the high run, per
+  unit time
+high_run_error | map_value frequency_ratio | | | standard error of high_run_exponent
+high_long_outcome | map_value frequency_ratio | | | outcome of some chaotic high runs, repeated
+  with ten times as many cycles
+  : OUTCOME
+high_verdict | map_value frequency_ratio | | | high motion: result of harmonic balance, then
+  motion to which the high run leads
+  : HIGH_VERDICT
+    """,
+    BALANCE_VERDICT=BALANCE_VERDICT,
+    HIGH_VERDICT=HIGH_VERDICT,
+    OUTCOME=OUTCOME,
+    QUIET_VERDICT=QUIET_VERDICT,
+    RUN_MOTION=RUN_MOTION,
+)

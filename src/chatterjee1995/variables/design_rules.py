@@ -1,22 +1,28 @@
 """Rules for the optimum clearance, and the optimum of the exact quiet motion."""
 
-from impact_damper.data.variables.variable import MINIMUM, STABILITY, Variable
+from impact_damper.data.variables import MINIMUM, STABILITY, register
 
-SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
-BEST = (*SWEPT, "criterion")
-
-VARIABLES = {
-    "mass_ratio": Variable(("mass_ratio",), "mass ratio", "r_m"),
-    "criterion": Variable(("criterion",), "quantity that is smallest at an optimum"),
-    "rule": Variable(("rule",), "rule for the clearance"),
-    "best_ratio": Variable(BEST, "r_m Omega^2 d0 (dimensionless clearance) at the optimum"),
-    "best_size": Variable(BEST, "value of the criterion at the optimum, times Omega^2"),
-    "best_kind": Variable(BEST, "kind of minimum", flags=MINIMUM),
-    "best_multiplier": Variable(BEST, "modulus of the dominant Floquet multiplier at the optimum"),
-    "best_stability": Variable(BEST, "stability of the motion at the optimum", flags=STABILITY),
-    "rule_ratio": Variable((*BEST, "rule"), "r_m Omega^2 d0 by the rule"),
-    "rule_excess": Variable(
-        (*SWEPT, "rule"),
-        "relative excess of max |Z1|, at the clearance by the rule, above the smallest max |Z1|",
-    ),
-}
+register(
+    """
+mass_ratio | mass_ratio | | r_m | mass ratio
+criterion | criterion | | | quantity that is smallest at an optimum
+rule | rule | | | rule for the clearance
+best_ratio | mass_ratio restitution contact_stiffness frequency criterion | | | r_m Omega^2 d0
+  (dimensionless clearance) at the optimum
+best_size | mass_ratio restitution contact_stiffness frequency criterion | | | value of the
+  criterion at the optimum, times Omega^2
+best_kind | mass_ratio restitution contact_stiffness frequency criterion | | | kind of minimum
+  : MINIMUM
+best_multiplier | mass_ratio restitution contact_stiffness frequency criterion | |  | modulus of
+  the dominant Floquet multiplier at the optimum
+best_stability | mass_ratio restitution contact_stiffness frequency criterion | |  | stability of
+  the motion at the optimum
+  : STABILITY
+rule_ratio | mass_ratio restitution contact_stiffness frequency criterion rule | | | r_m Omega^2
+  d0 by the rule
+rule_excess | mass_ratio restitution contact_stiffness frequency rule | | | relative excess of max
+  |Z1|, at the clearance by the rule, above the smallest max |Z1|
+    """,
+    MINIMUM=MINIMUM,
+    STABILITY=STABILITY,
+)

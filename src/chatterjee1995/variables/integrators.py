@@ -6,7 +6,7 @@ motion and an orbit, with the knowledge whether the motion settles on the orbit.
 method says whether it finds the right answer.
 """
 
-from impact_damper.data.variables.variable import Variable
+from impact_damper.data.variables import register
 
 STEP_VERDICT = {
     "no_orbit": -2,
@@ -27,110 +27,71 @@ VERDICT = {
     "failed": 5,
 }
 
-VARIABLES = {
-    "integrator": Variable(("integrator",), "method of integration"),
-    "method_tolerance": Variable(("method_tolerance",), "tolerance of the method"),
-    # contacts missed near grazing
-    "depth": Variable(
-        ("depth",), "distance by which a passage would go beyond the wall if it were not there"
-    ),
-    "contact_outcome": Variable(("contact_outcome",), "result of a method at a contact"),
-    "passage_count": Variable(
-        ("integrator", "method_tolerance", "depth", "contact_outcome"),
-        "number of contacts that a method finds, misses between two steps, or does not reach "
-        "because its motion is inaccurate, and number of failed runs",
-    ),
-    "spurious_count": Variable(
-        ("integrator", "method_tolerance", "depth"),
-        "number of contacts that a method reports in passages without contact",
-    ),
-    "mean_steps": Variable(
-        ("integrator", "method_tolerance"),
-        "mean number of steps per cycle in flight, failed runs excluded",
-    ),
-    "motion_error": Variable(
-        ("integrator", "method_tolerance"),
-        "median error of the largest |Z2| of a passage, failed runs excluded",
-    ),
-    "passages": Variable(("integrator",), "number of passages run for each tolerance"),
-    "passages_drawn": Variable((), "number of random flights among which the passages were chosen"),
-    "fixed_steps": Variable(("method_tolerance",), "steps per cycle of the fixed-step method"),
-    "expected_unseen": Variable(
-        ("method_tolerance", "depth"),
-        "expected share of contacts at random times that begin and end within one fixed step",
-    ),
-    "extremum_time": Variable(("passage",), "time of the largest |Z2| of a passage", "T"),
-    "extremum": Variable(("passage",), "largest |Z2| of a passage"),
-    "extremum_curvature": Variable(("passage",), "|Z2''| at the largest |Z2| of a passage"),
-    # largest stable steps
-    "fixed_method": Variable(("fixed_method",), "method with equal steps"),
-    "scaled_step": Variable(("scaled_step",), "step times contact frequency", "h omega_c"),
-    "accuracy": Variable(("accuracy",), "relative deviation allowed in max |Z1|"),
-    "step_verdict": Variable(
-        ("fixed_method", "contact_stiffness", "scaled_step"),
-        "deviation of the method from the quiet motion",
-        flags=STEP_VERDICT,
-    ),
-    "step_deviation": Variable(
-        ("fixed_method", "contact_stiffness", "scaled_step"),
-        "largest relative deviation of max |Z1| in any period, infinite if the run diverged",
-    ),
-    "steps_per_period": Variable(("contact_stiffness", "scaled_step"), "steps per cycle"),
-    "stable_step": Variable(
-        ("fixed_method", "contact_stiffness", "accuracy"),
-        "largest step that keeps the accuracy together with all smaller ones",
-        "h",
-    ),
-    "largest_holding_step": Variable(
-        ("fixed_method", "contact_stiffness", "accuracy"),
-        "largest step that keeps the accuracy",
-        "h",
-    ),
-    "step_slope": Variable(
-        ("fixed_method", "accuracy"),
-        "slope of log(1/h) as a function of log r1, h the largest stable step",
-    ),
-    "step_slope_error": Variable(("fixed_method", "accuracy"), "standard error of step_slope"),
-    "linear_limit": Variable(
-        ("fixed_method",),
-        "largest product of step and contact frequency by linear stability theory",
-    ),
-    "contact_frequency": Variable(
-        ("contact_stiffness",), "natural frequency of an undamped contact", "omega_c"
-    ),
-    "reference_displacement": Variable(
-        ("contact_stiffness",), "largest displacement of the exact orbit", "max |Z1|"
-    ),
-    "orbit_multiplier": Variable(
-        ("contact_stiffness",), "modulus of the dominant Floquet multiplier of the exact orbit"
-    ),
-    "free_bound": Variable((), "displacement beyond which a run has escaped", "max |Z1|"),
-    # verdicts by tolerance
-    "scene": Variable(("scene",), "test case: a motion near an orbit of known stability"),
-    "verdict_method": Variable(("verdict_method",), "method of integration"),
-    "verdict": Variable(
-        ("scene", "verdict_method", "method_tolerance"),
-        "verdict on the method: right, or the kind of error",
-        flags=VERDICT,
-    ),
-    "right_from": Variable(
-        ("scene", "verdict_method"),
-        "largest tolerance, or smallest number of steps, that gives the right verdict together "
-        "with all stricter ones",
-    ),
-    "verdict_steps": Variable(("method_tolerance",), "steps per cycle of fixed-step methods"),
-    "scene_multiplier": Variable(
-        ("scene",), "modulus of the dominant Floquet multiplier of the orbit"
-    ),
-    "scene_period": Variable(("scene",), "period of the orbit in cycles", "n"),
-    "landing_period": Variable(
-        ("scene",), "period of the resulting motion, 0 if the motion does not settle", "n"
-    ),
-    "scene_periods": Variable(("scene",), "number of cycles of a run"),
-    "scene_frequency": Variable(("scene",), "forcing frequency", "Omega"),
-    "scene_truth": Variable(
-        ("scene",),
-        "whether the motion settles on the orbit",
-        flags={"leaves": 0, "stays": 1},
-    ),
-}
+register(
+    """
+integrator | integrator | | | method of integration
+method_tolerance | method_tolerance | | | tolerance of the method
+# contacts missed near grazing
+depth | depth | | | distance by which a passage would go beyond the wall if it were not there
+contact_outcome | contact_outcome | | | result of a method at a contact
+passage_count | integrator method_tolerance depth contact_outcome | | | number of contacts that a
+  method finds, misses between two steps, or does not reach because its motion is inaccurate, and
+  number of failed runs
+spurious_count | integrator method_tolerance depth | | | number of contacts that a method reports
+  in passages without contact
+mean_steps | integrator method_tolerance | | | mean number of steps per cycle in flight, failed
+  runs excluded
+motion_error | integrator method_tolerance | | | median error of the largest |Z2| of a passage,
+  failed runs excluded
+passages | integrator | | | number of passages run for each tolerance
+passages_drawn | | | | number of random flights among which the passages were chosen
+fixed_steps | method_tolerance | | | steps per cycle of the fixed-step method
+expected_unseen | method_tolerance depth | | | expected share of contacts at random times that
+  begin and end within one fixed step
+extremum_time | passage | | T | time of the largest |Z2| of a passage
+extremum | passage | | | largest |Z2| of a passage
+extremum_curvature | passage | | | |Z2''| at the largest |Z2| of a passage
+# largest stable steps
+fixed_method | fixed_method | | | method with equal steps
+scaled_step | scaled_step | | h omega_c | step times contact frequency
+accuracy | accuracy | | | relative deviation allowed in max |Z1|
+step_verdict | fixed_method contact_stiffness scaled_step | | | deviation of the method from the
+  quiet motion
+  : STEP_VERDICT
+step_deviation | fixed_method contact_stiffness scaled_step | | | largest relative deviation of
+  max |Z1| in any period, infinite if the run diverged
+steps_per_period | contact_stiffness scaled_step | | | steps per cycle
+stable_step | fixed_method contact_stiffness accuracy | | h | largest step that keeps the accuracy
+  together with all smaller ones
+largest_holding_step | fixed_method contact_stiffness accuracy | | h | largest step that keeps the
+  accuracy
+step_slope | fixed_method accuracy | | | slope of log(1/h) as a function of log r1, h the largest
+  stable step
+step_slope_error | fixed_method accuracy | | | standard error of step_slope
+linear_limit | fixed_method | | | largest product of step and contact frequency by linear
+  stability theory
+contact_frequency | contact_stiffness | | omega_c | natural frequency of an undamped contact
+reference_displacement | contact_stiffness | | max |Z1| | largest displacement of the exact orbit
+orbit_multiplier | contact_stiffness | | | modulus of the dominant Floquet multiplier of the exact
+  orbit
+free_bound | | | max |Z1| | displacement beyond which a run has escaped
+# verdicts by tolerance
+scene | scene | | | test case: a motion near an orbit of known stability
+verdict_method | verdict_method | | | method of integration
+verdict | scene verdict_method method_tolerance | | | verdict on the method: right, or the kind of
+  error
+  : VERDICT
+right_from | scene verdict_method | | | largest tolerance, or smallest number of steps, that gives
+  the right verdict together with all stricter ones
+verdict_steps | method_tolerance | | | steps per cycle of fixed-step methods
+scene_multiplier | scene | | | modulus of the dominant Floquet multiplier of the orbit
+scene_period | scene | | n | period of the orbit in cycles
+landing_period | scene | | n | period of the resulting motion, 0 if the motion does not settle
+scene_periods | scene | | | number of cycles of a run
+scene_frequency | scene | | Omega | forcing frequency
+scene_truth | scene | | | whether the motion settles on the orbit
+  : leaves 0, stays 1
+    """,
+    STEP_VERDICT=STEP_VERDICT,
+    VERDICT=VERDICT,
+)

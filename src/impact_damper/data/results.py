@@ -15,6 +15,7 @@ from impact_damper.model.machine import describe_si
 from impact_damper.model.units import QUANTITIES
 
 # Quantities of the components of a state.
+PURE = ("number", "angle")
 STATE = ("displacement", "velocity", "displacement", "velocity")
 STATE_UNITS = "m, m/s, m, m/s"
 # Parameters that may vary along a branch of orbits. Keyed by the name for a machine; the values are
@@ -44,7 +45,7 @@ def shown_variable(name, values, dims=None):
         In place of the registered dimensions.
     """
     found = variable(name, values, dims)
-    found.attrs["units"] = QUANTITIES[VARIABLES[name].quantity].label
+    found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
     return found
 
 
@@ -88,7 +89,7 @@ def _each(data, convert, scales):
         quantity = _quantity(name, data)
         if quantity == "state":
             unit = np.array([scales.unit(each) for each in STATE])
-        elif quantity in QUANTITIES and quantity != "number":
+        elif quantity in QUANTITIES and quantity not in PURE:
             unit = scales.unit(quantity) * QUANTITIES[quantity].factor
         else:
             continue
@@ -99,7 +100,7 @@ def _each(data, convert, scales):
 
 def _quantity(name, data):
     """Return the quantity of a variable; for a followed value, the quantity of the parameter."""
-    quantity = VARIABLES[name].quantity
+    quantity = VARIABLES[name].kind
     if quantity != "followed":
         return quantity
     # the coordinate of a sweep is its parameter
@@ -114,7 +115,7 @@ def _name_unit(variable, quantity):
         variable.attrs["units"] = STATE_UNITS
     elif quantity == "mixed":
         variable.attrs["long_name"] += ", in the scales of the machine"
-    elif quantity != "number":
+    elif quantity not in PURE:
         variable.attrs["units"] = QUANTITIES[quantity].label
         variable.attrs.pop("symbol", None)
     if quantity == "clearance":

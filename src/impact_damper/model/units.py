@@ -46,6 +46,7 @@ class Quantity(NamedTuple):
 # Keyed by name. The field `quantity` of a registered variable is one of these names.
 QUANTITIES = {
     "number": Quantity(""),
+    "angle": Quantity("radian"),
     "mass": Quantity("kg", mass=1),
     "displacement": Quantity("m", length=1, shown="mm", factor=1e3),
     "clearance": Quantity("m", length=1, shown="mm", factor=1e3),

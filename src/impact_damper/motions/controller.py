@@ -16,7 +16,7 @@ Z1 is the displacement of the primary mass and Z2 its displacement relative to t
 import numpy as np
 
 from impact_damper.data.datasets import flag
-from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
+from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions import legs
 from impact_damper.motions.damper_release import destination, kinds

@@ -9,7 +9,7 @@ forcing frequency, and T the time.
 
 import numpy as np
 
-from impact_damper.data.variables.basins import BASIN_LABEL
+from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.kernel.batch import advance
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 from impact_damper.motions import ensemble, records, traces
@@ -48,7 +48,7 @@ def label_damped(p, states, phase, settling, workers=1, progress=None):
     Returns
     -------
     labels : numpy.ndarray of int, shape (n,)
-        Index of the attractor, or a negative value of `data.variables.basins.BASIN_LABEL`.
+        Index of the attractor, or a negative value of `data.variables.BASIN_LABEL`.
     periods : numpy.ndarray of int, shape (n,)
         Number of cycles for which each motion was run.
     attractors : numpy.ndarray of records.MOTION, shape (k,)

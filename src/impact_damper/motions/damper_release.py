@@ -19,7 +19,7 @@ import numpy as np
 
 from impact_damper.data.datasets import is_settled
 from impact_damper.data.shares import escape_rate, survival, wilson
-from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
+from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION
 from impact_damper.model.bounds import FREQUENCY_RANGE, LEAD
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.motions import ensemble, legs

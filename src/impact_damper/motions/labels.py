@@ -17,7 +17,7 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions import ensemble
 from impact_damper.motions.strobe_map import strobe_time
 
-# The same values as in `data.variables.basins.BASIN_LABEL`. Files with kernels must not import the
+# The same values as in `data.variables.BASIN_LABEL`. Files with kernels must not import the
 # room `data.variables`.
 ESCAPED, UNRESOLVED = -2, -1
 # Number of states that a thread labels in one call of the kernel, in a fraction of a second.

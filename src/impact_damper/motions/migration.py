@@ -9,7 +9,7 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.shares import BOUNDS, wilson
-from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION
+from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION
 from impact_damper.model.bounds import (
     LIFETIME_RANGE,
     PERIODS_RANGE,

@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.variables.basins import BASIN_LABEL
+from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.model.bounds import FARTHEST, FASTEST, check_count, check_number, shown
 from impact_damper.model.checks import check_numbers
 from impact_damper.model.packed import FREQUENCY, pack

@@ -26,7 +26,7 @@ AT_RESONANCE = LINEAR.natural_frequency
 
 def test_every_quantity_is_known():
     known = {*QUANTITIES, "state", "followed", "mixed"}
-    assert {each.quantity for each in VARIABLES.values()} <= known
+    assert {each.kind for each in VARIABLES.values()} <= known
 
 
 def test_every_parameter_of_a_branch_has_a_name_in_si():
@@ -40,7 +40,7 @@ def test_datasets_come_back_from_si():
         {
             name: variable(name, generator.standard_normal(4), (f"{name}_dim",))
             for name in names
-            if VARIABLES[name].quantity != "followed"
+            if VARIABLES[name].kind != "followed"
         },
         attrs={"parameters": "{}"},
     )
@@ -48,7 +48,7 @@ def test_datasets_come_back_from_si():
     back = from_si(there, HARD)
     for name in data.variables:
         np.testing.assert_allclose(back[name], data[name], rtol=1e-15)
-        converted = VARIABLES[name].quantity not in ("number", "mixed")
+        converted = VARIABLES[name].kind not in ("number", "angle", "mixed")
         assert (there[name].attrs["units"] != data[name].attrs["units"]) == converted
 
 
@@ -184,7 +184,7 @@ def test_results_do_not_depend_on_the_scales(name, other_length):
     compared = 0
     for each in usual.variables:
         values = usual[each].values
-        if VARIABLES[each].quantity == "mixed" or values.dtype.kind not in "fi":
+        if VARIABLES[each].kind == "mixed" or values.dtype.kind not in "fi":
             continue
         # These come from iterations with tolerances in the machine's scales, so they may differ.
         numerical = each in ("periods_run", "run_length") or "multiplier" in each

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import solve_ivp
 from scipy.spatial import cKDTree
 
-from impact_damper.data.variables.basins import BASIN_LABEL
+from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling

@@ -9,7 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from chatterjee1995.figures.free import draw_free
 from chatterjee1995.figures.release import draw_release
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.variables.variable import DAMPED_MOTION, FREE_MOTION, OUTCOME
+from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION, OUTCOME
 from impact_damper.plot.panels.branches import draw_branches
 from impact_damper.plot.panels.harmonic_balance import draw_harmonic_balance
 from impact_damper.plot.panels.migration import draw_migration

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from impact_damper.data.datasets import has_damper, parameters_of
-from impact_damper.data.variables.basins import BASIN_LABEL
+from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.plot.panels.style import (
     BLACK,
     GREY,

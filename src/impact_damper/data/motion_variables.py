@@ -1,0 +1,409 @@
+"""Variables of motions, harmonic balance, orbits, basins and migration control."""
+
+from impact_damper.data.variables import (
+    DAMPED_MOTION,
+    END,
+    FREE_MOTION,
+    MINIMUM,
+    OUTCOME,
+    STABILITY,
+    register,
+)
+
+EVENT = {
+    "fold": 1,
+    "symmetry_breaking": 2,
+    "period_doubling": 3,
+    "neimark_sacker": 4,
+    "grazing": 5,
+    "merging": 6,
+}
+BRANCH_END = {
+    "range_ends": 0,
+    "closed": 1,
+    "symmetry_breaking": 2,
+    "period_doubling": 3,
+    "contact_lost": 4,
+    "lost": 5,
+    "point_limit": 6,
+    "unstable": 7,
+}
+OTHER = {
+    "absent": 0,
+    "followed": 1,
+    "ended": 2,
+    "not_followed": 3,
+    "not_passed": 4,
+    "not_found": 5,
+}
+SIDE = {"absent": 0, "supercritical": 1, "subcritical": 2, "beside_grazing": 3, "undecided": 4}
+TORUS = {"absent": 0, "stable": 1, "unstable": 2, "of_unstable_orbit": 3, "unknown": 4}
+CURVE = {"complete": 0, "cut": 1}
+
+register(
+    """
+# coordinates
+frequency | frequency | frequency | Omega | forcing frequency
+clearance | clearance | clearance | d0 | clearance of the loose mass
+restitution | restitution | | e | coefficient of restitution
+contact_stiffness | contact_stiffness | stiffness | r1 | stiffness of the contact
+time | time | time | T | time
+# state
+displacement | time | displacement | Z1 | displacement of the primary mass
+velocity | time | velocity | Z1' | velocity of the primary mass
+relative_displacement | time | displacement | Z2 | displacement of the primary mass relative to
+  the loose mass
+relative_velocity | time | velocity | Z2' | velocity of the primary mass relative to the loose
+  mass
+# motions
+component | component | | | component of the state
+state | component | state | | state of the motion at the phase Omega T = pi/2
+state_phase | | angle | | phase Omega T at which states are given
+contact_wall | contact | | | wall of a contact, -1 or 1
+contact_begin | contact | time | | beginning of a contact
+contact_end | contact | time | | end of a contact
+approach_velocity | contact | velocity | Z2' | relative velocity at the beginning of a contact
+escape_time | | time | T | time of the first sample after the motion has escaped over a barrier,
+  or NaN
+departure_velocity | contact | velocity | Z2' | relative velocity at the end of a contact
+outcome | frequency motion | | | outcome of the motion
+  : OUTCOME
+period | frequency motion | | n | period of the motion in cycles
+contacts | frequency motion | | | contacts begun per cycle
+maximum_displacement | frequency motion | displacement | max |Z1| | largest displacement
+asymmetry | frequency motion | mixed | | distance of the motion from its mirror image half a
+  period later
+phase_relative | frequency motion | angle | | phase of Z1 minus phase of Z2, first harmonics
+phase_loose | frequency motion | angle | | phase of Z1 minus phase of Z1 - Z2, first harmonics
+multiplier_real | frequency motion | | | dominant Floquet multiplier, real part
+multiplier_imaginary | frequency motion | | | dominant Floquet multiplier, imaginary part
+residual | frequency motion | mixed | | distance between the state and the state a period later
+lyapunov_exponent | frequency motion | rate | | largest Lyapunov exponent per unit time
+lyapunov_error | frequency motion | rate | | standard error of the largest Lyapunov exponent
+first_frequency | frequency motion | frequency | | first frequency of a quasi-periodic motion, the
+  forcing frequency divided by the number of closed curves of the strobe states
+second_frequency | frequency motion | frequency | | second frequency of a quasi-periodic motion,
+  at most half of the first
+frequency_error | frequency motion | frequency | | difference of the second frequency between the
+  halves of the run
+periods_run | frequency motion | | | cycles run before the motion settled
+# frequency responses
+branch | frequency motion | | | number of the branch on which a motion lies, the same at all
+  values of the sweep
+motion_starts | frequency motion | | | number of random starts that lead to the motion
+share_lower | frequency motion | | | share of random starts that lead to the motion, lower end of
+  its 95 % interval
+share_upper | frequency motion | | | share of random starts that lead to the motion, upper end of
+  its 95 % interval
+origin | frequency motion | | | how the motion was first found
+  : absent 0, random_start 1, followed 2, placed_start 3
+run_outcome | frequency start | | | outcome of a random start
+  : OUTCOME
+run_motion | frequency start | | | index along the dimension `motion` of the motion to which a
+  random start leads
+run_length | frequency start | | | cycles run from a random start
+end_value | end | followed | | parameter of the sweep at the end of a branch
+end_branch | end | | | branch that ends
+end_direction | end | | | direction of the sweep in which the branch ends
+  : down -1, up 1
+end_event | end | | | event that ends the branch
+  : END
+end_displacement | end | displacement | | largest displacement of the primary mass at the end of a
+  branch
+end_multiplier_real | end | | | dominant Floquet multiplier at the end, real part
+end_multiplier_imaginary | end | | | dominant Floquet multiplier at the end, imaginary part
+# lives of chaotic motions
+life_ends | frequency motion | | | number of runs of the chaotic motion that ended, -1 if it is
+  not chaotic or none was run
+mean_life | frequency motion | | | mean life of the chaotic motion in cycles
+mean_life_lower | frequency motion | | | mean life, lower end of its 95 % interval, cycles
+mean_life_upper | frequency motion | | | mean life, upper end of its 95 % interval, cycles
+# range of the random starts
+start_displacement | frequency | displacement | |Z1| | largest displacement of a random start
+start_speed | frequency | velocity | |Z1'| | largest speed of a random start
+free_displacement | frequency | displacement | max |Z1| | largest displacement of the free
+  motions; by harmonic balance if a radius was given
+free_speed | frequency | velocity | max |Z1'| | largest speed of the free motions; by harmonic
+  balance if a radius was given
+missed_share | | | | upper bound, at 95 %, on the share of starts that lead to a motion not found
+# first collisions
+ball | ball | | | ball of states from which random starts are drawn
+beyond_wall | ball | | | share of starts that lie beyond a wall
+colliding | ball | | | share of starts that lead to a collision
+longest_wait | ball | | | longest time to the first collision, cycles
+# harmonic balance
+amplitude | frequency solution | displacement | a | amplitude of Z1, negative if Z1 is in
+  antiphase to Z2
+relative_amplitude | frequency solution | displacement | b | amplitude of Z2
+phase | frequency solution | angle | theta_1 | phase of Z1 to the forcing
+kind | frequency solution | | | whether the loose mass touches the walls
+  : absent 0, impacting 1, resting 2
+growth_rate | frequency solution | rate | | largest real part of the eigenvalues of the slow flow
+stability | frequency solution | | | stability by the slow flow
+  : STABILITY
+solution_count | frequency | | | number of solutions of the harmonic balance
+balance_status | frequency | | | how the solution of the harmonic balance ended
+  : solved 0, unresolved 1
+free_amplitude | frequency free_solution | displacement | a | amplitude of Z1 without the damper
+free_phase | frequency free_solution | angle | theta_1 | phase of Z1 to the forcing without the
+  damper
+free_stability | frequency free_solution | | | stability by the slow flow without the damper
+  : STABILITY
+free_count | frequency | | | number of solutions of the harmonic balance without the damper
+rigid_tangent | frequency root | | D | root of the polynomial (14) for rigid walls
+rigid_amplitude | frequency root | displacement | a | amplitude of Z1 for rigid walls, negative if
+  Z1 is in antiphase to Z2
+rigid_phase | frequency root | angle | theta_1 | phase of Z1 to the forcing for rigid walls
+rigid_wall | frequency root | | | whether rigid walls push the loose mass, or would have to pull
+  it
+  : absent 0, pushes 1, pulls 2
+rigid_residual | frequency root | mixed | | residual of the balance for rigid walls, equation (13)
+rigid_count | frequency | | | number of real roots of the polynomial (14) for rigid walls
+# suppression band
+peak_frequency | | frequency | Omega_p | peak frequency without the damper
+peak_amplitude | | displacement | | amplitude of Z1 without the damper at the peak frequency
+quiet_amplitude | | displacement | | amplitude |a| of the quiet motion at the peak frequency
+reduction | | | | 1 - |a|/(amplitude without the damper) at the peak frequency
+band_status | | | | whether there is a suppression band at the peak frequency
+  : found 0, no_single_motion 1, no_reduction 2, no_peak 3
+edge | edge | | | lower or upper end of a range
+edge_frequency | edge | frequency | | edge of the suppression band
+edge_reduction | edge | | | 1 - |a|/(amplitude without the damper) at the edge of the suppression
+  band
+edge_event | edge | | | event that ends the suppression band
+  : not_found 0, resonance_branch_ends 1, other_motion_appears 2, other_motion_stabilises 3,
+  : quiet_motion_folds 4, quiet_motion_destabilises 5, no_reduction 6
+band_width | | frequency | Delta Omega_s | width of the suppression band
+break_even_frequency | | frequency | | frequency at which |a| equals the smallest amplitude
+  without the damper: above the peak, or for a softening spring below
+# optimum clearance
+quiet_displacement | clearance | displacement | max |Z1| | largest displacement in the quiet
+  motion
+quiet_status | clearance | | | whether there is a quiet motion
+  : absent 0, found 1
+largest_displacement | clearance | displacement | | largest displacement of all motions to which
+  the random starts lead
+analytical_amplitude | clearance | displacement | |a| | smallest |a| of a stable solution of the
+  harmonic balance (7)
+analytical_status | clearance | | | whether the harmonic balance (7) has a stable solution
+  : absent 0, found 1, inelastic 2, unresolved 3
+optimum_clearance | | clearance | d0 | clearance at which the quiet motion is smallest
+optimum_displacement | | displacement | max |Z1| | largest displacement in the quiet motion at the
+  optimum clearance
+optimum_kind | | | | kind of minimum: smooth, kink, end of the branch or of the sweep
+  : MINIMUM
+near_clearance | edge | clearance | | ends of the range of clearances with at most 1.1 times the
+  smallest displacement
+near_status | edge | | | event that ends the range near_clearance
+  : not_found 0, crossed 1, branch_ends 2, sweep_ends 3
+analytical_optimum | | clearance | d0 | clearance at which the harmonic balance (7) has a solution
+  with a = 0
+analytical_kind | | | | kind of minimum of |a| at analytical_optimum
+  : MINIMUM
+rule_clearance | | clearance | d0 | clearance of rule (18) at the forcing frequency
+peak_rule_clearance | | clearance | d0 | clearance of rule (19)
+optimum_ratio | | | | rm W^2 d0/f at the optimum clearance, which is 1 by rule (18)
+straight_flight_ratio | | | | rm W^2 d0/f at the smallest max |Z1| for rigid walls at high
+  frequency
+first_harmonic_share | | | | fraction of optimum_ratio - 1 that the first harmonic explains,
+  (pi^2/8 - 1)/(optimum_ratio - 1)
+straight_flight_share | | | | fraction of optimum_ratio - 1 explained by straight flight:
+  (straight_flight_ratio - 1)/(optimum_ratio - 1)
+# orbits along branches
+followed_value | point | followed | | value of the parameter that is varied along a branch of
+  orbits
+orbit_branch | point | | | number of the branch an orbit lies on
+orbit_displacement | point | displacement | max |Z1| | largest displacement in an orbit
+orbit_stability | point | | | whether all Floquet multipliers are less than 1 in modulus
+  : STABILITY
+orbit_status | point | | | whether Newton's method converged; near grazing a contact begins so
+  slowly that the multipliers hold for infinitesimal disturbances only
+  : not_converged 0, regular 1, near_grazing 2
+orbit_contacts | point | | | contacts begun per cycle in an orbit
+orbit_asymmetry | point | mixed | | distance of an orbit from its mirror image half a period later
+orbit_amplitude | point | displacement | | amplitude of the first harmonic of Z1 in an orbit, |a|
+  of harmonic balance
+orbit_phase_relative | point | angle | | phase of Z1 to Z2 in an orbit, first harmonics
+orbit_phase_loose | point | angle | | phase of Z1 to Z1 - Z2 in an orbit, first harmonics
+orbit_phase | point | angle | | phase Omega T of orbit_state
+orbit_state | point component | state | | state of an orbit at orbit_phase, without contact
+orbit_residual | point | mixed | | distance between the state of an orbit and the state a period
+  later
+orbit_multiplier_real | point multiplier | | | Floquet multipliers by descending modulus, real
+  part
+orbit_multiplier_imaginary | point multiplier | | | Floquet multipliers by descending modulus,
+  imaginary part
+liouville_error | point | | | relative error of the determinant of the monodromy matrix
+least_speed | point | velocity | | smallest relative speed at the beginning of a contact of an
+  orbit
+orbit_restitution | point | | | smallest ratio of the relative speeds after and before a contact
+  of an orbit
+# design points
+design_orbit_status | | | | whether the quiet orbit was found at heavy damping and followed to the
+  design point
+  : no_start 0, found 1, not_followed 2
+design_run_outcome | design_start | | | outcome of a random start at the design point
+  : OUTCOME
+design_run_displacement | design_start | displacement | max |Z1| | largest displacement of the
+  motion from a random start
+# branches
+branch_period | branch | | n | period in cycles of the orbits
+branch_events_lost | branch | | | number of events on a branch that were not located
+branch_end | branch edge | | | event or limit that ends a branch
+  : BRANCH_END
+branch_met | branch edge | | | number of the branch at which a branch ends by symmetry breaking or
+  period doubling; -1 if this branch is not in the dataset, or if the branch ends otherwise
+seeds | | | | number of motions from which Newton's method searched for an orbit
+seeds_lost | | | | number of motions from which Newton's method converged to no orbit
+searches | | | | number of searches by Newton's method, from random states, for orbits of period 1
+  to 3
+searches_stable | | | | number of searches that found a stable orbit
+searches_new | | | | number of branches followed from orbits that searches found and no other
+  branch held
+# events
+event_branch | event | | | branch on which an event lies
+event_place | event | | | index along the branch of the orbit at an event
+event_kind | event | | | kind of event
+  : EVENT
+event_value | event | followed | | varied parameter at an event
+event_displacement | event | displacement | max |Z1| | largest displacement at an event
+event_residual | event | mixed | | distance between the state of the orbit at an event and the
+  state a period later
+event_speed | event | velocity | | smallest relative speed at the beginning of a contact at an
+  event
+walls_before | event | | | walls in the order in which orbits before an event touch them
+walls_after | event | | | walls in the order in which orbits after an event touch them
+# branches that leave at losses of symmetry and period doublings
+leaving_outcome | event | | | what became of the other branch, which leaves at a loss of symmetry
+  or period doubling. followed: it is in the dataset; ended: the branch of the event ends at it;
+  not_followed: one of its orbits was found, but its period is too long; not_passed: it was not
+  followed past a grazing; not_found: none of its orbits was found
+  : OTHER
+leaving_branch | event | | | number of the other branch at an event, -1 if it is not in the
+  dataset
+leaving_value | event | followed | | varied parameter of the orbit of the other branch that was
+  found close to an event
+leaving_displacement | event | displacement | max |Z1| | largest displacement of the orbit of the
+  other branch found close to an event
+leaving_stability | event | | | stability of the orbit of the other branch found close to an event
+  : STABILITY
+leaving_side | event | | | whether the other branch begins supercritical, with as many unstable
+  multipliers as the first branch on its more stable side, or subcritical, with one more; not
+  determined near a grazing, where multipliers change too fast
+  : SIDE
+# tori that begin at Neimark-Sacker points
+torus_kind | event | | | torus that begins at a Neimark-Sacker point: stable, unstable, around an
+  orbit with another multiplier outside the unit circle, or undecided
+  : TORUS
+torus_angle | event | | | angle in revolutions of the multiplier on the unit circle at the point
+torus_growth | event | mixed | | change of the logarithm of the amplitude in a period of the orbit
+  at the point, divided by the square of the amplitude; negative if the torus is stable
+torus_value | event | followed | | varied parameter at which a run settled on a stable torus
+torus_number | event | | | rotation number of that torus, in revolutions per period of the orbit
+torus_error | event | | | difference of that rotation number between parts of the run
+torus_limit | event | | | rotation number extrapolated to the Neimark-Sacker point, from two
+  stable tori
+# basins of attraction
+basin_displacement | basin_displacement | displacement | Z1 | initial displacement of the primary
+  mass
+basin_velocity | basin_velocity | velocity | Z1' | initial velocity of the primary mass
+basin_phase | | angle | | initial phase Omega T of the forcing
+basin_label | basin_velocity basin_displacement | | | attractor to which a state leads, or a
+  negative number: -1 unresolved, -2 escaped, -3 chaotic, -4 without contact, -5 depends on the
+  place of the loose mass, -6 quasi-periodic
+basin_periods | basin_velocity basin_displacement | | | cycles after which the motion from a state
+  is decided
+basin_share | attractor basin_velocity basin_displacement | | | fraction of the places of the
+  loose mass from which a state leads to an attractor
+attractor | attractor | | | index of an attractor, by rising max |Z1|
+attractor_period | attractor | | n | period in cycles
+attractor_displacement | attractor | displacement | max |Z1| | largest displacement
+attractor_amplitude | attractor | displacement | | amplitude of the first harmonic of the
+  displacement
+attractor_phase | attractor | angle | | phase of the first harmonic relative to the forcing
+attractor_share | attractor | | | share of the states that lead to an attractor
+attractor_point | attractor passage | displacement | Z1 | displacement of an attractor whenever
+  the forcing has the phase of the plane
+attractor_speed | attractor passage | velocity | Z1' | velocity of an attractor whenever the
+  forcing has the phase of the plane
+label_count | without_attractor | | | number of states that lead to no attractor, by reason
+without_attractor | without_attractor | | | reason why a state leads to no attractor
+saddle_period | saddle | | n | period of an unstable orbit in cycles
+saddle_displacement | saddle | displacement | Z1 | displacement of an unstable orbit at the phase
+  of the plane
+saddle_velocity | saddle | velocity | Z1' | velocity of an unstable orbit at the phase of the
+  plane
+saddle_multiplier | saddle multiplier | | | Floquet multipliers of an unstable orbit
+saddle_curve | saddle | | | whether the stable manifold is complete in the plane
+  : CURVE
+boundary_displacement | boundary | displacement | Z1 | displacement on the stable manifold of an
+  unstable orbit; NaN between pieces
+boundary_velocity | boundary | velocity | Z1' | velocity on the stable manifold of an unstable
+  orbit; NaN between pieces
+boundary_saddle | boundary | | | index of the unstable orbit
+# migration control
+on_time | trial switching | time | T | time at which the damper is switched on
+off_time | trial switching | time | T | time at which the damper is switched off
+end_time | trial switching | time | T | time at which the free motion has settled
+released_from | trial switching | | | damped motion in which the damper is switched off
+  : DAMPED_MOTION
+released_period | trial switching | | n | period in cycles of the motion released_from, 0 if it
+  has not settled
+released_displacement | trial switching | displacement | max |Z1| | largest displacement of the
+  motion released_from, if it has settled
+destination | trial switching | | | free motion to which a release leads
+  : FREE_MOTION
+destination_displacement | trial switching | displacement | max |Z1| | largest displacement of the
+  free motion
+trial_outcome | trial | | | whether a run arrives on the non-resonance branch
+  : not_reached 0, reached 1
+switchings | trial | | | number of times that the damper is switched on in a run
+damper_time | trial | | | cycles with the damper on
+release_time | trial | | | cycles from first switching the damper on to last switching it off
+total_time | trial | | | cycles from first switching the damper on to the end of the last free run
+example | | | | index of the run whose displacement is stored
+bound | bound | | | share, or lower or upper end of its 95 % interval
+damped_motion | damped_motion | | | kind of damped motion
+free_motion | free_motion | | | kind of free motion
+destination_count | damped_motion free_motion | | | number of releases in all runs, by the damped
+  motion before and the free motion after
+reached_share | bound | | | share of runs that arrive on the non-resonance branch
+within_share | bound | | | share of runs that arrive within 350 cycles
+# releases of each damped motion
+damped_kind | damped | | | kind of damped motion
+  : DAMPED_MOTION
+damped_period | damped | | n | period in cycles, 0 if it has not settled
+damped_displacement | damped | displacement | max |Z1| | largest displacement, if the motion has
+  settled
+damped_contacts | damped | | | contacts begun per cycle, if the motion has settled
+release_phase | damped release | | | cycles from Omega T = pi/2 to the release
+release_displacement | damped release | displacement | Z1 | displacement of the primary mass at
+  the release
+release_velocity | damped release | velocity | Z1' | velocity of the primary mass at the release
+release_destination | damped release | | | free motion to which the release leads
+  : FREE_MOTION
+release_share | damped free_motion bound | | | share of releases that lead to each free motion
+# lifetime of the violent transient
+life | run | | | cycles until the violent transient ends, if it ends before the time horizon
+landing_time | run | | | cycles until the motion has settled; NaN if it has not
+landed_on | run | | | motion on which the run settles
+  : DAMPED_MOTION
+age | age | | | cycles since the damper was switched on
+survival | age bound | | | share of runs whose transient is longer than age
+at_risk | age | | | number of runs whose transient is longer than age
+escape_rate | bound | | | rate at which transients end, per run and cycle
+horizon | | | | cycles after which a run is cut off
+    """,
+    BRANCH_END=BRANCH_END,
+    CURVE=CURVE,
+    DAMPED_MOTION=DAMPED_MOTION,
+    END=END,
+    EVENT=EVENT,
+    FREE_MOTION=FREE_MOTION,
+    MINIMUM=MINIMUM,
+    OTHER=OTHER,
+    OUTCOME=OUTCOME,
+    SIDE=SIDE,
+    STABILITY=STABILITY,
+    TORUS=TORUS,
+)
