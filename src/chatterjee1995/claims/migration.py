@@ -160,13 +160,6 @@ CLAIMS = (
                 "share of releases at the worst W, at every phase and before the motion has "
                 "settled, that lead to the goal",
             ),
-            Measure(
-                "by_clairvoyant",
-                "share of runs at the worst W that arrive within 350 cycles with a controller that "
-                "knows the state and the future",
-            ),
-            Measure("by_clairvoyant_least", "lower end of the 95 % interval of this share"),
-            Measure("by_clairvoyant_cycles", "median number of cycles of these runs"),
         ),
         evidence=total_cycles,
         finding=migration_findings.total_cycles,

@@ -16,8 +16,8 @@ from impact_damper.data.datasets import damper_of, flag, oscillator_of
 # An outcome counts as possible if at least this share of the releases or runs leads to it.
 LEAST = 0.01
 
-# Policies of release (`migration.policies`), and the bound for a controller that knows the future.
-SHARES = ("state", "hold", "phase", "settled", "clairvoyant")
+# Policies of release (`stages.release_policies`).
+SHARES = ("state", "hold", "phase", "settled")
 
 
 def release_shares(case, kind, free_motion):
@@ -45,8 +45,8 @@ def by_policy(datasets, case):
     They are a dict with these entries:
 
     - `by_<policy>`: share of runs that arrive at the goal within 350 cycles;
-    - `by_<policy>_least`, `_most`: ends of the 95 % confidence interval of this share, and
-      `by_<policy>_cycles`: median number of cycles; for "state" and "clairvoyant" only;
+    - `by_state_least`, `by_state_most`: ends of the 95 % confidence interval of `by_state`, and
+      `by_state_cycles`: median number of cycles;
     - `through`: share of releases, at every phase and before the motion has settled, that lead to
       the goal.
 
@@ -54,10 +54,9 @@ def by_policy(datasets, case):
     """
     here = _found(datasets, damper_of(case), extract.parameter(case, "frequency"), case)
     numbers = {f"by_{name}": _number(here, "policy_success", policy=name) for name in SHARES}
-    for name in ("state", "clairvoyant"):
-        for end, bound in (("least", "lower"), ("most", "upper")):
-            numbers[f"by_{name}_{end}"] = _number(here, "policy_success", bound, policy=name)
-        numbers[f"by_{name}_cycles"] = _number(here, "policy_cycles", policy=name, quantile=0.5)
+    for end, bound in (("least", "lower"), ("most", "upper")):
+        numbers[f"by_state_{end}"] = _number(here, "policy_success", bound, policy="state")
+    numbers["by_state_cycles"] = _number(here, "policy_cycles", policy="state", quantile=0.5)
     return numbers | {"through": _number(here, "realised_share")}
 
 

@@ -10,8 +10,6 @@ import numpy as np
 from chatterjee1995.tables.policies import POLICIES
 from impact_damper.plot.panels.style import (
     CURVES,
-    GREY,
-    PALE,
     axis_label,
     curve,
     figure,
@@ -23,7 +21,7 @@ from impact_damper.plot.panels.style import (
 CAPTION = """
 Above: share of trials that reach the non-resonance motion within 350 cycles. Below: median cycles.
 Parameters were chosen in separate trials. Settled: within 1e-4 of a periodic orbit. Bars: 95 %
-intervals. Dotted, grey area: bound.
+intervals.
 """
 
 
@@ -67,16 +65,9 @@ def draw_case(above, below, one):
     for k, policy in enumerate(one["policy"].values):
         look = curve(k) | {"marker": CURVES[k][2], "label": POLICIES[policy]}
         success = one["policy_success"].sel(policy=policy).values
-        if policy == "clairvoyant":
-            look = {"color": GREY, "linestyle": ":", "label": POLICIES[policy]}
-            above.fill_between(frequency, success[:, 1], success[:, 2], color=PALE)
-            above.plot(frequency, success[:, 0], **look)
-        else:
-            spread = np.abs(success[:, 1:] - success[:, :1]).T
-            # side by side, so that intervals do not hide each other
-            above.errorbar(
-                frequency + 0.004 * (k - 1.5), success[:, 0], spread, capsize=1.5, **look
-            )
+        spread = np.abs(success[:, 1:] - success[:, :1]).T
+        # side by side, so that intervals do not hide each other
+        above.errorbar(frequency + 0.004 * (k - 1.5), success[:, 0], spread, capsize=1.5, **look)
         cycles = one["policy_cycles"].sel(policy=policy, quantile=0.5).values
         draw_bounded(below, frequency + 0.004 * (k - 1.5), cycles, look)
     ends = frequency[0] - 0.03, frequency[-1] + 0.03

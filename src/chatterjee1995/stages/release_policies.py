@@ -1,66 +1,68 @@
-"""Policies of migration compared: when should the damper be switched off?
+"""Rules that say when to switch the damper off, compared by trials of migration.
 
-Without the damper the oscillator has a large motion, the resonance motion, and a small one, the
-goal. Migration leads from the large to the small motion by switching the damper on and off.
-Switching off is called release. The release set contains the states from which a release leads to
-the goal; its margin is a required distance of the measured state from the boundary of this set.
-
-Each policy of `migration.policies` is tried from the resonance motion. The parameters of a policy
-are chosen in trials with other random numbers than the trials that measure its success. The success
-of a controller that knows the future (`migration.clairvoyant`) is an upper bound.
-
-Z1 is the displacement of the primary mass and W the forcing frequency. A stage is a step of the
-workflow.
+A trial begins on the resonance motion and repeats holds, times with the damper on, until the free
+motion settles to the small motion, the goal. A free motion counts as settled when its state lies in
+a neighbourhood of an attractor from which all motions provably tend to the attractor.
 """
 
 import math
-from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from chatterjee1995.stages.release_trials import PHASES, QUANTILES, free_case, quantile, summary
 from impact_damper.data.datasets import dataset
-from impact_damper.data.shares import BOUNDS, wilson
+from impact_damper.data.shares import BOUNDS, QUANTILE, wilson
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.single import side_of, workspace
+from impact_damper.kernel.tangents import advance
 from impact_damper.model.bounds import RUNS_RANGE, SEED_RANGE, check_count
-from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import check_settling
-from impact_damper.motions.clairvoyant import clairvoyant
-from impact_damper.motions.damped_labels import orbit_passages
+from impact_damper.motions import ensemble
+from impact_damper.motions.labels import label_states
 from impact_damper.motions.migration import PAPER_CYCLES
-from impact_damper.motions.policies import DRAWS, PHASE, SETTLED, Policy, hold, run_trials
-from impact_damper.motions.policy_choice import chosen_policies
+from impact_damper.motions.release_set import (
+    HOLD,
+    PHASE,
+    PHASES,
+    SETTLED,
+    STATE,
+    hold,
+    release_set,
+)
+from impact_damper.motions.strobe_map import strobe_time
 
-POLICIES = ["settled", "hold", "phase", "state", "clairvoyant"]
-# Margins of the policy by state, divided by max |Z1| of the resonance motion.
-MARGINS = (0.0, 0.02, 0.04, 0.08, 0.16)
-# Disturbances of the policy by state.
-# noise: standard deviation of the measured Z1, divided by max |Z1| of the resonance motion.
-# delay: time from the measurement to the release, in 1/PHASES of a cycle.
-# model: factors of damping and force of the wrong model from which the release set is computed.
-DISTURBANCES = {
-    "none": {},
-    "noise 0.1 %": {"noise": 0.001},
-    "noise 1 %": {"noise": 0.01},
-    "noise 3 %": {"noise": 0.03},
-    "noise 10 %": {"noise": 0.1},
-    "delay 1/16": {"delay": 1},
-    "delay 1/8": {"delay": 2},
-    "delay 1/4": {"delay": 4},
-    "h +5 %, force +1 %": {"model": (1.05, 1.01)},
-    "h +5 %, force -1 %": {"model": (1.05, 0.99)},
-    "h -5 %, force +1 %": {"model": (0.95, 1.01)},
-    "h -5 %, force -1 %": {"model": (0.95, 0.99)},
-    "noise 3 %, delay 1/8, h +5 %, force -1 %": {"noise": 0.03, "delay": 2, "model": (1.05, 0.99)},
-}
-# To save time there are fewer trials with a disturbance, by the factor DISTURBED, and of the
-# clairvoyant bound, by the factor CLAIRVOYANT.
-DISTURBED, CLAIRVOYANT = 2, 4
-# Changes of velocity that are tried to reach the goal without a damper, divided by W max |Z1| of
-# the resonance motion.
-IMPULSES = np.linspace(-2, 2, 801)
-# Cycles with the damper on before a release that tests whether the release set is right.
+POLICIES = ["settled", "hold", "phase", "state"]
+# Fixed numbers of cycles that are tried, each about 1.6 times the one before.
+HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
+# Quantiles of the cycles until the goal that are stored.
+QUANTILES = [0.5, 0.95]
+# Cycles with the damper on before the releases at every phase that measure `realised_share`.
 TESTED_HOLD = 10
+# The results of one hold: forcing cycles and contacts with the damper on, Z1 and Z1' at the next
+# strobe, and forcing cycles from the release to this strobe.
+HELD = np.dtype(
+    [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
+)
+
+
+class Outcome(NamedTuple):
+    """Results of n trials, arrays of shape (n,).
+
+    Attributes
+    ----------
+    reached : whether the goal was reached within the limit
+    cycles : forcing cycles until the free motion settles to the goal, infinite if it does not
+    damper : forcing cycles with the damper on
+    impacts, releases : numbers of contacts and of releases
+    """
+
+    reached: np.ndarray
+    cycles: np.ndarray
+    damper: np.ndarray
+    impacts: np.ndarray
+    releases: np.ndarray
 
 
 def release_policies(
@@ -68,7 +70,6 @@ def release_policies(
     dampers,
     frequencies,
     *,
-    noisy_frequencies=(),
     trials=200,
     tested=10_000,
     cells=64,
@@ -77,7 +78,7 @@ def release_policies(
     workers=1,
     progress=None,
 ):
-    """Compare policies of migration, and test the release set.
+    """Compare rules of release for several dampers, over frequency.
 
     Parameters
     ----------
@@ -85,13 +86,10 @@ def release_policies(
     dampers : list of Damper
     frequencies : sequence of float
         Forcing frequencies at which both free motions of period 1 exist.
-    noisy_frequencies : sequence of float
-        Frequencies, among `frequencies`, at which noise, delay and a wrong model are studied.
     trials : int
-        Trials of each policy; half as many with each disturbance, and a quarter as many for the
-        clairvoyant bound.
+        Trials of each rule.
     tested : int
-        Releases that test the release set, spread evenly over the phases.
+        Releases spread evenly over the phases, ten cycles after the damper is switched on.
     cells : int
         Cells on each axis of the coarse grid of a release set.
     seed : int
@@ -106,23 +104,14 @@ def release_policies(
     xarray.Dataset
         A case is a damper. For each (case, frequency, policy) the share of trials that reach the
         goal within 350 cycles, quantiles of the cycles until the goal, and the cost (time with the
-        damper on, impacts, releases), each with the ends of its 95 % interval; the shares of
-        releases that lead to the goal, as predicted by the release set and as realised; the
-        smallest change of velocity that leads to the goal without a damper; success and median of
-        the cycles under noise, delay and a wrong model for each margin.
-
-    Raises
-    ------
-    ValueError
-        If an argument is out of range, or the free oscillator lacks one of its two motions at a
-        frequency.
+        damper on, impacts, releases), with 95 % intervals; and the share of the `tested` releases
+        that lead to the goal.
     """
     settling = check_settling(settling)
     check_count("trials", trials, **RUNS_RANGE)
     check_count("tested", tested, **RUNS_RANGE)
     check_count("seed", seed, **SEED_RANGE)
     shape = len(dampers), len(frequencies), len(POLICIES)
-    disturbed = len(dampers), len(noisy_frequencies), len(DISTURBANCES), len(MARGINS), 3
     data = {
         "policy_success": np.empty((*shape, 3)),
         "policy_cycles": np.empty((*shape, len(QUANTILES), 3)),
@@ -131,153 +120,186 @@ def release_policies(
         "policy_releases": np.empty(shape),
         "policy_hold": np.full(shape, np.nan),
         "policy_phase": np.full(shape, np.nan),
-        "predicted_share": np.empty((*shape[:2], 3)),
         "realised_share": np.empty((*shape[:2], 3)),
-        "agreeing_share": np.empty((*shape[:2], 3)),
-        "least_impulse": np.empty(shape[1]),
-        "median_impulse": np.empty(shape[1]),
-        "disturbed_success": np.empty(disturbed),
-        "disturbed_cycles": np.empty(disturbed),
     }
     for j, frequency in enumerate(frequencies):
-        free = free_case(oscillator, frequency, cells, settling, workers)
-        models = {(1.0, 1.0): free}
-        if frequency in noisy_frequencies:
-            models |= wrong_models(oscillator, frequency, cells, free)
-        data["least_impulse"][j], data["median_impulse"][j] = impulses(free)
+        releases = release_set(oscillator, frequency, settling, cells=cells, workers=workers)
         for i, damper in enumerate(dampers):
-            on = pack(oscillator, damper, frequency)
-            policies, outcomes = compared(on, free, trials, seed)
-            for k, outcome in enumerate(outcomes):
+            runs = Trials(pack(oscillator, damper, frequency), releases, settling, workers)
+            for k, rule in enumerate(runs.rules(max(1, trials // 4), [seed, 1])):
+                outcome = runs.run(rule, trials, [seed, 0])
                 for name, values in summary(outcome).items():
                     data[name][i, j, k] = values
-            for k, policy in enumerate(policies):
-                if policy.kind != SETTLED:
-                    data["policy_hold"][i, j, k] = policy.hold
-                if policy.kind == PHASE:
-                    data["policy_phase"][i, j, k] = 2 * math.pi * policy.phase / PHASES
-            for name, values in prediction(on, free, tested, seed).items():
-                data[name][i, j] = values
-            if frequency in noisy_frequencies:
-                place = i, list(noisy_frequencies).index(frequency)
-                success, cycles = under_disturbance(on, models, policies[3], trials, seed)
-                data["disturbed_success"][place] = success
-                data["disturbed_cycles"][place] = cycles
-    made = describe(oscillator, settling) | {"trials": trials, "tested": tested, "seed": seed}
-    made |= {"cells": cells}
+                if rule[0] != SETTLED:
+                    data["policy_hold"][i, j, k] = rule[1]
+                if rule[0] == PHASE:
+                    data["policy_phase"][i, j, k] = 2 * math.pi * rule[2] / PHASES
+            reached = runs.released_at_all_phases(tested, [seed, 2])
+            data["realised_share"][i, j] = wilson(np.sum(reached), len(reached))
     for name in ("mass_ratio", "clearance", "restitution"):
         data[f"case_{name}"] = [getattr(damper, name) for damper in dampers]
+    made = describe(oscillator, settling) | {"trials": trials, "tested": tested, "seed": seed}
     coordinates = {
         "case": np.arange(len(dampers)),
         "frequency": frequencies,
         "policy": POLICIES,
         "quantile": QUANTILES,
         "bound": BOUNDS,
-        "noisy_frequency": list(noisy_frequencies),
-        "disturbance": list(DISTURBANCES),
-        "margin": list(MARGINS),
     }
-    return dataset(data, coordinates, made, "Policies of migration")
+    return dataset(data, coordinates, made | {"cells": cells}, "Policies of migration")
 
 
-def compared(on, free, trials, seed):
-    """Return the policies, and the outcomes of their trials.
+class Trials(NamedTuple):
+    """Trials with one damper at one frequency."""
 
-    The last outcome is that of the clairvoyant bound, which has no policy.
-    """
-    limit = float(PAPER_CYCLES)
-    policies = [Policy(SETTLED), *chosen_policies(on, free, trials, limit, [seed, 1])]
-    outcomes = [run_trials(on, free, policy, trials, limit, [seed, 0]) for policy in policies]
-    examined = math.ceil(trials / CLAIRVOYANT)
-    outcomes.append(clairvoyant(on, free, trials, limit, [seed, 0], examined))
-    return policies, outcomes
+    on: np.ndarray
+    releases: tuple
+    settling: tuple
+    workers: int = 1
 
+    def rules(self, trials, seed):
+        """Return the rule of each policy, an argument of `hold`; chosen in trials of their own.
 
-def prediction(on, free, count, seed):
-    """Return the variables of a test of the release set by releases at every phase, a dict.
+        The best fixed number of cycles is also the longest hold of the release by state.
+        """
 
-    They are shares of the releases, each with the ends of its 95 % interval: predicted and realised
-    share of the goal, and share of releases for which both agree.
-    """
-    generator = np.random.default_rng([seed, 2])
-    each = max(1, count // PHASES)
-    start = np.tile(free.attractors.centre[-1], (each, 1))
-    limits, none = np.full(each, TESTED_HOLD + 2.0), np.zeros((each, 2))
-    depths, reached = [], []
-    for phase in range(PHASES):
-        policy = Policy(PHASE, float(TESTED_HOLD), phase)
-        held = hold(on, free, start, generator.random((each, DRAWS)), limits, policy, none)
-        depths.append(held["depth"])
-        reached.append(free.labels(held["state"])[0] == free.goal)
-    inside, reached = np.concatenate(depths) > 0, np.concatenate(reached)
-    return {
-        "predicted_share": wilson(np.sum(inside), len(inside)),
-        "realised_share": wilson(np.sum(reached), len(inside)),
-        "agreeing_share": wilson(np.sum(inside == reached), len(inside)),
-    }
+        def cost(rule):
+            return np.mean(np.minimum(self.run(rule, trials, seed).cycles, PAPER_CYCLES))
 
+        best = min([(HOLD, float(cycles), 0) for cycles in HOLDS], key=cost)
+        phase = min([(PHASE, 1.0, index) for index in range(PHASES)], key=cost)
+        return (SETTLED, 0.0, 0), best, phase, (STATE, best[1], 0)
 
-def impulses(free):
-    """Return the smallest change of velocity that leads from the resonance motion to the goal.
+    def run(self, rule, trials, seed) -> Outcome:
+        """Return the `Outcome` of trials with a rule; equal seeds give equal random numbers."""
+        generator, limit = np.random.default_rng(seed), float(PAPER_CYCLES)
+        owner = self.releases.attractors.owner
+        resonance = owner[-1]
+        place, spent, damper = np.full(trials, resonance), np.zeros(trials), np.zeros(trials)
+        impacts, released = np.zeros((2, trials), int)
+        reached, running = np.zeros(trials, bool), np.arange(trials)
+        while len(running):
+            # Numbers for the phase of switching on, the place of the loose mass, the phase of the
+            # release, and the state at which the hold begins if the free motion has several.
+            draws = generator.random((trials, 4))[running]
+            first = np.searchsorted(owner, place[running])
+            number = np.searchsorted(owner, place[running], side="right") - first
+            chosen = first + np.minimum((draws[:, 3] * number).astype(int), number - 1)
+            starts = self.releases.attractors.centre[chosen]
+            held = self.hold(starts, draws, limit - spent[running], rule)
+            damper[running] += held["cycles"]
+            impacts[running] += held["impacts"]
+            spent[running] += held["cycles"]
+            held, rows = held[held["released"]], running[held["released"]]
+            labels, periods = self.labels(held["state"])
+            spent[rows] += held["ahead"] + periods
+            released[rows] += 1
+            reached[rows] = (labels == self.releases.goal) & (spent[rows] <= limit)
+            place[rows] = np.where(labels >= 0, labels, resonance)
+            running = rows[(labels != self.releases.goal) & (spent[rows] < limit)]
+        return Outcome(reached, np.where(reached, spent, np.inf), damper, impacts, released)
 
-    The first result is the change at the best phase of the forcing, the second the median over the
-    phases.
-    """
-    speed = free.size * free.p[FREQUENCY]
-    least = []
-    for phase in 2 * math.pi * np.arange(PHASES) / PHASES:
-        x, v = orbit_passages(free.p, free.attractors.records[-1], phase)[0]
-        states = np.stack([np.full(len(IMPULSES), x), v + speed * IMPULSES], axis=1)
-        hit = free.labels(states, phase)[0] == free.goal
-        least.append(np.min(np.abs(speed * IMPULSES[hit]), initial=np.inf))
-    return np.min(least), np.median(least)
+    def hold(self, starts, draws, limits, rule):
+        """Return the array of HELD from `hold_many`, computed on several threads."""
+        held, stop = np.zeros(len(starts), HELD), np.zeros(1, bool)
+        set_ = self.releases
 
+        def work(part):
+            hold_many(
+                self.on,
+                set_.p,
+                starts[part],
+                draws[part],
+                limits[part],
+                rule,
+                set_.depth,
+                set_.half,
+                self.settling.tolerance,
+                held[part],
+                stop,
+            )
 
-def wrong_models(oscillator, frequency, cells, free):
-    """Return copies of `free` with release sets of wrong models, a dict.
+        work(slice(0, 0))
+        ensemble.run_chunks(work, len(starts), self.workers, None, stop, size=8)
+        return held
 
-    Its keys are the factors of damping and force of the wrong models.
-    """
-    found = {}
-    for damping, force in {each["model"] for each in DISTURBANCES.values() if "model" in each}:
-        wrong = replace(
-            oscillator, damping=oscillator.damping * damping, force=oscillator.force * force
+    def labels(self, states):
+        """Return the attractor to which each state at a strobe leads, and the cycles until then."""
+        settings = self.settling.tolerance, self.settling.limit, self.workers
+        return label_states(
+            self.releases.p, states, math.pi / 2, self.releases.attractors, *settings
         )
-        known = free_case(wrong, frequency, cells, free.settling, free.workers)
-        found[damping, force] = free._replace(releases=known.releases)
-    return found
+
+    def released_at_all_phases(self, count, seed):
+        """Return whether each of about `count` releases leads to the goal, a mask."""
+        generator, each = np.random.default_rng(seed), max(1, count // PHASES)
+        start = np.tile(self.releases.attractors.centre[-1], (each, 1))
+        limits, reached = np.full(each, TESTED_HOLD + 2.0), []
+        for phase in range(PHASES):
+            rule = PHASE, float(TESTED_HOLD), phase
+            held = self.hold(start, generator.random((each, 3)), limits, rule)
+            reached.append(self.labels(held["state"])[0] == self.releases.goal)
+        return np.concatenate(reached)
 
 
-def under_disturbance(on, models, policy, trials, seed, disturbances=DISTURBANCES):
-    """Return success and median of the cycles for each disturbance and margin.
-
-    Both have the shape (disturbances, margins, 3), with the ends of the 95 % interval.
+@kernel
+def hold_many(on, off, starts, draws, limits, rule, depth, half, tolerance, held, stop):
+    """Switch the damper on, `hold`, and run the free motion to the next strobe, for each trial.
 
     Parameters
     ----------
-    on : array, shape (packed.COUNT,)
-        Packed parameters with the damper.
-    models : dict
-        `FreeCase` with the true release set, keyed by (1.0, 1.0), and the result of `wrong_models`.
-    policy : Policy
-        The policy by state.
-    trials, seed : int
-    disturbances : dict
-        Names and disturbances as in DISTURBANCES.
+    on, off : array, shape (packed.COUNT,)
+        Packed parameters with and without the damper.
+    starts : array, shape (n, 2)
+        Z1 and Z1' at the strobe before switching on.
+    draws : array, shape (n, 3 or more)
+        Numbers between 0 and 1: phase of switching on, place of the loose mass, phase of release.
+    limits : array, shape (n,)
+        Argument `limit` of `hold`; rule, depth, half and tolerance are the same for all trials.
+    held : array of HELD, shape (n,)
+        Receives the results.
+    stop : array of bool, shape (1,)
+        Another thread may set this flag to end the run.
     """
-    success, cycles = [], []
-    for disturbance in disturbances.values():
-        free = models[disturbance.get("model", (1.0, 1.0))]
-        for margin in MARGINS:
-            disturbed = policy._replace(
-                margin=margin * free.size,
-                noise=disturbance.get("noise", 0.0) * free.size,
-                delay=disturbance.get("delay", 0),
-            )
-            examined = math.ceil(trials / DISTURBED)
-            limit = float(PAPER_CYCLES)
-            outcome = run_trials(on, free, disturbed, trials, limit, [seed, 0], examined)
-            success.append(wilson(np.sum(outcome.reached), examined))
-            cycles.append(quantile(outcome.cycles, 0.5))
-    shape = len(disturbances), len(MARGINS), 3
-    return np.reshape(success, shape), np.reshape(cycles, shape)
+    none, path, work, y = np.empty((0, 4)), np.empty((0, 5)), workspace(), np.empty(4)
+    period, first = 2.0 * math.pi / on[FREQUENCY], strobe_time(on)
+    for i in range(len(starts)):
+        if stop[0]:
+            return
+        y[0], y[1], y[2], y[3] = starts[i, 0], starts[i, 1], starts[i, 0], starts[i, 1]
+        begin = first + draws[i, 0] * 2.0 * math.pi / on[FREQUENCY]
+        advance(off, y, none, 0, first, begin, tolerance, work)
+        y[2], y[3] = (2.0 * draws[i, 1] - 1.0) * on[CLEARANCE], 0.0
+        side, draw, out = side_of(on, y), draws[i, 2], held[i]
+        t, released, contacts = hold(
+            on, y, side, begin, limits[i], rule, draw, depth, half, tolerance, path, work
+        )
+        out.released, out.impacts, out.cycles = released, contacts, (t - begin) / period
+        count = math.ceil((t - first) / period - 1e-12)
+        advance(off, y, none, 0, t, first + count * period, tolerance, work)
+        out.ahead = first / period + count - t / period
+        out.state[0], out.state[1] = y[0], y[1]
+
+
+def summary(outcome):
+    """Return the dataset variables of the trials of one policy, a dict."""
+    return {
+        "policy_success": wilson(np.sum(outcome.reached), len(outcome.reached)),
+        "policy_cycles": [quantile(outcome.cycles, share) for share in QUANTILES],
+        "policy_damper": quantile(outcome.damper, 0.5),
+        "policy_impacts": quantile(outcome.impacts, 0.5),
+        "policy_releases": np.mean(outcome.releases),
+    }
+
+
+def quantile(values, share):
+    """Return a quantile and the ends of its 95 % interval, shape (3,).
+
+    The number of values below the quantile has a binomial distribution, which gives the ends as
+    sorted values (order statistics).
+    """
+    ordered, count = np.sort(np.asarray(values, float)), len(values)
+    spread = QUANTILE * math.sqrt(count * share * (1 - share))
+    places = count * share + np.array([0.0, -spread, spread])
+    rounded = [math.ceil(places[0]) - 1, math.floor(places[1]) - 1, math.ceil(places[2])]
+    return ordered[np.clip(rounded, 0, count - 1)]

@@ -43,6 +43,11 @@ FACTOR = 0.98
 HALVINGS = 30
 # Two orbits are the same if their states at a strobe differ by less than ALIKE.
 ALIKE = 1e-6
+# Half width of the region that is searched for stable and unstable orbits, divided by the largest
+# displacement and speed of the free motions.
+REACH = 3.0
+# Number of starts on each axis of the grid whose motions lead to the attractors.
+SEARCHED = 24
 
 
 class Attractors(NamedTuple):
@@ -84,6 +89,13 @@ def find_attractors(p, states, settling, workers=1) -> Attractors:
         np.tile(p, (len(starts), 1)), starts, settling, from_strobe=True, workers=workers
     )
     return with_neighbourhoods(p, _distinct(p, motions[is_settled(motions)]))
+
+
+def free_attractors(p, window, settling, workers=1) -> Attractors:
+    """Return the attractors to which a grid of states leads; `window` are its half widths."""
+    grid = [np.linspace(-half, half, SEARCHED) for half in window]
+    states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
+    return find_attractors(p, states, settling, workers)
 
 
 def with_neighbourhoods(p, records) -> Attractors:

@@ -1,13 +1,6 @@
-"""The release set: states and phases from which the free motion settles to the goal.
+"""Release by state: the states at which switching the damper off leads to the small free motion.
 
-The goal is the non-resonance motion, the smaller of the two motions of period 1 that the oscillator
-has without the damper. If the damper is switched off at a state and phase of the release set, the
-free motion settles to the goal. The set is computed on a grid of states Z1, Z1' at each of several
-phases of the forcing. Each state of the grid has a depth: its distance from the boundary of the
-set, positive inside and negative outside. The distance is in units of Z1, with Z1' divided by the
-frequency W.
-
-Z1 is the displacement of the primary mass.
+The goal is the smaller of the two period-1 motions that the oscillator has without the damper.
 """
 
 import math
@@ -17,78 +10,93 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt, maximum_filter, minimum_filter
 
 from impact_damper.kernel.compiling import kernel
-from impact_damper.model.packed import FREQUENCY
+from impact_damper.kernel.single import assign
+from impact_damper.kernel.tangents import advance
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.motions.attractors import REACH, Attractors, free_attractors
+from impact_damper.motions.free_motions import free_motions
 from impact_damper.motions.labels import label_states
+from impact_damper.motions.watch import NEAR, RING, nearby_period
 
-# Half width of the grid in Z1 and in Z1'/W, divided by max |Z1| of the resonance motion, the larger
-# of the two free motions. Larger states count as outside the set.
+# Number of phases in a forcing cycle at which a controller observes the state; even.
+PHASES = 16
+# Half width of the grid in Z1 and in Z1'/W, divided by max |Z1| of the resonance motion. Larger
+# states count as outside the set.
 WIDTH = 1.6
 # Number of cells of the fine grid in a cell of the coarse grid, along an axis; a power of 2.
 REFINED = 4
+# Rules of release, the first number of `rule` in `hold`.
+SETTLED, HOLD, PHASE, STATE = range(4)
 
 
 class ReleaseSet(NamedTuple):
-    """Depth of the states of a grid inside the release set, at phases that divide a cycle evenly.
+    """The states of the free oscillator at one frequency that lead to the goal.
 
     Attributes
     ----------
-    depth : numpy.ndarray, shape (phases, cells, cells)
-        Depth for each phase, Z1' and Z1, in this order of axes.
+    p : numpy.ndarray, shape (packed.COUNT,)
+        Packed parameters without a damper.
+    attractors : attractors.Attractors
+        The stable free motions; the last one is the resonance motion.
+    goal : int
+        Index of the goal among the attractors.
+    depth : numpy.ndarray, shape (PHASES, cells, cells)
+        Distance of a state from the boundary of the set, positive inside, in units of Z1, with Z1'
+        divided by W. Axes: phase, Z1', Z1.
     half : numpy.ndarray, shape (2,)
         Half widths of the grid in Z1 and Z1'.
     """
 
+    p: np.ndarray
+    attractors: Attractors
+    goal: int
     depth: np.ndarray
     half: np.ndarray
 
-    @property
-    def cell(self):
-        """Width of a cell in units of Z1."""
-        return 2 * self.half[0] / self.depth.shape[1]
 
-
-def release_set(p, attractors, goal, phases, cells, settling, workers=1) -> ReleaseSet:
-    """Return the release set of a free oscillator.
+def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> ReleaseSet:
+    """Compute the release set at one frequency on a grid at each of PHASES phases.
 
     A mirrored state half a cycle later leads to the mirrored motion, and the goal is its own mirror
-    image. Therefore only half of the phases are computed.
+    image, so only half of the phases are computed. `cells` is the number of states on each axis of
+    the coarse grid.
 
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters without a damper.
-    attractors : attraction.attractors.Attractors
-    goal : int
-        Index of the goal among the attractors.
-    phases : int
-        Even number of phases.
-    cells : int
-        Number of states on each axis of the coarse grid. Near the boundary of the set the grid is
-        REFINED times finer.
-    settling : Settling
-    workers : int
-        Number of threads.
+    Raises
+    ------
+    ValueError
+        If the free oscillator does not have both a non-resonance and a resonance motion.
     """
+    p = pack(oscillator, None, frequency)
+    known = free_motions(oscillator, frequency, settling)
+    window = REACH / 2 * np.array([known.displacement, known.speed])
+    attractors = free_attractors(p, window, settling)
+    ones = np.flatnonzero(attractors.records["period"] == 1)
+    if len(ones) < 2 or ones[-1] != len(attractors.records) - 1:
+        raise ValueError(
+            f"frequency = {frequency:g}: must have a non-resonance and a resonance motion "
+            "without the damper"
+        )
+    goal = int(ones[0])
     size = attractors.records["maximum_displacement"][-1]
     half = WIDTH * size * np.array([1.0, p[FREQUENCY]])
     depth = []
-    for k in range(phases // 2):
+    for k in range(PHASES // 2):
 
-        def reach_goal(states, phase=2 * math.pi * k / phases):
+        def reach_goal(states, phase=2 * math.pi * k / PHASES):
             arguments = attractors, settling.tolerance, settling.limit, workers
             return label_states(p, states, phase, *arguments)[0] == goal
 
         inside = _refined(reach_goal, half, cells)
         depth.append(signed_distance(inside) * 2 * WIDTH * size / len(inside))
-    return ReleaseSet(np.array(depth + [each[::-1, ::-1] for each in depth]), half)
+    depth = np.array(depth + [each[::-1, ::-1] for each in depth])
+    return ReleaseSet(p, attractors, goal, depth, half)
 
 
 def _refined(inside, half, cells):
-    """Return the mask of the cells of the fine grid that lie inside a set, shape (n, n).
+    """Return which cells of the fine grid lie inside a set, shape (n, n) with n = REFINED cells.
 
-    n is REFINED times `cells`. The function `inside` takes states, shape (m, 2), and returns which
-    of them lie inside. It is called for all cells of the coarse grid, and on finer grids only for
-    cells near the boundary.
+    The function `inside` takes states, shape (m, 2). It is called for all cells of the coarse grid,
+    and on finer grids only for cells near the boundary.
     """
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
@@ -118,11 +126,9 @@ def signed_distance(inside):
 
 @kernel
 def depth_of(depth, half, phase, x, v):
-    """Return the depth of a state inside the release set at a phase.
+    """Return the depth of the state (x, v) at the phase of an index, minus infinity off the grid.
 
-    `depth` and `half` are the attributes of a `ReleaseSet`, and `phase` is the index of a phase.
-    x and v are Z1 and Z1'. All states in a cell have the same depth. Beyond the grid the depth is
-    minus infinity.
+    `depth` and `half` are the attributes of a `ReleaseSet`.
     """
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf
@@ -130,3 +136,73 @@ def depth_of(depth, half, phase, x, v):
     column = min(int((x / half[0] + 1.0) * 0.5 * cells), cells - 1)
     row = min(int((v / half[1] + 1.0) * 0.5 * cells), cells - 1)
     return depth[phase, row, column]
+
+
+@kernel
+def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, work):
+    """Run a motion with the damper on until a rule releases it; return how this ended.
+
+    Parameters
+    ----------
+    on : array, shape (packed.COUNT,)
+        Packed parameters with the damper.
+    y : array, shape (4,)
+        State at the time `begin`, replaced by the state at the release.
+    side : int
+        Wall in contact (-1, 1, or 0 for none).
+    limit : float
+        Largest number of forcing cycles.
+    rule : tuple of (int, float, int)
+        Kind, number n of forcing cycles, and index of a phase. HOLD releases after n cycles, PHASE
+        at the first such phase after n cycles, SETTLED at the fraction `draw` of a period after the
+        states at the strobes repeat, STATE as soon as the state lies inside the release set, or
+        after n cycles.
+    depth, half : array
+        The attributes of a `ReleaseSet`.
+    path : array, shape (m, 5)
+        Receives a row for each of the first m strobes: forcing cycles since `begin`, and the state.
+    work : array
+        A `workspace`.
+
+    Returns
+    -------
+    t : float
+        Time of the end.
+    released : bool
+        Whether the rule released the damper within `limit`.
+    contacts : int
+        Number of contacts begun.
+    """
+    kind, length, wanted = rule
+    none, ring = np.empty((0, 4)), np.empty((RING, 4))
+    phases, period = depth.shape[0], 2.0 * math.pi / on[FREQUENCY]
+    step = period / phases
+    k = int(math.floor(begin / step)) + 1
+    t, release, strobes, total = begin, math.inf, 0, 0
+    if kind == HOLD or kind == STATE:
+        release = begin + length * period
+    while True:
+        end = min(k * step, release)
+        side, contacts, _ = advance(on, y, none, side, t, end, tolerance, work)
+        total += contacts
+        t = end
+        if t >= release:
+            return t, True, total
+        if t - begin >= limit * period:
+            return t, False, total
+        phase = k % phases
+        k += 1
+        if phase == phases // 4:
+            if strobes < len(path):
+                path[strobes, 0] = (t - begin) / period
+                assign(path[strobes, 1:], y)
+            if kind == SETTLED and release == math.inf:
+                assign(ring[strobes % RING], y)
+                n = nearby_period(ring, strobes, 1.0, 20.0 * tolerance, NEAR)
+                if n > 0:
+                    release = t + draw * n * period
+            strobes += 1
+        if kind == PHASE and phase == wanted and t - begin >= length * period:
+            return t, True, total
+        if kind == STATE and depth_of(depth, half, phase, y[0], y[1]) > 0.0:
+            return t, True, total

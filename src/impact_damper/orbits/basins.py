@@ -19,21 +19,22 @@ from impact_damper.model.checks import check_numbers
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import check_settling
-from impact_damper.motions.attractors import Attractors, find_attractors, with_neighbourhoods
+from impact_damper.motions.attractors import (
+    REACH,
+    find_attractors,
+    free_attractors,
+    with_neighbourhoods,
+)
 from impact_damper.motions.damped_labels import label_damped, orbit_passages
 from impact_damper.motions.free_motions import free_motions
 from impact_damper.motions.labels import label_states
 from impact_damper.orbits.boundary import saddles, stable_manifold
 
-# Half widths in Z1 and Z1', divided by the largest displacement and speed of the motions without a
-# damper.
-# WIDTH: of the plane, if the user gives none.
-# REACH: of the region in which stable manifolds are followed.
-WIDTH, REACH = 1.5, 3.0
-# Number of states on each axis of a grid.
-# SEARCHED: grid of starts whose motions lead to the attractors.
-# NEWTON: grid of first guesses for unstable orbits.
-SEARCHED, NEWTON = 24, 16
+# Half widths of the plane in Z1 and Z1', divided by the largest displacement and speed of the
+# motions without a damper, if the user gives none.
+WIDTH = 1.5
+# Number of states on each axis of the grid of first guesses for unstable orbits.
+NEWTON = 16
 # If states lead to no known attractor, the motions from TRIED of them are run until they settle, to
 # find further attractors.
 TRIED = 64
@@ -180,13 +181,6 @@ def _free(p, plane, window, reach, phase, cells, settling, running):
     return data | boundary_data(
         p, attractors, window, reach, phase, cells, settling
     ), attractors.records
-
-
-def free_attractors(p, window, settling, workers=1) -> Attractors:
-    """Return the attractors to which a grid of states leads; `window` are its half widths."""
-    grid = [np.linspace(-half, half, SEARCHED) for half in window]
-    states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
-    return find_attractors(p, states, settling, workers)
 
 
 def _joined(p, attractors, more):

@@ -62,9 +62,7 @@ def release_phase(
     )
 
 
-def total_cycles(
-    best, within, worst, cases, by_state, by_state_least, by_state_most, by_clairvoyant, **others
-):
+def total_cycles(best, within, worst, cases, by_state, by_state_least, by_state_most, **others):
     """Return the finding on claim 14."""
     shares = listed(
         f"{part_of(case['within'], 'runs', case['runs'])} at W = {number(case['frequency'], 4)}"
@@ -82,9 +80,7 @@ def total_cycles(
         state = (
             " Released as soon as the state lies in the basin of this branch, "
             f"{percent(by_state)} (95 % interval {percent(by_state_least)} to "
-            f"{percent(by_state_most)}) do at W = {number(worst, 4)}; a controller that tries "
-            "each release in advance by computation, and chooses the best, brings "
-            f"{percent(by_clairvoyant)} there."
+            f"{percent(by_state_most)}) do at W = {number(worst, 4)}."
         )
     return (
         f"The non-resonance branch is reached within 350 cycles by {shares}, if the damper is "

@@ -86,14 +86,6 @@ TABLES = (
         "release_policies",
         "chatterjee1995.tables.policies",
         ("release_policies",),
-        "When to switch the damper off: success and cycles of each policy, and the bound of a "
-        "controller that knows the future.",
-    ),
-    Table(
-        "release_predictions",
-        "chatterjee1995.tables.policies",
-        ("release_policies",),
-        "Predictions of the release set, tested with releases that were not used to build it, and "
-        "time of the policy by state compared with release at a random phase.",
+        "When to switch the damper off: success and cycles of each policy.",
     ),
 )
