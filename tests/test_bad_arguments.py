@@ -103,28 +103,6 @@ FUNCTIONS = {
             "settling": no_settling,
         },
     ),
-    "TunedAbsorber": (
-        {"mass": 0.6, "stiffness": 9e3, "damping": 20},
-        {
-            "mass": si | st.just(0),
-            "stiffness": si | st.sampled_from([0, "9 kg"]),
-            "damping": si,
-            "cubic_stiffness": no_si | not_finite | st.just("4e9 N/m"),
-        },
-    ),
-    "absorber_responses": (
-        {"machine": MACHINE, "mass": 0.6, "frequencies": [20.0, 21.0]},
-        {
-            "machine": no_oscillator,
-            "mass": si | st.sampled_from([0, 13]),
-            "frequencies": increasing,
-            "force_shares": increasing,
-            "detunings": no_sequences | no_increase | st.sampled_from([[-1, 0], [math.nan], [99]]),
-            "band": span.filter(lambda ends: ends not in (None, (2.5, 2.9))),
-            "starts": count,
-            "seed": seed,
-        },
-    ),
     "design_damper": (
         {"machine": MACHINE, "mass": 0.6, "band": (20, 21), "restitution": 0.7}
         | {"contact_stiffness": 2e7},

@@ -51,7 +51,6 @@ _HOMES = {
     "HertzContact": "model.hertz",
     "Material": "model.hertz",
     "hertz_stiffness": "design.contact_stiffness",
-    "TunedAbsorber": "design.absorber",
     "simulate": "motions.simulate",
     "steady_motion": "motions.steady",
     "frequency_response": "motions.response",
@@ -67,7 +66,6 @@ _HOMES = {
     "harmonic_convergence": "chatterjee1995.stages.harmonic_convergence",
     "clearance_sweep": "orbits.clearance_sweep",
     "design_damper": "design.design_damper",
-    "absorber_responses": "design.absorber_responses",
     "decode": "data.datasets",
 }
 

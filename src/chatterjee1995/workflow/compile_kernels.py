@@ -51,7 +51,6 @@ def warm_up_orbits() -> None:
     The kernels that `warm_up_settling` also calls come first, and the kernels that call kernels of
     `warm_up_settling` come last, so that the two processes rarely compile the same kernel.
     """
-    from impact_damper.design import smooth_runs
     from impact_damper.motions import ensemble, envelopes, records, strobe_map, traces
 
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
@@ -62,8 +61,6 @@ def warm_up_orbits() -> None:
     traces.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9, states, log)
     ensemble.collide(on[None], states, 1, 1e-9)
     envelopes.envelope(on[None], np.zeros(1), np.zeros(4), 1e-9)
-    rows, slopes = np.zeros((1, smooth_runs.COUNT)), np.zeros((1, 4, 4))
-    smooth_runs.run(rows, states, np.ones(1, int), 1, slopes, states.copy())
 
     from impact_damper.orbits.paths import follow_path
 

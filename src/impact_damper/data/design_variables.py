@@ -12,8 +12,6 @@ ENDS = {
     "branch_ends": 3,
     "range_ends": 4,
 }
-# Bifurcations at which a quiet orbit loses its stability.
-EDGES = {"fold": 0, "symmetry_breaking": 1, "neimark_sacker": 2}
 
 register(
     """
@@ -76,27 +74,12 @@ competitor | competitor | | | absorber in place of an impact damper, or none
 detuning | detuning | | | fraction by which the absorber's springs are stiffer than designed
 force_share | force_share | | | factor of the machine's excitation
 competitor_displacement | competitor detuning frequency force_share | displacement | | largest
-  displacement in the largest motion found
-competitor_least_displacement | competitor detuning frequency force_share | displacement |  |
-  largest displacement in the smallest motion found
-competitor_peak | competitor detuning force_share | displacement | | largest displacement between
-  the first and the last frequency
-competitor_peak_frequency | competitor detuning force_share | frequency | | frequency of the
-  largest displacement
-competitor_motions | competitor detuning frequency force_share | | | number of stable periodic
-  motions found
-competitor_share | competitor detuning frequency force_share | | | share of starts that lead to
-  the largest motion
-competitor_escaped | competitor detuning frequency force_share | | | share of starts that escape
-  over the barrier of a softening spring
-competitor_status | competitor detuning frequency force_share | | | found: all starts that do not
-  escape lead to stable periodic motions; not_periodic: some lead to a motion without a short
-  period; not_settled: some motions did not settle
-  : not_possible -1, escaped 0, found 1, not_periodic 2, not_settled 3
+  displacement of the machine
+competitor_status | competitor | | | whether the displacements are exact, for a linear machine, or
+  the balance of one harmonic
+  : not_possible -1, exact 0, one_harmonic 1
 absorber_stiffness | competitor detuning | stiffness | | stiffness of the absorber's spring
 absorber_damping | competitor detuning | damping | | coefficient of the absorber's dashpot
-absorber_cubic_stiffness | competitor detuning | cubic_stiffness | | cubic stiffness of the
-  absorber's spring
 # screening
 worst_frequency | | frequency | | frequency at which the machine without damper moves most
 balance_displacement | frequency | displacement | | largest displacement without damper by
@@ -205,18 +188,12 @@ damper_map_share | map_gap map_restitution | | | share of starts that lead to qu
 damper_map_displacement | map_gap map_restitution | displacement | | largest displacement
 force_map_share | operating_frequency force_share | | | share of starts that lead to quiet motions
 force_map_displacement | operating_frequency force_share | displacement | | largest displacement
-force_edge_frequency | force_edge | frequency | | frequency at an edge of the quiet orbit
-force_edge_share | force_edge | | | multiple of the nominal force at an edge of the quiet orbit
-force_edge_kind | force_edge | | | bifurcation of the quiet orbit on the edge
-  : EDGES
-force_edge_number | force_edge | | | number of the edge
-force_edges_lost | | | | number of changes of stability for which no edge was found
-damper_edge_gap | damper_edge | displacement | | gap at an edge of the quiet orbit
-damper_edge_restitution | damper_edge | | | restitution at an edge of the quiet orbit
-damper_edge_kind | damper_edge | | | bifurcation of the quiet orbit on the edge
-  : EDGES
-damper_edge_number | damper_edge | | | number of the edge
-damper_edges_lost | | | | number of changes of stability for which no edge was found
+force_map_modulus | operating_frequency force_share | | | modulus of the largest multiplier of the
+  quiet orbit over half a period
+damper_map_modulus | map_gap map_restitution | | | modulus of the largest multiplier of the quiet
+  orbit over half a period
+stability_force_by_frequency | operating_frequency side | | | multiples of the nominal force
+  between which the quiet orbit is stable
 # masses
 other_mass | other | mass | | loose mass
 other_gap | other | displacement | | gap chosen for this loose mass
@@ -255,7 +232,6 @@ noise_by_frequency | frequency | impulse_noise | | sum of the squared impulses o
 den_hartog_stiffness | | stiffness | | stiffness of a tuned absorber by Den Hartog's closed form
 den_hartog_damping | | damping | | damping of Den Hartog's absorber by Brock's closed form
     """,
-    EDGES=EDGES,
     ENDS=ENDS,
     STABILITY=STABILITY,
     TRANSIENT_ENDS=TRANSIENT_ENDS,

@@ -139,7 +139,6 @@ def design_damper(
         "source": SOURCE,
         "machine": json.dumps(damper, sort_keys=True),
         "parameters": json.dumps(made, sort_keys=True),
-        "remarks": parts[-1].attrs["remarks"],
         "conclusion": json.dumps(conclusion(task, choice.kind, data)),
     }
     return data

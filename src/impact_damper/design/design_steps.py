@@ -23,7 +23,6 @@ from impact_damper.design.ring_down import ring_down
 from impact_damper.design.screen import screen
 from impact_damper.design.swept_sine import swept_sine
 from impact_damper.design.task import Task
-from impact_damper.design.tuning import den_hartog_absorber
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.settling import Settling
 from impact_damper.motions.response import frequency_response
@@ -174,16 +173,9 @@ class DesignSteps(NamedTuple):
         """Return maps over frequency and force, and over gap and restitution."""
         task, running = self.task, self.running("Operating range")
         orbit = cliff.quiet_orbit(task, gap, frequency, workers=self.workers)
-        return labelled.maps_dataset(
-            (
-                operating.map_forces(task, gap, limit, SHARES, **running),
-                operating.force_curves(task, gap, frequency, orbit, SHARES),
-            ),
-            (
-                operating.map_dampers(task, gap, frequency, limit, **running),
-                operating.damper_curves(task, gap, frequency, orbit),
-            ),
-        )
+        given = (task, gap, frequency, orbit, limit)
+        forces = operating.force_map(*given, **running)
+        return forces.merge(operating.damper_map(*given, **running))
 
     def masses(self, gap, limit):
         """Return this damper and dampers of other masses, judged by the same tests."""
@@ -208,17 +200,11 @@ class DesignSteps(NamedTuple):
         return _prefixed(swept, "sweep").merge(_prefixed(rung, "ring"))
 
     def competitors(self):
-        """Return the responses with tuned absorbers of the same mass."""
+        """Return the responses with a tuned absorber of the same mass."""
         task = self.task
         low, high = task.resonance
         band = ABSORBED[0] * min(low, task.band[0]), ABSORBED[1] * max(high, task.band[1])
-        found = absorber_responses(task.machine, task.mass, task.grid, SHARES, band=band)
-        closed = {}
-        if task.machine.linear_stiffness:
-            made = den_hartog_absorber(task.machine, task.mass)
-            closed = {"den_hartog_stiffness": made.stiffness, "den_hartog_damping": made.damping}
-        found = found.assign({name: shown_variable(name, closed[name]) for name in closed})
-        return found.assign_coords(frequency=shown_variable("frequency", task.grid))
+        return absorber_responses(task.machine, task.mass, task.grid, SHARES, band=band)
 
 
 def _critical(edges, first):

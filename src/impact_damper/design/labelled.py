@@ -201,37 +201,6 @@ def deviations_dataset(samples, unseen, promise, limit) -> xr.Dataset:
     return labelled(values, varied=list(VARIED), bound=BOUNDS)
 
 
-def maps_dataset(forces, dampers) -> xr.Dataset:
-    """Return the maps over frequency and force, and over gap and restitution, as a dataset.
-
-    Parameters
-    ----------
-    forces, dampers : tuple of operating.Map and operating.Curves
-    """
-    (over_force, force_curves), (over_gap, damper_curves) = forces, dampers
-    values = {
-        "force_map_share": over_force.share,
-        "force_map_displacement": over_force.worst,
-        "damper_map_share": over_gap.share,
-        "damper_map_displacement": over_gap.worst,
-        "force_edge_frequency": force_curves.values[:, 0],
-        "force_edge_share": force_curves.values[:, 1],
-        "damper_edge_gap": damper_curves.values[:, 0],
-        "damper_edge_restitution": damper_curves.values[:, 1],
-    }
-    for prefix, curves in (("force", force_curves), ("damper", damper_curves)):
-        values[f"{prefix}_edge_kind"] = curves.kind
-        values[f"{prefix}_edge_number"] = curves.number
-        values[f"{prefix}_edges_lost"] = curves.lost
-    return labelled(
-        values,
-        operating_frequency=over_force.first,
-        force_share=over_force.second,
-        map_gap=over_gap.first,
-        map_restitution=over_gap.second,
-    )
-
-
 def masses_dataset(found) -> xr.Dataset:
     """Return a list of `masses.Alternative`, dampers of other masses, as a dataset.
 

@@ -6,7 +6,6 @@ the amplitude of the force, or what causes it, as a multiple of the nominal valu
 
 import numpy as np
 
-from impact_damper.data.datasets import flag
 from impact_damper.data.design_ranges import known_range, stable_range
 from impact_damper.design.restitutions import best_of
 from impact_damper.theory.contact_law import contact
@@ -20,31 +19,20 @@ NARROW = "This range is narrow: a small change of the excitation leaves it. "
 
 
 def excitations(data) -> str:
-    """Return sentences on the excitations between which the quiet orbit is stable.
-
-    An edge is a curve over frequency and excitation on which the orbit loses its stability. The
-    edges nearest to the nominal excitation, at any frequency of the band, bound the range of
-    excitations in which the orbit is stable at all frequencies.
-    """
+    """Return sentences on the excitations between which the quiet orbit is stable."""
     here = stable_range(data, "force")
     if not here:
         return ""
-    event = data["stability_force_event"].values == flag("stability_force_event", "range_ends")
-    ends, edges = data["stability_force"].values, data["force_edge_share"].values
-    crossing = [
-        number
-        for number in np.unique(data["force_edge_number"].values)
-        if np.ptp(np.sign(edges[data["force_edge_number"].values == number] - 1)) > 0
-    ]
+    ends = data["stability_force_by_frequency"].values
     frequency = f"{float(data['branch_frequency']):.4g} Hz"
-    if crossing:
+    if np.isnan(ends).any():
         return (
             f"At {frequency} the quiet orbit is stable from {here} times the nominal excitation, "
-            "but at other frequencies of the band it is not stable at the nominal excitation."
+            "but at other frequencies of the band it is not stable at the nominal excitation, or "
+            "not known."
         )
-    below, above = edges[edges <= 1], edges[edges >= 1]
-    inner = max(ends[0], below.max(initial=0)), min(ends[1], above.min(initial=np.inf))
-    over = known_range(inner, event & (np.array(inner) == ends))
+    inner = np.array([ends[:, 0].max(), ends[:, 1].min()])
+    over = known_range(inner, inner == data["force_share"].values[[0, -1]])
     local = "" if over == here else f" (at {frequency} from {here} times)"
     return (
         f"Over the whole band the quiet orbit is stable from {over} times the nominal excitation"

@@ -83,12 +83,12 @@ def test_a_range_that_goes_on_beyond_what_was_looked_at_is_said_to():
 
 def test_excitations_are_those_at_which_the_orbit_is_stable_over_the_whole_band():
     words = said()
-    assert "Over the whole band the quiet orbit is stable from 0.6 to 2 times the nominal" in words
-    open_end = said(stability_force=[0.5, 1.8], stability_force_event=[0, 4])
-    assert "stable from 0.6 to 1.8 or more times the nominal excitation" in open_end
+    assert "Over the whole band the quiet orbit is stable from 0.5 to 2.8 times the nomin" in words
+    open_end = said(stability_force_by_frequency=[[0.5, 4]] * 5)
+    assert "stable from 0.5 to 4 or more times the nominal excitation" in open_end
     assert "narrow" not in open_end
-    assert "This range is narrow" in said(stability_force=[0.5, 1.05])
-    crossing = said(force_edge_share=[0.5, 1.1, 2, 2])
+    assert "This range is narrow" in said(stability_force_by_frequency=[[0.5, 1.05]] * 5)
+    crossing = said(stability_force_by_frequency=[[0.5, 2], [np.nan] * 2] + 3 * [[0.5, 2]])
     assert "at other frequencies of the band it is not stable at the nominal excit" in crossing
 
 

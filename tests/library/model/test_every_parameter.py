@@ -156,7 +156,6 @@ BENT_PLACES = {
 OTHERS = {
     "absorbers/problems.py": "the spring of a machine",
     "absorbers/seeds.py": "the spring of a machine",
-    "motions/smooth_runs.py": "the spring of a machine",
     "design/task.py": "the spring of a machine",
     "literature/nonlinear_absorber.py": "a published system",
     "motions/start_states.py": "`barrier` is compared with the spring below",
@@ -197,7 +196,6 @@ OTHER_DAMPING = {
     "design/screen.py",
     "design/task.py",
     "literature/basin_shares.py",
-    "motions/smooth_runs.py",
     "stages/design_orbit.py",
     "stages/release_policies.py",
 }

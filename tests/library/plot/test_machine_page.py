@@ -118,12 +118,12 @@ def test_a_motion_that_the_damper_does_not_touch_has_a_row_of_its_own():
 def test_who_wins_is_said_plainly():
     html, markdown = texts()
     assert (
-        "Over the band, at the nominal excitation, the optimised absorber is best: the machine "
+        "Over the band, at the nominal excitation, the tuned absorber is best: the machine "
         "moves at most 0.5 mm. Next is this impact damper with 0.8 mm."
     ) in markdown
     assert (
         "So the absorber is better than the impact damper, even if detuned: with the springs of "
-        "the optimised absorber 10 % off the machine moves up to 0.6 mm."
+        "the tuned absorber 10 % off the machine moves up to 0.6 mm."
     ) in markdown
     better = machine_page("x", made_up_design(reached_displacement=np.full(5, 0.1)))
     assert "the impact damper is the right choice here" in as_text("page.md", better, NO_PICTURES)
@@ -133,7 +133,7 @@ def test_a_detuned_absorber_from_which_the_machine_escapes_is_told():
     sizes = made_up_design()["competitor_displacement"].values.copy()
     sizes[-1, 0] = np.inf
     told = "so the absorber is better only as long as it stays tuned: with the springs of the "
-    told += "optimised absorber 10 % off the machine escapes."
+    told += "tuned absorber 10 % off the machine escapes."
     assert told in texts(competitor_displacement=sizes)[1].lower()
 
 

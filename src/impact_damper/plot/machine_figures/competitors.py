@@ -9,8 +9,6 @@ from matplotlib.ticker import NullLocator
 from impact_damper.plot.machine_figures.looks import (
     BARE,
     DAMPED,
-    NONLINEAR,
-    OPTIMISED,
     TUNED,
     decades,
     finite,
@@ -25,7 +23,7 @@ value over the band against the excitation; for this damper only motions to whic
 lead. Shaded: springs of the absorber 10 % softer to 10 % stiffer than designed.
 """
 DETUNED = "detuned by 10 %"
-LOOKS = {"tuned": TUNED, "nonlinear": NONLINEAR, "best": OPTIMISED}
+LOOKS = {"tuned": TUNED}
 OURS = DAMPED | {"marker": "s", "markersize": 3.0, "zorder": 3}
 
 

@@ -9,25 +9,12 @@ from impact_damper.plot.panels.style import (
     GREY,
     ORANGE,
     PALE_SKY,
-    PURPLE,
     VERMILION,
 )
 
 BARE = {"color": BLACK, "linewidth": 1.2, "label": "without damper"}
 DAMPED = {"color": BLUE, "linewidth": 1.2, "label": "with this damper"}
 TUNED = {"color": GREEN, "linewidth": 1.2, "label": "tuned absorber", "linestyle": (0, (5, 2))}
-NONLINEAR = {
-    "color": PURPLE,
-    "linewidth": 1.2,
-    "label": "nonlinear absorber",
-    "linestyle": (0, (5, 1.5, 1, 1.5)),
-}
-OPTIMISED = {
-    "color": ORANGE,
-    "linewidth": 1.2,
-    "label": "optimised absorber",
-    "linestyle": (0, (1, 1.2)),
-}
 LIMIT = {
     "color": VERMILION,
     "linewidth": 0.9,

@@ -9,7 +9,7 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import NullLocator
 
-from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.data.datasets import parameters_of
 from impact_damper.plot.machine_figures.looks import STAR, finite, name_numbers
 from impact_damper.plot.panels.style import (
     BLACK,
@@ -25,9 +25,8 @@ from impact_damper.plot.panels.style import (
 CAPTION = """
 Above: share of random starts that lead to quiet motions. Below: largest displacement of any motion;
 hatched: a motion escapes. Light is good. Each cell has only 12 starts, so that a share in the map
-is a rough estimate. Lines: the exact quiet orbit loses its stability. At a fold the orbit ends. At
-a loss of symmetry the two halves of its cycle become unequal. At the onset of modulation (a
-Neimark-Sacker point) its size begins to vary slowly.
+is a rough estimate. Line: the exact quiet orbit loses its stability or ends, interpolated between
+the middles of cells.
 """
 FORCES = CAPTION + (
     "Red: the nominal excitation. The quiet limit is proportional to the excitation: at half the "
@@ -38,11 +37,8 @@ DAMPERS = CAPTION + "Star: the gap and the restitution of the design."
 NOMINAL = STAR | {"markeredgecolor": WHITE, "markersize": 9}
 LINE = {"color": VERMILION, "linewidth": 1.3, "label": "nominal excitation"}
 HALO = [withStroke(linewidth=2.6, foreground=WHITE)]
-EDGES = {
-    "fold": {"linestyle": "-", "label": "fold"},
-    "symmetry_breaking": {"linestyle": (0, (4, 1.5)), "label": "loss of symmetry"},
-    "neimark_sacker": {"linestyle": (0, (1, 1)), "label": "onset of modulation"},
-}
+# Modulus in cells without an orbit, so that the line at 1 passes between them and the others.
+ABSENT = 2.0
 
 
 @style()
@@ -53,7 +49,7 @@ def draw_forces(data):
     drawn, panels = _maps(*ends, data["force_map_share"].T, data["force_map_displacement"].T)
     for axes in panels:
         axes.axhline(1.0, path_effects=HALO, **LINE)
-        _draw_edges(axes, data, "force", "frequency", "share")
+        _draw_stability(axes, frequency, force, data["force_map_modulus"].T)
         axes.set(yscale="log", ylabel="Excitation / nominal", yticks=force[::2])
         axes.yaxis.set_major_formatter("{x:g}")
         axes.yaxis.set_minor_locator(NullLocator())
@@ -72,7 +68,7 @@ def draw_dampers(data):
     star = NOMINAL | {"label": "this design"}
     for axes in panels:
         axes.plot(float(data["design_gap"]), parameters_of(data)["restitution"], **star)
-        _draw_edges(axes, data, "damper", "gap", "restitution")
+        _draw_stability(axes, gap, restitution, data["damper_map_modulus"].T)
         axes.set(xscale="log", ylabel="Restitution", xticks=gap[::2])
         axes.xaxis.set_major_formatter("{x:.3g}")
         axes.xaxis.set_minor_locator(NullLocator())
@@ -108,15 +104,10 @@ def _edges(centres):
     return np.concatenate([ends[:1], middles, ends[1:]])
 
 
-def _draw_edges(axes, data, prefix, first, second):
-    """Draw the lines on which the quiet orbit loses its stability.
-
-    `prefix`, `first` and `second` are parts of names of variables: the map and its two axes.
-    """
-    number, kind, x, y = (
-        data[f"{prefix}_edge_{name}"].values for name in ("number", "kind", first, second)
-    )
-    for each in np.unique(number):
-        part = number == each
-        name = next(n for n in EDGES if flag(f"{prefix}_edge_kind", n) == kind[part][0])
-        axes.plot(x[part], y[part], color=BLACK, linewidth=1.1, path_effects=HALO, **EDGES[name])
+def _draw_stability(axes, x, y, modulus):
+    """Draw the line on which the quiet orbit loses its stability."""
+    known = np.where(np.isnan(modulus), ABSENT, modulus)
+    if known.min() < 1 < known.max():
+        line = axes.contour(x, y, known, [1.0], colors=BLACK, linewidths=1.1)
+        line.set(path_effects=HALO)
+        axes.plot([], [], color=BLACK, linewidth=1.1, label="end of stability")

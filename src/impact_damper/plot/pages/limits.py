@@ -28,12 +28,6 @@ def missing(data) -> Section:
     texts[0] = texts[0].format(count=data.sizes["frequency"], low=low, high=high)
     if not asked["tolerances"]:
         texts.append("Tolerances: none were given.")
-    lost = int(data["force_edges_lost"]) + int(data["damper_edges_lost"])
-    if lost:
-        texts.append(
-            f"Parts of the lines in the maps on which the quiet orbit loses its stability: {lost} "
-            "could not be followed."
-        )
     return Section("What was not considered", [Points(texts)])
 
 

@@ -1,11 +1,10 @@
 """Section of a page: comparison with tuned absorbers and with other loose masses."""
 
 import itertools
-import json
 
 import numpy as np
 
-from impact_damper.data.datasets import parameters_of
+from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.plot.machine_figures import competitors, masses
 from impact_damper.plot.pages.blocks import Numbers, Picture, Points, Section, Table, Words, shown
 
@@ -13,17 +12,16 @@ NAMES = {
     "bare": "no damper",
     "this": "this impact damper",
     "tuned": "the tuned absorber",
-    "nonlinear": "the nonlinear absorber",
-    "best": "the optimised absorber",
 }
-ABSORBERS = ("tuned", "nonlinear", "best")
 HEAD = (
-    "All absorbers have the same mass as the damper. The tuned absorber has the stiffness and "
-    "damping that minimise the largest displacement of a linear machine. The nonlinear absorber "
-    "has a cubic spring in addition. The stiffness, damping and cubic stiffness of the optimised "
-    "absorber were found by a search for this machine. Displacements are the largest of all "
-    "motions found. With absorbers these are exact periodic motions, checked by random starts. "
-    "With the damper they are motions from random starts and from slow changes of the frequency."
+    "The absorber has the same mass as the damper, and the stiffness and damping that minimise the "
+    "largest displacement of a linear machine. With the damper displacements are the largest of "
+    "all motions from random starts and from slow changes of the frequency."
+)
+BALANCE = (
+    "This machine has a cubic spring. Its displacements alone and with the absorber are the "
+    "balance of one harmonic, and the absorber is tuned to the linear part of the spring: other "
+    "motions can be larger, and another absorber can be better."
 )
 MASSES = (
     "Impact dampers of other masses, each with its own gap, chosen by a shortened design. A star "
@@ -132,24 +130,27 @@ def _ranges(over_force):
 
 
 def _remarks(data):
-    """Yield sentences on why a competitor cannot be built."""
-    for name, text in json.loads(data.attrs.get("remarks", "{}")).items():
-        yield f"{NAMES[name].capitalize()}: {text}"
+    """Yield sentences on what the comparison does not show."""
+    status = data["competitor_status"]
+    if status.sel(competitor="tuned") == flag("competitor_status", "not_possible"):
+        yield (
+            "A tuned absorber is not possible: the machine has no linear stiffness, so its natural "
+            "frequency depends on the amplitude."
+        )
+    if status.sel(competitor="bare") == flag("competitor_status", "one_harmonic"):
+        yield BALANCE
 
 
 def _absorbers(data):
     """Return the rows of the absorbers' springs and dashpots."""
-    units = (
+    rows = []
+    for variable, words, unit in (
         ("absorber_stiffness", "stiffness", "N/m"),
         ("absorber_damping", "damping", "N s/m"),
-        ("absorber_cubic_stiffness", "cubic stiffness", "N/m^3"),
-    )
-    rows = []
-    for name in ABSORBERS:
-        for variable, words, unit in units:
-            value = float(data[variable].sel(competitor=name, detuning=0.0))
-            if np.isfinite(value) and value != 0:
-                rows.append((f"{NAMES[name]}: {words}", shown(value, unit), variable))
+    ):
+        value = float(data[variable].sel(competitor="tuned", detuning=0.0))
+        if np.isfinite(value):
+            rows.append((f"{NAMES['tuned']}: {words}", shown(value, unit), variable))
     for variable, words, unit in (
         ("den_hartog_stiffness", "stiffness", "N/m"),
         ("den_hartog_damping", "damping", "N s/m"),

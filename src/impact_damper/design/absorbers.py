@@ -1,0 +1,318 @@
+"""Tuned absorbers: their tuning to a machine, and the machine's response in closed form.
+
+Frequencies r are divided by the natural frequency of the machine, and s = r^2. The machine has the
+damping ratio z1. The absorber has the mass ratio m, the tuning f (its natural frequency divided by
+the machine's) and the damping ratio z. The square of a linear machine's displacement, in the unit
+of the table, is g(s) N(s)/D(s) with
+
+    N = (f^2 - s)^2 + 4 z^2 f^2 s
+    D = [(1 - s)(f^2 - s) - 4 z1 z f s - m f^2 s]^2 + 4 s [z1 (f^2 - s) + z f (1 - s) - m z f s]^2
+
+    excitation                        unit of displacement    g
+    force F                           F/k                     1
+    unbalance m_e r_e                 m_e r_e/m1              s^2
+    displacement A of the base        A                       1 + 4 z1^2 s
+    acceleration B of the base        B/w1^2                  (1 + 4 z1^2 s)/s^2
+
+m1, k and w1 are mass, stiffness and natural frequency (rad/s) of the machine. All maxima follow
+from the roots of a polynomial, because g N and D are polynomials apart from the denominator s^2.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import polynomial
+from scipy.optimize import minimize_scalar
+
+from impact_damper.model.bounds import MASS_RATIO_RANGE, check_number, shown
+from impact_damper.model.machine import Machine
+from impact_damper.model.units import check_si, convert, physical
+from impact_damper.theory.roots import polynomial_roots
+from impact_damper.theory.tuned_mass_damper import Tuning, den_hartog, exact_optimum
+
+# A root counts as real if its imaginary part is at most REAL times the width of the resonance.
+REAL = 1e-6
+# Grid around the closed form `exact_optimum` on which the optimum is found before it is refined:
+# logarithms of tunings differ by NARROW square roots of the mass ratio up to WIDE, in STEPS steps;
+# damping ratios are multiplied by DAMPINGS. A band adds PLACES tunings and BAND_DAMPINGS.
+STEPS, NARROW, WIDE = 10, 0.1, 0.4
+DAMPINGS = np.geomspace(0.3, 10, 12)
+PLACES = 9
+BAND_DAMPINGS = np.geomspace(1e-3, 0.3, 10)
+# Tolerances of the logarithms of tuning and damping ratio when the optimum is refined.
+TUNING_TOLERANCE, DAMPING_TOLERANCE = 1e-11, 1e-10
+
+
+@dataclass(frozen=True, kw_only=True)
+class TunedAbsorber:
+    """A mass that is connected to a machine by a spring and a dashpot.
+
+    Each value is a number in the SI unit, text with units, or a quantity of pint.
+
+    Attributes
+    ----------
+    mass, stiffness, damping : float
+        kg, N/m and N s/m.
+
+    Examples
+    --------
+    >>> TunedAbsorber(mass="0.6 kg", stiffness="9e3 N/m", damping=20).stiffness
+    9000.0
+    """
+
+    mass: float = physical("mass", above=0)
+    stiffness: float = physical("stiffness", above=0)
+    damping: float = physical("damping", least=0)
+
+    def __post_init__(self):
+        convert(self)
+
+    def detuned(self, detuning) -> "TunedAbsorber":
+        """Return the absorber with its stiffness times 1 + detuning."""
+        factor = 1 + check_number("detuning", detuning, above=-1, most=10)
+        return replace(self, stiffness=self.stiffness * factor)
+
+
+class LinearMachine(NamedTuple):
+    """Numbers of a linear machine: z1, g(s) without its denominator, unit (m), frequency (Hz).
+
+    `forcing` holds the coefficients of g, lowest power first; `falling` is 2 if g has the
+    denominator s^2, else 0.
+    """
+
+    damping_ratio: float
+    forcing: np.ndarray
+    falling: int
+    unit: float
+    natural_frequency: float
+
+
+def check_mass(machine, mass) -> float:
+    """Return the mass of an absorber in kg, if it is allowed for the machine."""
+    if not isinstance(machine, Machine):
+        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
+    least = MASS_RATIO_RANGE["least"] * machine.mass
+    return check_si(
+        "mass", mass, "mass", least=least, most=machine.mass, why="the mass of the machine"
+    )
+
+
+def check_band(machine, band) -> tuple:
+    """Return lowest and highest frequency of a band in Hz."""
+    if np.ndim(band) != 1 or len(band) != 2:
+        raise TypeError(f"band = {shown(band)}: must be lowest and highest frequency")
+    ends = tuple(machine.check_frequency(f"band[{place}]", end) for place, end in enumerate(band))
+    if ends[0] >= ends[1]:
+        raise ValueError(f"band = {shown(band)}: must be lowest and highest frequency, in order")
+    return ends
+
+
+def den_hartog_absorber(machine, mass) -> TunedAbsorber:
+    """Return the absorber with Den Hartog's tuning and Brock's damping, for an undamped machine."""
+    return _absorber(machine, den_hartog(check_mass(machine, mass) / machine.mass))
+
+
+def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
+    """Return the absorber that minimises the largest displacement of the linear machine.
+
+    At the optimum the two highest maxima, or a maximum and an end of the band, are equally high.
+
+    Parameters
+    ----------
+    machine : Machine
+        Its cubic stiffness is ignored.
+    mass : float, str or pint.Quantity
+        kg.
+    band : sequence of 2 floats, optional
+        Lowest and highest forcing frequency, Hz; by default all frequencies.
+    """
+    ratio, linear = check_mass(machine, mass) / machine.mass, linear_machine(machine)
+    limits = _limits(machine, linear, band)
+
+    def highest(log_tuning, log_damping):
+        tuning = Tuning(ratio, math.exp(log_tuning), math.exp(log_damping))
+        return maxima(linear, tuning, limits)[1].max()
+
+    def best_tuning(log_damping):
+        # At the optimum two maxima cross. A method that fits parabolas would stop too early there.
+        return minimize_scalar(
+            highest, bracket=tunings, args=(log_damping,), method="golden", tol=TUNING_TOLERANCE
+        )
+
+    tunings, dampings = _around_optimum(ratio, limits, highest)
+    damping = minimize_scalar(
+        lambda log: best_tuning(log).fun,
+        bounds=dampings,
+        method="bounded",
+        options={"xatol": DAMPING_TOLERANCE},
+    ).x
+    return _absorber(machine, Tuning(ratio, math.exp(best_tuning(damping).x), math.exp(damping)))
+
+
+def linear_machine(machine) -> LinearMachine:
+    """Return the numbers of a machine that has a linear stiffness; its cubic one is ignored."""
+    stiffness, mass = machine.linear_stiffness, machine.mass
+    if stiffness == 0:
+        raise ValueError(
+            "linear_stiffness = 0 N/m: must be greater than 0 N/m for a tuned absorber (the "
+            "machine has no natural frequency to tune to)"
+        )
+    ratio = machine.viscous_damping / (2 * math.sqrt(stiffness * mass))
+    based = np.array([1.0, 4 * ratio**2])
+    kinds = {
+        "force": (np.ones(1), 0, (machine.force or 0.0) / stiffness),
+        "unbalance": (np.array([0.0, 0.0, 1.0]), 0, (machine.unbalance or 0.0) / mass),
+        "base_displacement": (based, 0, machine.base_displacement),
+        "base_acceleration": (based, 2, (machine.base_acceleration or 0.0) * mass / stiffness),
+    }
+    kind = next(name for name in kinds if getattr(machine, name) is not None)
+    return LinearMachine(ratio, *kinds[kind], machine.natural_frequency)
+
+
+def tuning_of(machine, absorber) -> Tuning:
+    """Return mass ratio, tuning and damping ratio of an absorber on a machine."""
+    own = math.sqrt(absorber.stiffness / absorber.mass)
+    frequency = own / (2 * math.pi * machine.natural_frequency)
+    return Tuning(
+        absorber.mass / machine.mass, frequency, absorber.damping / (2 * absorber.mass * own)
+    )
+
+
+def maxima(linear, tuning, band):
+    """Return r and squared displacements at the stationary points in a band and at its ends.
+
+    The polynomial is written in t with s = 1 + w t, where w is the width of the resonance. In s the
+    roots for a light absorber would be so close together that rounding errors merge them.
+    """
+    (mass, f, z), z1 = tuning, linear.damping_ratio
+    width = min(math.sqrt(mass) + z1, 1.0)
+    s, host, own = np.array([1.0, width]), np.array([0.0, -width]), np.array([f**2 - 1, -width])
+    carried = (4 * z1 * z * f + mass * f**2) * s
+    real = np.convolve(host, own) - np.append(carried, 0.0)
+    imaginary = 2 * (z1 * own + z * f * host - mass * z * f * s)
+    above = np.convolve(own, own) + np.append((2 * z * f) ** 2 * s, 0.0)
+    below = polynomial.polyadd(
+        np.convolve(real, real), np.convolve(s, np.convolve(imaginary, imaginary))
+    )
+    above = np.convolve(above, _composed(linear.forcing, s))
+    for _ in range(linear.falling):
+        below = np.convolve(below, s)
+    slope = polynomial.polysub(
+        np.convolve(polynomial.polyder(above), below),
+        np.convolve(above, polynomial.polyder(below)),
+    )
+    roots = 1 + width * polynomial.polyroots(slope)
+    places = np.sqrt(roots.real[(np.abs(roots.imag) <= REAL * width) & (roots.real > 0)])
+    ends = np.array([end for end in band if math.isfinite(end)])
+    inside = places[(places > band[0]) & (places < band[1])]
+    stationary = np.sort(np.concatenate([ends, inside]))
+    return stationary, _squared(linear, tuning, stationary)
+
+
+def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
+    """Return the largest amplitude, m, shape (frequencies, force shares); infinite if it escapes.
+
+    The response is exact for a linear machine. With a cubic spring it is the balance of one
+    harmonic: the largest amplitude that is stable against folds and, with a softening spring, below
+    the barrier. Other instabilities and other motions are not seen.
+
+    Parameters
+    ----------
+    machine : Machine
+    absorber : TunedAbsorber or None
+    frequencies : sequence of float
+        Hz.
+    force_shares : sequence of float
+        Factors of the excitation.
+    """
+    scales = machine.scales
+    sizes = np.empty((len(frequencies), len(force_shares)))
+    for row, hertz in zip(sizes, frequencies, strict=True):
+        oscillator, w = machine.oscillator(hertz), scales.from_si(hertz, "frequency")
+        force = oscillator.forcing_amplitude(w)
+        stiffness = oscillator.linear_frequency**2 - w**2 + 1j * oscillator.damping * w
+        if absorber is not None:
+            link = scales.from_si(absorber.stiffness, "stiffness")
+            link += 1j * w * scales.from_si(absorber.damping, "damping")
+            mass = absorber.mass / machine.mass
+            stiffness -= mass * w**2 * link / (link - mass * w**2)
+        row[:] = [_amplitude(oscillator, stiffness, force * share) for share in force_shares]
+    return scales.to_si(sizes, "displacement")
+
+
+def _amplitude(oscillator, stiffness, force):
+    """Return the amplitude a of |stiffness + (3/4) k3 a^2| a = force that `response` describes."""
+    hardening = oscillator.hardening
+    if hardening == 0:
+        return force / abs(stiffness)
+    squares = np.sort(
+        polynomial_roots(
+            [-(force**2), abs(stiffness) ** 2, 2 * hardening * stiffness.real, hardening**2]
+        )
+    )
+    barrier = math.inf
+    if hardening < 0:
+        barrier = 0.75 * oscillator.linear_frequency**2 / -hardening
+    # The middle one of three solutions is unstable.
+    stable = squares[::2][squares[::2] < barrier]
+    return math.sqrt(stable[-1]) if len(stable) else math.inf
+
+
+def _squared(linear, tuning, frequency):
+    """Return the squared displacement of a linear machine in its unit, at frequencies r."""
+    s = np.square(frequency)
+    forcing = polynomial.polyval(s, linear.forcing) / s**linear.falling
+    (mass, f, z), z1 = tuning, linear.damping_ratio
+    real = (1 - s) * (f**2 - s) - 4 * z1 * z * f * s - mass * f**2 * s
+    imaginary = 2 * (z1 * (f**2 - s) + z * f * (1 - s) - mass * z * f * s)
+    return forcing * ((f**2 - s) ** 2 + (2 * z * f) ** 2 * s) / (real**2 + s * imaginary**2)
+
+
+def _composed(coefficients, inner):
+    """Return the coefficients of a polynomial whose argument is the polynomial `inner`."""
+    composed = np.zeros(1)
+    for coefficient in coefficients[::-1]:
+        composed = np.convolve(composed, inner)
+        composed[0] += coefficient
+    return composed
+
+
+def _absorber(machine, tuning):
+    """Return the absorber in SI units with a given dimensionless tuning on a machine."""
+    mass = tuning.mass_ratio * machine.mass
+    own = 2 * math.pi * linear_machine(machine).natural_frequency * tuning.frequency
+    return TunedAbsorber(
+        mass=mass, stiffness=mass * own**2, damping=2 * mass * tuning.damping_ratio * own
+    )
+
+
+def _limits(machine, linear, band):
+    """Return a band as lowest and highest r."""
+    if band is not None:
+        return tuple(end / linear.natural_frequency for end in check_band(machine, band))
+    if linear.falling:
+        raise ValueError(
+            "band = None: must be given with base_acceleration (the displacement grows without "
+            "limit as the frequency falls)"
+        )
+    return 0.0, math.inf
+
+
+def _around_optimum(ratio, limits, highest):
+    """Return bounds of the logarithms of tuning and damping ratio around the best grid point."""
+    closed = exact_optimum(ratio)
+    factors = np.geomspace(NARROW * math.sqrt(ratio), WIDE, STEPS)
+    tunings = np.log(closed.frequency) + np.concatenate([-factors[::-1], [0.0], factors])
+    dampings = np.log(closed.damping_ratio * DAMPINGS)
+    if limits != (0.0, math.inf):
+        tunings = np.union1d(tunings, np.log(np.linspace(*limits, PLACES)))
+        dampings = np.union1d(dampings, np.log(BAND_DAMPINGS))
+    heights = [[highest(f, z) for z in dampings] for f in tunings]
+    i, j = np.unravel_index(np.argmin(heights), (len(tunings), len(dampings)))
+    return _neighbours(tunings, i), _neighbours(dampings, j)
+
+
+def _neighbours(values, place):
+    return values[max(place - 2, 0)], values[min(place + 2, len(values) - 1)]

@@ -1,0 +1,155 @@
+"""Tuned absorbers against closed forms, SciPy and nonsense."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+
+from impact_damper.data.datasets import flag
+from impact_damper.design.absorber_responses import absorber_responses
+from impact_damper.design.absorbers import (
+    den_hartog_absorber,
+    exact_absorber,
+    linear_machine,
+    maxima,
+    response,
+    tuning_of,
+)
+from impact_damper.model.machine import Machine
+from impact_damper.theory.tuned_mass_damper import exact_optimum
+
+SPRING = {"mass": 12, "linear_stiffness": 2e5}
+LINEAR = Machine(**SPRING, damping_ratio=0.005, force=40)
+UNDAMPED = Machine(**SPRING, damping_ratio=1e-8, force=40)
+EXCITED = {
+    "force": LINEAR,
+    "damped": replace(LINEAR, damping_ratio=0.1),
+    "unbalance": Machine(**SPRING, damping_ratio=0.01, unbalance=0.002),
+    "base_displacement": Machine(**SPRING, damping_ratio=0.01, base_displacement=2e-4),
+    "base_acceleration": Machine(**SPRING, damping_ratio=0.01, base_acceleration=3.0),
+}
+HARD = Machine(**SPRING, cubic_stiffness=4e9, damping_ratio=0.005, force=40)
+FREQUENCIES = [18.0, 20.5, 23.0]
+PERIODS, SAMPLES = 200, 64
+
+
+@pytest.mark.parametrize("mass", [0.12, 0.6, 6])
+def test_without_damping_the_optimum_is_the_closed_form(mass):
+    found = tuning_of(UNDAMPED, exact_absorber(UNDAMPED, mass))
+    assert_allclose(found, exact_optimum(mass / 12), rtol=1e-6)
+
+
+@pytest.mark.parametrize("name", [each for each in EXCITED if each != "base_acceleration"])
+def test_peaks_are_equal_and_no_other_tuning_has_lower_ones(name):
+    machine = EXCITED[name]
+    absorber, linear = exact_absorber(machine, 0.6), linear_machine(machine)
+    heights = np.sort(maxima(linear, tuning_of(machine, absorber), (0.0, math.inf))[1])
+    assert_allclose(heights[-1], heights[-2], rtol=1e-9)
+    frequencies = np.linspace(16, 26, 4001)
+    best = response(machine, absorber, frequencies).max()
+    assert_allclose(best**2, linear.unit**2 * heights[-1], rtol=1e-6)
+    for stiffness, damping in ((0.99, 1), (1.01, 1), (1, 0.97), (1, 1.03)):
+        other = replace(
+            absorber, stiffness=stiffness * absorber.stiffness, damping=damping * absorber.damping
+        )
+        assert response(machine, other, frequencies).max() >= best * (1 - 1e-6)
+
+
+def test_den_hartogs_fixed_points():
+    """Response curves for two dampings cross at sqrt(1 + 2/m) static deflections."""
+    absorber, frequencies = den_hartog_absorber(UNDAMPED, 0.6), np.linspace(15, 26, 20001)
+    first, second = (
+        response(UNDAMPED, replace(absorber, damping=d), frequencies)[:, 0] for d in (10.0, 30.0)
+    )
+    crossed = np.flatnonzero(np.diff(np.sign(first - second)))
+    assert_allclose(first[crossed] / (40 / 2e5), math.sqrt(1 + 2 / 0.05), rtol=1e-3)
+
+
+def test_in_a_band_an_end_is_as_high_as_another_place():
+    absorber, linear = exact_absorber(LINEAR, 0.6, (20, 21.5)), linear_machine(LINEAR)
+    limits = tuple(f / LINEAR.natural_frequency for f in (20, 21.5))
+    heights = np.sort(maxima(linear, tuning_of(LINEAR, absorber), limits)[1])
+    assert_allclose(heights[-1], heights[-2], rtol=1e-6)
+
+
+@pytest.mark.parametrize("name", EXCITED)
+def test_linear_machines_by_the_equations_in_si_units(name):
+    machine = EXCITED[name]
+    data = absorber_responses(machine, 0.6, FREQUENCIES, [1.0, 2.0], band=(10, 40))
+    absorber = exact_absorber(machine, 0.6, (10, 40))
+    w = 2 * np.pi * np.array(FREQUENCIES)
+    through = 2e5 + 1j * w * machine.viscous_damping
+    force = {
+        "unbalance": 0.002 * w**2,
+        "base_displacement": 2e-4 * np.abs(through),
+        "base_acceleration": 3.0 / w**2 * np.abs(through),
+    }.get(name, 40.0)
+    link = absorber.stiffness + 1j * w * absorber.damping
+    carried = -(w**2) * 0.6 * link / (link - 0.6 * w**2)
+    expected = 1e3 * np.abs(force / (through - 12 * w**2 + carried))
+    tuned = data["competitor_displacement"].sel(competitor="tuned", detuning=0)
+    assert_allclose(tuned.sel(force_share=1), expected, rtol=1e-11)
+    assert_allclose(tuned.sel(force_share=2), 2 * expected, rtol=1e-11)
+    assert (data["competitor_status"] == flag("competitor_status", "exact")).all()
+
+
+@pytest.mark.parametrize(("hertz", "tolerance"), [(19.0, 0.01), (20.5, 0.01), (24.5, 0.02)])
+def test_a_cubic_machine_by_scipy(hertz, tolerance):
+    """One harmonic has a few per cent of error where the motion from rest is periodic."""
+    data = absorber_responses(HARD, 0.6, [hertz], [1.0], detunings=[0.0]).squeeze()
+    absorber = exact_absorber(HARD, 0.6)
+
+    def rate(t, y):
+        x, v, u, w = y
+        link = absorber.stiffness * u + absorber.damping * w
+        total = 40 * np.cos(2 * np.pi * hertz * t) - HARD.viscous_damping * v
+        a = (total - 2e5 * x - 4e9 * x**3 - link) / 12
+        return [v, a, w, a - link / 0.6]
+
+    times = np.arange((PERIODS - 10) * SAMPLES, PERIODS * SAMPLES + 1) / (SAMPLES * hertz)
+    run = solve_ivp(rate, (0, times[-1]), np.zeros(4), "DOP853", times, rtol=1e-8, atol=1e-12)
+    found = data["competitor_displacement"].sel(competitor="tuned")
+    assert_allclose(found, 1e3 * np.abs(run.y[0]).max(), rtol=tolerance)
+    assert (data["competitor_status"] == flag("competitor_status", "one_harmonic")).all()
+
+
+def test_a_softening_machine_escapes_where_no_motion_below_the_barrier_exists():
+    soft = replace(HARD, cubic_stiffness=-1.5e9)
+    sizes = response(soft, None, [20.0], [0.1, 100.0])[0]
+    assert sizes[0] < math.sqrt(2e5 / 1.5e9)
+    assert sizes[1] == math.inf
+
+
+def test_without_a_linear_spring_no_absorber_is_possible():
+    cubic = Machine(mass=12, cubic_stiffness=4e9, damping=15.0, force=40)
+    data = absorber_responses(cubic, 0.6, FREQUENCIES, [1.0])
+    assert data["competitor_status"][1] == flag("competitor_status", "not_possible")
+    known = np.isfinite(data["competitor_displacement"])
+    assert known.sel(competitor="bare").all() and not known.sel(competitor="tuned").any()
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"mass": 0}, "mass = 0 kg: must be at least"),
+        ({"mass": 12.1}, "the mass of the machine"),
+        ({"frequencies": [21, 20]}, "frequencies = .*: must be increasing"),
+        ({"frequencies": [-1]}, "frequencies.0. = -1 Hz"),
+        ({"force_shares": [0.0]}, "force_shares.0. = 0"),
+        ({"detunings": [-1]}, "detunings.0. = -1"),
+        ({"machine": replace(LINEAR, force=0)}, "force = 0 N"),
+        ({"band": (30, 20)}, "band = .*in order"),
+    ],
+)
+def test_nonsense_is_refused(change, told):
+    given = {"machine": LINEAR, "mass": 0.6, "frequencies": FREQUENCIES} | change
+    with pytest.raises(ValueError, match=told):
+        absorber_responses(**given)
+
+
+def test_a_base_acceleration_needs_a_band():
+    with pytest.raises(ValueError, match="band = None: must be given"):
+        exact_absorber(EXCITED["base_acceleration"], 0.6)
