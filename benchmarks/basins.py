@@ -14,7 +14,7 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Oscillator
 from impact_damper.model.settling import Settling
-from impact_damper.motions.labels import label_states
+from impact_damper.motions.ensemble import label_states
 from impact_damper.motions.release_set import depth_of
 from impact_damper.orbits.basins import free_attractors
 

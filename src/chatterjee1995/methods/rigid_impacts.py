@@ -19,7 +19,7 @@ from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, workspace
 from impact_damper.kernel.tangents import step_with_tangents
 from impact_damper.model.packed import DAMPING, FREQUENCY, INVERSE_MASS_RATIO
-from impact_damper.motions.extrema import extremum
+from impact_damper.motions.records import extremum
 from impact_damper.motions.strobe_map import strobe_time
 
 # Number of impacts in a forcing cycle at which the integration stops. With e < 1 an infinite number

@@ -20,17 +20,9 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble
-from impact_damper.motions.labels import label_states
+from impact_damper.motions.legs import HOLD, PHASE, SETTLED, STATE, hold
 from impact_damper.motions.migration import PAPER_CYCLES
-from impact_damper.motions.release_set import (
-    HOLD,
-    PHASE,
-    PHASES,
-    SETTLED,
-    STATE,
-    hold,
-    release_set,
-)
+from impact_damper.motions.release_set import PHASES, release_set
 from impact_damper.motions.strobe_map import strobe_time
 
 POLICIES = ["settled", "hold", "phase", "state"]
@@ -226,7 +218,7 @@ class Trials(NamedTuple):
     def labels(self, states):
         """Return the attractor to which each state at a strobe leads, and the cycles until then."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
-        return label_states(
+        return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings
         )
 

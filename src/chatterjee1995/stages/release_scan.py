@@ -14,7 +14,7 @@ from impact_damper.model.bounds import RUNS_RANGE, SCAN_LIFETIME_RANGE, check_co
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import records
-from impact_damper.motions.damper_release import (
+from impact_damper.motions.releases import (
     DESTINATIONS,
     release_case,
     release_data,

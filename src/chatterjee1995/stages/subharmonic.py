@@ -15,7 +15,6 @@ from impact_damper.model.checks import check_frequencies, check_starts
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import check_damper, check_oscillator, describe
 from impact_damper.model.settling import check_settling
-from impact_damper.motions.catalogue import SAME
 from impact_damper.motions.free_subharmonic import (
     SEARCHED,
     branch_ends,
@@ -25,7 +24,7 @@ from impact_damper.motions.free_subharmonic import (
 )
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
-from impact_damper.motions.sweep import reached, sweep
+from impact_damper.motions.sweep import SAME, reached, sweep
 
 # The frequencies extend beyond each end of the free subharmonic by BEYOND times the width of its
 # range of frequencies.

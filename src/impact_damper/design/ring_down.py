@@ -17,7 +17,7 @@ from impact_damper.model.families import FORCING
 from impact_damper.model.machine import check_fit
 from impact_damper.model.packed import cubic_spring, pack
 from impact_damper.model.units import check_si
-from impact_damper.motions.envelopes import envelope
+from impact_damper.motions.records import envelope
 
 # A ring-down ends when the energy has fallen to the energy at REST times the first displacement, or
 # after MOST_WINDOWS windows. A window is a period of the unforced vibration.

@@ -18,7 +18,7 @@ from impact_damper.model.bounds import shown
 from impact_damper.model.machine import check_fit
 from impact_damper.model.packed import FORCE, FREQUENCY, UNBALANCE, pack
 from impact_damper.model.units import check_si
-from impact_damper.motions.envelopes import envelope
+from impact_damper.motions.records import envelope
 
 DIRECTIONS = ("up", "down")
 # The machine without the damper, and with it.

@@ -1,8 +1,7 @@
-"""Attracting orbits of the free oscillator at one frequency, each with a proven neighbourhood.
+"""Attractors of a plane of states: of the free oscillator with proven neighbourhoods, or by runs.
 
-A strobe is a time at which the forcing has the phase W T = pi/2. A neighbourhood is an ellipse
-around a state of the orbit at a strobe. Every motion that is in the ellipse at a strobe tends to
-the orbit, so the integration of such a motion can stop.
+A neighbourhood is an ellipse around a state of a free orbit at a strobe. Every motion that is in
+the ellipse at a strobe tends to the orbit, so its integration can stop.
 
 Proof. Let x(t) be the orbit and P its period. Let F(t) be the matrix of its variational equations,
 with F(0) = 1 and F(P) = V R V^-1, where the norm |R| is the largest modulus of a multiplier and is
@@ -20,8 +19,6 @@ ellipse tend to the orbit.
 The scalar equation for r is integrated numerically. In each of STEPS steps in a forcing cycle a
 coefficient has the larger of its values at the ends of the step. In place of |R| r(P) < r0 the
 program requires |R| r(P) < FACTOR r0.
-
-Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
 """
 
 from typing import NamedTuple
@@ -29,10 +26,12 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import is_settled
+from impact_damper.data.variables import BASIN_LABEL
+from impact_damper.kernel import batch
 from impact_damper.kernel.single import workspace
 from impact_damper.kernel.tangents import advance
-from impact_damper.model.packed import FREQUENCY, cubic_spring
-from impact_damper.motions import ensemble
+from impact_damper.model.packed import CLEARANCE, FREQUENCY, cubic_spring
+from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 
 # STEPS     number of steps in a forcing cycle in the proof
@@ -41,13 +40,25 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 STEPS = 256
 FACTOR = 0.98
 HALVINGS = 30
-# Two orbits are the same if their states at a strobe differ by less than ALIKE.
-ALIKE = 1e-6
+# Two free orbits are the same if their states at a strobe differ by less than ALIKE. Two settled
+# motions with contacts and the same period are the same if max |Z1| differs relatively by less than
+# SAME; mirror images are therefore one motion.
+ALIKE, SAME = 1e-6, 1e-5
 # Half width of the region that is searched for stable and unstable orbits, divided by the largest
 # displacement and speed of the free motions.
 REACH = 3.0
 # Number of starts on each axis of the grid whose motions lead to the attractors.
 SEARCHED = 24
+# Labels of motions that have not settled to an orbit with contacts, keyed by their outcome.
+LABELS = {
+    records.UNRESOLVED: BASIN_LABEL["unresolved"],
+    records.DIVERGED: BASIN_LABEL["escaped"],
+    records.ESCAPED: BASIN_LABEL["escaped"],
+    records.CHAOTIC: BASIN_LABEL["chaotic"],
+    records.NON_COLLIDING: BASIN_LABEL["no_contact"],
+    records.DRIFTING: BASIN_LABEL["no_contact"],
+    records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
+}
 
 
 class Attractors(NamedTuple):
@@ -72,18 +83,7 @@ class Attractors(NamedTuple):
 
 
 def find_attractors(p, states, settling, workers=1) -> Attractors:
-    """Return the attracting orbits that the motions from given states at a strobe lead to.
-
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters without a damper.
-    states : array, shape (n, 2)
-        Z1 and Z1' at the strobe.
-    settling : Settling
-    workers : int
-        Number of threads.
-    """
+    """Return the attracting free orbits that motions from states Z1, Z1' at a strobe lead to."""
     starts = np.tile(np.asarray(states, float).reshape(-1, 2), 2)
     motions = ensemble.settle(
         np.tile(p, (len(starts), 1)), starts, settling, from_strobe=True, workers=workers
@@ -99,7 +99,7 @@ def free_attractors(p, window, settling, workers=1) -> Attractors:
 
 
 def with_neighbourhoods(p, records) -> Attractors:
-    """Return the `Attractors` of orbits, which are passed as records of type `records.MOTION`."""
+    """Return the `Attractors` of orbits, an array of records.MOTION."""
     owner, centres, shapes = [], [], []
     for index, record in enumerate(records):
         for state in strobe_states(p, record):
@@ -140,13 +140,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 of an orbit and the matrices F(t), at STEPS times in each cycle and at the end.
-
-    Returns
-    -------
-    displacement : numpy.ndarray, shape (n,)
-    matrices : numpy.ndarray, shape (n, 2, 2)
-    """
+    """Return Z1 of an orbit (n,) and the matrices F(t) (n, 2, 2), STEPS times in each cycle."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]
@@ -160,8 +154,7 @@ def linear_flow(p, state, periods):
 def neighbourhood(p, state, periods):
     """Return the matrix S of the proven neighbourhood |S d| < 1 of a state of a free orbit.
 
-    S is infinite if the proof fails, for example for an unstable orbit. `periods` is the period of
-    the orbit in forcing cycles.
+    S is infinite if the proof fails, for example for an unstable orbit.
     """
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
@@ -202,3 +195,88 @@ def _radius(coefficients, step, contraction):
             r += step * (a + b * ahead) * ahead * ahead
         low, high = (middle, high) if contraction * r < FACTOR * middle else (low, middle)
     return low
+
+
+def label_damped(p, states, phase, settling, workers=1, progress=None):
+    """Return labels of states with the damper on, and the attractors that the labels refer to.
+
+    No proven neighbourhoods exist for motions with contacts, so each motion is run until it has
+    settled.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters with a damper.
+    states : array, shape (n, 4)
+        States at the phase.
+    phase : float
+        Phase W T of the forcing, radian.
+    settling, workers, progress
+        As in `ensemble.settle`.
+
+    Returns
+    -------
+    labels : numpy.ndarray of int, shape (n,)
+        Index of the attractor, or a negative flag of `basin_label`.
+    periods : numpy.ndarray of int, shape (n,)
+        Number of cycles for which each motion was run.
+    attractors : numpy.ndarray of records.MOTION, shape (k,)
+        By ascending max |Z1|.
+    """
+    begin = phase % (2 * np.pi) / p[FREQUENCY]
+    strobe = strobe_time(p) + (2 * np.pi / p[FREQUENCY] if begin > strobe_time(p) else 0.0)
+    starts = to_strobe(p, states, begin, strobe, settling.tolerance)
+    motions = ensemble.settle(
+        np.tile(p, (len(starts), 1)),
+        starts,
+        settling,
+        from_strobe=True,
+        workers=workers,
+        progress=progress,
+    )
+    labels = np.full(len(motions), BASIN_LABEL["unresolved"])
+    for outcome, label in LABELS.items():
+        labels[motions["outcome"] == outcome] = label
+    attractors = []
+    settled = np.flatnonzero(motions["outcome"] == records.SETTLED)
+    order = settled[np.argsort(motions["maximum_displacement"][settled], kind="stable")]
+    for i in order:
+        for index, known in enumerate(attractors):
+            ratio = motions["maximum_displacement"][i] / known["maximum_displacement"]
+            if known["period"] == motions["period"][i] and abs(ratio - 1) < SAME:
+                labels[i] = index
+                break
+        else:
+            labels[i] = len(attractors)
+            attractors.append(motions[i])
+    return labels, motions["periods_run"], np.array(attractors, records.MOTION)
+
+
+def to_strobe(p, states, begin, strobe, tolerance):
+    """Return the states at the time `strobe` of motions with given states at the time `begin`."""
+    y = np.array(states, float)
+    number = len(y)
+    sides = np.where(y[:, 2] > p[CLEARANCE], 1, np.where(y[:, 2] < -p[CLEARANCE], -1, 0))
+    batch.advance(
+        np.tile(p, (number, 1)),
+        y,
+        sides.astype(np.int64),
+        np.full(number, begin),
+        np.full(number, strobe),
+        tolerance,
+        np.zeros(number, np.int64),
+    )
+    return y
+
+
+def orbit_passages(p, record, phase):
+    """Return Z1, Z1' of an orbit at all times with a given forcing phase, shape (period, 2)."""
+    period = 2 * np.pi / p[FREQUENCY]
+    begin = strobe_time(p)
+    first = begin + (phase / p[FREQUENCY] - begin) % period
+    times = first + period * np.arange(record["period"])
+    states = np.empty((len(times), 4))
+    traces.trace(
+        p, record["state"].copy(), begin, times, POLISH_TOLERANCE, states, np.empty((0, 5))
+    )
+    return states[:, :2]

@@ -19,8 +19,8 @@ from impact_damper.data.datasets import flag
 from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions import legs
-from impact_damper.motions.damper_release import destination, kinds
 from impact_damper.motions.records import MOTION, NEVER
+from impact_damper.motions.releases import destination, kinds
 from impact_damper.motions.traces import trace
 
 # `course` returns Z1 against time from MARGIN forcing cycles before a run to MARGIN cycles after.

@@ -1,45 +1,50 @@
-"""Run many motions on several threads, with a progress bar.
+"""Run many motions on several threads: until they settle, or enter a known basin.
 
-Kernels (compiled functions) release Python's global interpreter lock, so threads run in parallel.
 Each motion is computed separately, so results do not depend on the number of threads.
-
-Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
-forcing frequency, and T the time.
 """
 
+import math
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from tqdm import tqdm
 
+from impact_damper.kernel.batch import (
+    LANES,
+    RESIDENT,
+    SIDE,
+    STATE,
+    advance_some,
+    enter,
+    make_pool,
+    send,
+)
+from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.equation import has_escaped
+from impact_damper.kernel.single import assign, side_of
 from impact_damper.model import packed
 from impact_damper.model.bounds import check_count
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import Settling
+from impact_damper.motions import ensemble
 from impact_damper.motions.records import MOTION, first_collisions, measure
-from impact_damper.motions.settling import settle_many
+from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.motions.undecided import name_undecided
+from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
-# Number of motions in one call of a kernel by a thread.
-CHUNK = 128
+# Number of motions that one call of a kernel settles, and number of states that one call labels.
+# Ctrl-C waits for the end of a call, which takes a fraction of a second.
+CHUNK, LABELLED = 128, 4096
+# Labels of states that lead to no known orbit, as in the registered flags of `basin_label`.
+GONE, UNKNOWN = -2, -1
 
 
 def run_chunks(work, count, workers, progress, stop, size=CHUNK):
-    """Call `work(slice)` for slices that cover range(count), on `workers` threads.
+    """Call `work(slice)` for slices of length `size` that cover range(count), on `workers` threads.
 
-    Parameters
-    ----------
-    work : callable
-    count, workers : int
-        Length of the range, and number of threads.
-    progress : str or None
-        Title of a progress bar; None for no progress bar.
-    stop : array of bool, shape (1,)
-        An error or Ctrl-C sets this flag. The function then returns without waiting for the slices
-        that are being computed, so `work` and its kernels must end soon after the flag is set.
-    size : int
-        Length of a slice.
-    """
+    `progress` is the title of a progress bar, or None. An error or Ctrl-C sets `stop[0]`; the
+    function then returns without waiting for the slices that are being computed, so `work` must end
+    soon after."""
     check_count("workers", workers, most=4096)
     slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
     pool = ThreadPoolExecutor(workers)
@@ -75,14 +80,13 @@ def settle(
         First states Z1, Z1', Z2, Z2'.
     settling : Settling, optional
     start : float
-        Time T of all states. It must lie in the forcing cycle that ends at the first strobe, the
-        time T = pi/(2 W).
+        Time T of all states, in the forcing cycle that ends at the first strobe.
     from_strobe : bool
         If True, the states are states at the strobe, and `start` is not used.
     workers : int
         Number of threads.
     progress : str, optional
-        Title of a progress bar; by default there is no progress bar.
+        Title of a progress bar.
     stop : array of bool, shape (1,), optional
         Another thread may set this flag to end the runs. The records are then incomplete.
 
@@ -130,12 +134,80 @@ def settle(
     return records
 
 
+@kernel
+def settle_many(parameters, states, start, tolerance, patience, limit, out, stop):
+    """Run each motion until it has settled or is certainly chaotic, for at most `limit` cycles.
+
+    Parameters
+    ----------
+    parameters : array, shape (m, packed.COUNT)
+    states : array, shape (m, 4)
+        First states.
+    start : array, shape (m,)
+        Times of the first states, not after the first strobe.
+    tolerance, patience, limit
+        The attributes of `Settling`.
+    out : array of records.MOTION, shape (m,)
+        Filled by `watch`. The field `state` receives the last state at a strobe or, for a settled
+        motion, the state on the orbit.
+    stop : array of bool, shape (1,)
+        Another thread may set this flag to end the run. The records are then incomplete.
+    """
+    size = min(len(out), RESIDENT)
+    pool = make_pool(size)
+    seen = np.zeros(size, SEEN)
+    rings = np.empty((size, RING, 4))
+    chosen, arrived = np.empty(LANES, np.int64), np.empty(LANES, np.int64)
+    y = np.empty(4)
+    following, left = size, len(out)
+    for m in range(size):
+        take(pool, m, m, parameters, states, start, tolerance, seen, out)
+    while left > 0 and not stop[0]:
+        for j in range(advance_some(pool, chosen, arrived)):
+            m = arrived[j]
+            i = seen[m].index
+            p, strobe = parameters[i], strobe_time(parameters[i])
+            side = np.int64(pool.numbers[m, SIDE])
+            contacts, tangent = pool.contacts[m], pool.tangents[m]
+            for k in range(4):
+                y[k] = pool.numbers[m, STATE + k]
+            if watch(
+                p, y, side, contacts, tangent, rings[m], seen[m], tolerance, patience, limit, out[i]
+            ):
+                left -= 1
+                assign(out[i].state, y)
+                take(pool, m, following, parameters, states, start, tolerance, seen, out)
+                following += 1
+            else:
+                with_tangent = seen[m].strobes > patience // 2
+                send(pool, m, strobe, strobe + 2.0 * math.pi / p[FREQUENCY], with_tangent)
+
+
+@kernel
+def take(pool, m, i, parameters, states, start, tolerance, seen, out):
+    """Enter motion i, if it exists, at index m of the pool of motions that are stepped together."""
+    if i < len(out):
+        p, y = parameters[i], states[i]
+        begin_watch(seen[m], i, out[i])
+        enter(pool, m, p, y, side_of(p, y), tolerance)
+        send(pool, m, start[i], strobe_time(p), False)
+
+
+@kernel_only
+def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
+    """Enter motion i, if it exists, at index m of the pool of motions that are stepped together."""
+    if i < len(states):
+        taken[m], strobes[m] = i, 0
+        y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
+        enter(pool, m, p, y, 0, tolerance)
+        send(pool, m, begin, first, False)
+
+
 def collide(parameters, states, limit, tolerance):
     """Return the number of forcing cycles from T = 0 to each motion's first contact, shape (m,).
 
     The number is infinite without a contact within `limit` cycles, and 0 for a state at or beyond a
-    wall. The motions run in another thread, so that Ctrl-C takes effect at once. The other
-    arguments are as in `settle`.
+    wall. The motions run in another thread, so that Ctrl-C takes effect at once.
     """
     waits, stop = np.empty(len(states)), np.zeros(1, bool)
 
@@ -145,3 +217,112 @@ def collide(parameters, states, limit, tolerance):
     work(slice(0, 0))
     run_chunks(work, len(states), 1, None, stop, size=max(len(states), 1))
     return waits
+
+
+def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
+    """Return the free orbit that each state leads to, and the number of cycles until it was known.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters without a damper.
+    states : array, shape (n, 2)
+        Z1 and Z1' at the phase.
+    phase : float
+        Phase W T of the forcing, radian.
+    attractors : attractors.Attractors
+    tolerance, limit, workers, progress
+        Largest local error of a step, forcing cycles after which a motion counts as unresolved, and
+        arguments of `settle`.
+
+    Returns
+    -------
+    labels : numpy.ndarray of int, shape (n,)
+        Index in `attractors.records`, or GONE or UNKNOWN.
+    periods : numpy.ndarray of int, shape (n,)
+    """
+    states = np.ascontiguousarray(states, float)
+    strobe = 0.5 * math.pi
+    begin = (strobe - (strobe - phase) % (2 * math.pi)) / p[FREQUENCY]
+    labels, periods = np.full(len(states), UNKNOWN), np.zeros(len(states), np.int64)
+    stop = np.zeros(1, bool)
+
+    def work(part):
+        label_many(
+            p,
+            states[part],
+            begin,
+            tolerance,
+            limit,
+            attractors.owner,
+            attractors.centre,
+            attractors.shape,
+            labels[part],
+            periods[part],
+            stop,
+        )
+
+    # This call compiles the kernel in the main thread, where Ctrl-C can interrupt the compilation.
+    work(slice(0, 0))
+    ensemble.run_chunks(work, len(states), workers, progress, stop, size=LABELLED)
+    return labels, periods
+
+
+@kernel
+def label_many(p, states, begin, tolerance, limit, owner, centre, shape, labels, periods, stop):
+    """Label states of the free oscillator by the orbit whose neighbourhood their motions enter.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters without a damper.
+    states : array, shape (n, 2)
+        Z1 and Z1' at the time `begin`, at most a forcing cycle before the first strobe.
+    limit : int
+        Number of forcing cycles after which a motion counts as unresolved.
+    owner, centre, shape : array
+        The attributes of `attractors.Attractors`.
+    labels, periods : array of int, shape (n,)
+        Receive the index of the orbit, or GONE or UNKNOWN, and the number of strobes until then.
+    stop : array of bool, shape (1,)
+        Another thread may set this flag to end the run. The labels are then incomplete.
+    """
+    size = min(len(states), RESIDENT)
+    pool = make_pool(size)
+    chosen, arrived = np.empty(LANES, np.int64), np.empty(LANES, np.int64)
+    taken, strobes = np.zeros(size, np.int64), np.zeros(size, np.int64)
+    y = np.empty(4)
+    first, period = strobe_time(p), 2.0 * math.pi / p[FREQUENCY]
+    following, left = size, len(states)
+    for m in range(size):
+        take_state(pool, m, m, p, states, begin, first, tolerance, y, taken, strobes)
+    while left > 0 and not stop[0]:
+        for j in range(advance_some(pool, chosen, arrived)):
+            m = arrived[j]
+            i = taken[m]
+            x, v = pool.numbers[m, STATE], pool.numbers[m, STATE + 1]
+            label = which(x, v, owner, centre, shape)
+            if has_escaped(p, x, v):
+                label = GONE
+            if label != UNKNOWN or strobes[m] == limit:
+                labels[i], periods[i] = label, strobes[m]
+                left -= 1
+                take_state(
+                    pool, m, following, p, states, begin, first, tolerance, y, taken, strobes
+                )
+                following += 1
+            else:
+                strobes[m] += 1
+                send(pool, m, first, first + period, False)
+
+
+@kernel_only
+def which(x, v, owner, centre, shape):
+    """Return the orbit in whose neighbourhood a state at a strobe lies, or UNKNOWN."""
+    for k in range(len(owner)):
+        dx, dv = x - centre[k, 0], v - centre[k, 1]
+        first = shape[k, 0, 0] * dx + shape[k, 0, 1] * dv
+        second = shape[k, 1, 0] * dx + shape[k, 1, 1] * dv
+        if first * first + second * second < 1.0:
+            return owner[k]
+    return UNKNOWN

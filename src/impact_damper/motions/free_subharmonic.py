@@ -15,10 +15,9 @@ from impact_damper.model import packed
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import strobe_map, traces
-from impact_damper.motions.catalogue import SAME
 from impact_damper.motions.following import record_at
 from impact_damper.motions.start_states import search_starts
-from impact_damper.motions.sweep import sweep
+from impact_damper.motions.sweep import SAME, sweep
 
 # Number of frequencies at which the subharmonic is searched for.
 SEARCHED = 81

@@ -1,14 +1,9 @@
 """Legs of a run of migration control: the motions between two switchings of the damper.
 
-A leg begins when the damper is switched, at any phase of the forcing. Z1 and Z1' are continuous at
-the switching. A leg ends at the first strobe at which the motion is near a stable orbit, or after a
-given number of strobes. A strobe is the time in each forcing cycle at which the forcing has the
-phase W T = pi/2 (`motions.strobe_map`). The state is not moved onto the orbit, so that a run is one
-continuous motion.
-
-Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass and d0
-the clearance.
-"""
+A leg begins when the damper is switched, at any phase of the forcing, with Z1 and Z1' continuous.
+It ends at the first strobe at which the motion is near a stable orbit, when a rule releases the
+damper, or after a given time. The state is not moved onto the orbit, so that a run is one
+continuous motion."""
 
 import math
 
@@ -27,9 +22,10 @@ from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, ne
 # An orbit captures a run after the last strobe at which the run differs from the orbit by more than
 # CAPTURE in Z1 or Z1'.
 CAPTURE = 0.1
-# Forcing cycles in one call of a compiled function. Ctrl-C takes effect only after a call, so a
-# call must take no more than a fraction of a second.
+# Forcing cycles in one call of a compiled function. Ctrl-C waits for the end of a call.
 STROBES_AT_ONCE = 50_000
+# Rules of release, the first number of `rule` in `hold`.
+SETTLED, HOLD, PHASE, STATE = range(4)
 
 
 class Stopped(Exception):
@@ -39,12 +35,9 @@ class Stopped(Exception):
 def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
     """Run a motion from any phase of the forcing until it is near a stable orbit.
 
-    The run ends at the latest at strobe number `limit`, counted from 0.
-
     Parameters
     ----------
     p : array, shape (COUNT,)
-        Packed parameters.
     y : array, shape (4,)
         State at the beginning, replaced by the last state.
     ahead : float
@@ -61,12 +54,7 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
     out : records.MOTION
         Receives outcome, period and periods_run, and the state on the orbit if the motion settled.
     stop : array of bool, shape (1,)
-        Another thread may set this flag to end the run.
-
-    Raises
-    ------
-    Stopped
-        If `stop[0]` is true.
+        If another thread sets this flag, `Stopped` is raised.
     """
     out["outcome"], out["period"], out["maximum_displacement"] = UNRESOLVED, 0, np.nan
     path[0, 0], path[0, 1:] = strobe - ahead, y
@@ -126,8 +114,8 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop
     wait : float
         Forcing cycles from the strobe to the switching.
     place : float
-        Z2/d0 of the loose mass when the damper is switched on. The loose mass is then at rest
-        relative to the primary mass. Not used when the damper is switched off.
+        Z2 of the loose mass over the clearance when the damper is switched on; the loose mass is
+        then at rest relative to the primary mass. Not used when the damper is switched off.
     strobe : float
         Number of this strobe, at which the waiting begins.
     tolerance, limit, path, stop
@@ -159,16 +147,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop
 def life(p, path, record, tolerance):
     """Return the forcing cycles after which a run stays within CAPTURE of its final orbit.
 
-    Parameters
-    ----------
-    p : array, shape (COUNT,)
-        Packed parameters.
-    path : array
-        Path of the run, from `run`.
-    record : records.MOTION
-        The motion that the run settled to.
-    tolerance : float
-        Largest local error of a step.
+    `path` is the path of the run, from `run`, and `record` the motion that it settled to.
     """
     orbit = np.empty((record["period"], 4))
     begin = strobe_time(p)
@@ -178,3 +157,87 @@ def life(p, path, record, tolerance):
     there = orbit[np.arange(-last, 1) % len(orbit), :2]
     far = np.any(np.abs(path[1 : last + 2, 1:3] - there) > CAPTURE, axis=1)
     return int(np.max(np.flatnonzero(far), initial=-1)) + 1
+
+
+@kernel
+def depth_of(depth, half, phase, x, v):
+    """Return the depth of the state (x, v) at the phase of an index, minus infinity off the grid.
+
+    `depth` and `half` are the attributes of a `ReleaseSet`.
+    """
+    if not (abs(x) <= half[0] and abs(v) <= half[1]):
+        return -math.inf
+    cells = depth.shape[1]
+    column = min(int((x / half[0] + 1.0) * 0.5 * cells), cells - 1)
+    row = min(int((v / half[1] + 1.0) * 0.5 * cells), cells - 1)
+    return depth[phase, row, column]
+
+
+@kernel
+def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, work):
+    """Run a motion with the damper on until a rule releases it; return how this ended.
+
+    Parameters
+    ----------
+    on : array, shape (packed.COUNT,)
+        Packed parameters with the damper.
+    y : array, shape (4,)
+        State at the time `begin`, replaced by the state at the release.
+    side : int
+        Wall in contact (-1, 1, or 0 for none).
+    limit : float
+        Largest number of forcing cycles.
+    rule : tuple of (int, float, int)
+        Kind, number n of forcing cycles, and index of a phase. HOLD releases after n cycles, PHASE
+        at the first such phase after n cycles, SETTLED at the fraction `draw` of a period after the
+        states at the strobes repeat, STATE as soon as the state lies inside the release set, or
+        after n cycles.
+    depth, half : array
+        The attributes of a `ReleaseSet`.
+    path : array, shape (m, 5)
+        Receives a row for each of the first m strobes: forcing cycles since `begin`, and the state.
+    work : array
+        A `workspace`.
+
+    Returns
+    -------
+    t : float
+        Time of the end.
+    released : bool
+        Whether the rule released the damper within `limit`.
+    contacts : int
+        Number of contacts begun.
+    """
+    kind, length, wanted = rule
+    none, ring = np.empty((0, 4)), np.empty((RING, 4))
+    phases, period = depth.shape[0], 2.0 * math.pi / on[FREQUENCY]
+    step = period / phases
+    k = int(math.floor(begin / step)) + 1
+    t, release, strobes, total = begin, math.inf, 0, 0
+    if kind == HOLD or kind == STATE:
+        release = begin + length * period
+    while True:
+        end = min(k * step, release)
+        side, contacts, _ = advance(on, y, none, side, t, end, tolerance, work)
+        total += contacts
+        t = end
+        if t >= release:
+            return t, True, total
+        if t - begin >= limit * period:
+            return t, False, total
+        phase = k % phases
+        k += 1
+        if phase == phases // 4:
+            if strobes < len(path):
+                path[strobes, 0] = (t - begin) / period
+                assign(path[strobes, 1:], y)
+            if kind == SETTLED and release == math.inf:
+                assign(ring[strobes % RING], y)
+                n = nearby_period(ring, strobes, 1.0, 20.0 * tolerance, NEAR)
+                if n > 0:
+                    release = t + draw * n * period
+            strobes += 1
+        if kind == PHASE and phase == wanted and t - begin >= length * period:
+            return t, True, total
+        if kind == STATE and depth_of(depth, half, phase, y[0], y[1]) > 0.0:
+            return t, True, total

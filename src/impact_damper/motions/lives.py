@@ -17,8 +17,8 @@ from impact_damper.data.datasets import flag
 from impact_damper.data.shares import escape_rate
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions import ensemble
+from impact_damper.motions.ensemble import settle_many
 from impact_damper.motions.records import CHAOTIC, MOTION, UNRESOLVED
-from impact_damper.motions.settling import settle_many
 from impact_damper.motions.watch import NEAR
 
 # Z1 and Z1' of the first state of a run differ by at most APART from the state of the motion.

@@ -29,7 +29,7 @@ from impact_damper.motions.controller import (
     run_totals,
     switching_data,
 )
-from impact_damper.motions.damper_release import (
+from impact_damper.motions.releases import (
     DESTINATIONS,
     KINDS,
     release_case,

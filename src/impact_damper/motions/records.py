@@ -1,21 +1,17 @@
-"""Measurements of motions: largest |Z1|, contacts, harmonics, first collisions.
+"""Measurements of motions: largest |Z1|, contacts, harmonics, first collisions, envelopes.
 
 A record is an element of an array of the type MOTION. It holds the results for one motion.
-
-Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
-forcing frequency, and T the time.
 """
 
 import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import inlined, kernel
+from impact_damper.kernel.compiling import inlined, kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
-from impact_damper.kernel.single import X, assign, side_of, step, workspace
+from impact_damper.kernel.single import X, assign, polynomial, side_of, step, workspace
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
-from impact_damper.motions.extrema import extremum
 from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
 from impact_damper.motions.traces import series_of_step
 
@@ -23,6 +19,11 @@ from impact_damper.motions.traces import series_of_step
 PHASELESS = 1e-9
 # Number of samples in a forcing cycle, from which harmonics are computed.
 SAMPLES = 64
+# Number of pieces of an interval. In each piece a polynomial is assumed to have at most one turning
+# point.
+PIECES = 8
+# Number of windows of an envelope in one call of the kernel. Ctrl-C waits for the end of a call.
+AT_ONCE = 1024
 # Argument `stop` of runs that no other thread stops.
 NEVER = np.zeros(1, bool)
 
@@ -46,7 +47,7 @@ NEVER = np.zeros(1, bool)
 # residual         largest difference between the state and the state a period later
 # first_frequency, second_frequency: the two frequencies of a quasi-periodic motion
 # frequency_error  error of second_frequency
-# state            last state at the strobe (W T = pi/2), of a settled motion the state on the orbit
+# state            last state at the strobe, of a settled motion the state on the orbit
 # reach            largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
 MOTION = np.dtype(
     [
@@ -69,6 +70,50 @@ MOTION = np.dtype(
         ("harmonic_relative", "c16"),
     ]
 )
+
+
+@kernel
+def extremum(c, order, length, start):
+    """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
+
+    The polynomial exceeds the larger of its values at the two ends by at most length^2/8 times a
+    bound on its second derivative, which in most calls shows that `start` or an end is largest.
+    Otherwise Newton's method locates the turning point in each of PIECES pieces.
+    """
+    low, fall = polynomial(c, order, 0.0)
+    high, _ = polynomial(c, order, length)
+    excess, power = 0.0, length
+    for k in range(2, order + 1):
+        power *= length
+        excess += 0.125 * k * (k - 1) * abs(c[k]) * power
+    best = max(start, max(abs(low), abs(high)))
+    if max(abs(low), abs(high)) + excess <= best:
+        return best
+    for piece in range(1, PIECES + 1):
+        t = length * piece / PIECES
+        value, slope = polynomial(c, order, t)
+        best = max(best, abs(value))
+        # The modulus increases at the beginning of the piece and decreases at its end.
+        if slope * fall < 0.0 and value * slope < 0.0:
+            turn = turning_time(c, order, t - length / PIECES, t, fall, slope)
+            best = max(best, abs(polynomial(c, order, turn)[0]))
+        fall = slope
+    return best
+
+
+@kernel_only
+def turning_time(c, order, begin, end, first, last):
+    """Return the turning point of a polynomial between two times, from the slopes there."""
+    t = begin + (end - begin) * first / (first - last)
+    for _ in range(4):
+        _, slope = polynomial(c, order, t)
+        bend = 0.0
+        for k in range(order, 1, -1):
+            bend = bend * t + k * (k - 1) * c[k]
+        if bend == 0.0:
+            break
+        t = min(max(t - slope / bend, begin), end)
+    return t
 
 
 @inlined
@@ -209,3 +254,65 @@ def tabulate(records):
         "frequency_error": records["frequency_error"],
         "periods_run": records["periods_run"],
     }
+
+
+def envelope(parameters, lengths, y, tolerance):
+    """Run a motion through successive windows of time, each with its own parameters.
+
+    The kernel of a step requires a fixed frequency. In a sweep the frequency changes at the strobe,
+    where the force is zero, so neither the force nor its phase jumps.
+
+    Parameters
+    ----------
+    parameters : array, shape (n, packed.COUNT)
+        Packed parameters in each window.
+    lengths : array, shape (n,)
+        Lengths of the windows in units of T, with forcing a forcing cycle: each begins at the
+        strobe.
+    y : array, shape (4,)
+        First state, replaced by the last state or by the state at an escape.
+    tolerance : float
+        Largest local error of a step.
+
+    Returns
+    -------
+    largest, contacts : numpy.ndarray, shape (n,)
+        Largest |Z1| and number of contacts begun in each window. Where the motion escapes they are
+        infinite and NaN, afterwards NaN.
+    """
+    largest, contacts = np.full((2, len(lengths)), np.nan)
+    side = side_of(next(iter(parameters)), y)
+    for first in range(0, len(lengths), AT_ONCE):
+        part = slice(first, first + AT_ONCE)
+        side, escaped = run_windows(
+            parameters[part], lengths[part], y, side, tolerance, largest[part], contacts[part]
+        )
+        if escaped:
+            break
+    return largest, contacts
+
+
+@kernel
+def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
+    """Fill `largest` and `contacts` of `envelope`.
+
+    Return the wall in contact, and whether the motion escaped.
+    """
+    work = workspace()
+    for k in range(len(lengths)):
+        p = parameters[k]
+        t = strobe_time(p)
+        end = t + lengths[k]
+        farthest, begun = abs(y[0]), 0
+        while t < end:
+            before = side
+            length, side = step(p, y, side, t, end - t, tolerance, work)
+            if has_escaped(p, y[0], y[1]):
+                largest[k] = np.inf
+                return side, True
+            order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
+            farthest = extremum(work[X:], order, length, farthest)
+            begun += before == 0 and side != 0
+            t = end if length >= end - t else t + length
+        largest[k], contacts[k] = farthest, begun
+    return side, False

@@ -9,14 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.ndimage import distance_transform_edt, maximum_filter, minimum_filter
 
-from impact_damper.kernel.compiling import kernel
-from impact_damper.kernel.single import assign
-from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.motions.attractors import REACH, Attractors, free_attractors
-from impact_damper.motions.free_motions import free_motions
-from impact_damper.motions.labels import label_states
-from impact_damper.motions.watch import NEAR, RING, nearby_period
+from impact_damper.motions.ensemble import label_states
+from impact_damper.motions.start_states import free_motions
 
 # Number of phases in a forcing cycle at which a controller observes the state; even.
 PHASES = 16
@@ -25,8 +21,6 @@ PHASES = 16
 WIDTH = 1.6
 # Number of cells of the fine grid in a cell of the coarse grid, along an axis; a power of 2.
 REFINED = 4
-# Rules of release, the first number of `rule` in `hold`.
-SETTLED, HOLD, PHASE, STATE = range(4)
 
 
 class ReleaseSet(NamedTuple):
@@ -122,87 +116,3 @@ def signed_distance(inside):
     # The boundary lies midway between the centres of two cells.
     inward, outward = distance_transform_edt(inside), distance_transform_edt(~inside)
     return np.where(inside, inward - 0.5, 0.5 - outward)
-
-
-@kernel
-def depth_of(depth, half, phase, x, v):
-    """Return the depth of the state (x, v) at the phase of an index, minus infinity off the grid.
-
-    `depth` and `half` are the attributes of a `ReleaseSet`.
-    """
-    if not (abs(x) <= half[0] and abs(v) <= half[1]):
-        return -math.inf
-    cells = depth.shape[1]
-    column = min(int((x / half[0] + 1.0) * 0.5 * cells), cells - 1)
-    row = min(int((v / half[1] + 1.0) * 0.5 * cells), cells - 1)
-    return depth[phase, row, column]
-
-
-@kernel
-def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, work):
-    """Run a motion with the damper on until a rule releases it; return how this ended.
-
-    Parameters
-    ----------
-    on : array, shape (packed.COUNT,)
-        Packed parameters with the damper.
-    y : array, shape (4,)
-        State at the time `begin`, replaced by the state at the release.
-    side : int
-        Wall in contact (-1, 1, or 0 for none).
-    limit : float
-        Largest number of forcing cycles.
-    rule : tuple of (int, float, int)
-        Kind, number n of forcing cycles, and index of a phase. HOLD releases after n cycles, PHASE
-        at the first such phase after n cycles, SETTLED at the fraction `draw` of a period after the
-        states at the strobes repeat, STATE as soon as the state lies inside the release set, or
-        after n cycles.
-    depth, half : array
-        The attributes of a `ReleaseSet`.
-    path : array, shape (m, 5)
-        Receives a row for each of the first m strobes: forcing cycles since `begin`, and the state.
-    work : array
-        A `workspace`.
-
-    Returns
-    -------
-    t : float
-        Time of the end.
-    released : bool
-        Whether the rule released the damper within `limit`.
-    contacts : int
-        Number of contacts begun.
-    """
-    kind, length, wanted = rule
-    none, ring = np.empty((0, 4)), np.empty((RING, 4))
-    phases, period = depth.shape[0], 2.0 * math.pi / on[FREQUENCY]
-    step = period / phases
-    k = int(math.floor(begin / step)) + 1
-    t, release, strobes, total = begin, math.inf, 0, 0
-    if kind == HOLD or kind == STATE:
-        release = begin + length * period
-    while True:
-        end = min(k * step, release)
-        side, contacts, _ = advance(on, y, none, side, t, end, tolerance, work)
-        total += contacts
-        t = end
-        if t >= release:
-            return t, True, total
-        if t - begin >= limit * period:
-            return t, False, total
-        phase = k % phases
-        k += 1
-        if phase == phases // 4:
-            if strobes < len(path):
-                path[strobes, 0] = (t - begin) / period
-                assign(path[strobes, 1:], y)
-            if kind == SETTLED and release == math.inf:
-                assign(ring[strobes % RING], y)
-                n = nearby_period(ring, strobes, 1.0, 20.0 * tolerance, NEAR)
-                if n > 0:
-                    release = t + draw * n * period
-            strobes += 1
-        if kind == PHASE and phase == wanted and t - begin >= length * period:
-            return t, True, total
-        if kind == STATE and depth_of(depth, half, phase, y[0], y[1]) > 0.0:
-            return t, True, total

@@ -20,10 +20,9 @@ from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import Settling, check_settling
 from impact_damper.motions import ensemble
-from impact_damper.motions.free_motions import free_motions
 from impact_damper.motions.lives import find_lives
 from impact_damper.motions.simulate import COMPONENTS, random_states
-from impact_damper.motions.start_states import describe_search, search_starts
+from impact_damper.motions.start_states import describe_search, free_motions, search_starts
 from impact_damper.motions.sweep import sweep
 
 

@@ -1,30 +1,22 @@
-"""Start states of a search for motions: random states, and states on known free motions.
+"""Start states of a search for motions: random states, and states on known motions.
 
-Without a given radius, the range of a search is scaled by the largest displacement and speed of the
-free motions (forced motions without the damper) at the frequency. The free motions are simulated
-until they settle (`free_motions`); harmonic balance only provides starts for these simulations. The
-starts of a search are of two kinds:
+With a radius all starts are random and uniform in a ball, as in the paper (section 3, iii). Without
+it the range is scaled by the free motions at the frequency, and the starts are of two kinds:
 
 - random: the state of the primary mass has a random direction, and its size goes up to SPREAD times
   these scales. Sizes are distributed evenly on a logarithmic scale, so that small and large motions
   are found equally well.
 - placed: the primary mass on each free motion and at rest, with the loose mass at several places
   and with several velocities; the solutions of harmonic balance with contacts; and the ends of slow
-  ramps of the frequency (upward and downward) and of the force (downward) to the values of the
-  system. On a ramp a motion stays on its branch. Therefore ramps find the violent motions of weakly
-  damped machines, whose basins are so small that hardly any random start lies in them.
-
-In a search without a given radius, Newton's method then searches for further stable orbits, from
-the motions found and random states of the loose mass (`orbit_search`).
-
-With a given radius all starts are random and uniform in a ball, as in the paper (section 3, iii).
-
-Symbols are as in `system.parameters`.
+  ramps of the frequency and of the force. On a ramp a motion stays on its branch, so ramps find the
+  violent motions of weakly damped machines, whose basins are so small that hardly any random start
+  lies in them.
 """
 
 import math
 import warnings
 from dataclasses import replace
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -32,12 +24,16 @@ import numpy as np
 from impact_damper.model.bounds import FREQUENCY_RANGE, RADIUS_RANGE, check_number
 from impact_damper.model.families import FORCING
 from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.motions import strobe_map, traces
-from impact_damper.motions.free_motions import free_motions
+from impact_damper.motions import ensemble, strobe_map, traces
 from impact_damper.motions.simulate import random_states
-from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds
+from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 from impact_damper.theory.single_harmonic import impacting_solutions
 
+# Free motions:
+# PHASES       number of phases at which starts with the amplitudes of harmonic balance are placed
+# SAMPLES      number of samples in a forcing cycle, which give the largest speed of a motion
+# MOST_STATES  largest number of states stored of one motion; a chaotic motion has no period
+PHASES, SAMPLES, MOST_STATES = 6, 256, 5
 # SPREAD    size of the largest random start divided by the size of the largest free motion
 # SMALLEST  size of the smallest random start divided by the size of the largest
 SPREAD = 3.0
@@ -49,16 +45,15 @@ SMALLEST = 0.01
 #             it is divided by the second speed.
 PLACES = (-2 / 3, 0.0, 2 / 3)
 VELOCITIES = (-1.0, 0.0, 1.0)
-# Search for orbits by Newton's method:
+# Search for orbits by Newton's method (`sweep.stable_orbits`):
 # LOOSE_STATES  number of states of the loose mass from which the search begins
 # LOOSE_SPEED   largest speed |Z1' - Z2'| of the loose mass in these states, divided by the larger
 #               of the two speeds of VELOCITIES
 LOOSE_STATES = 240
 LOOSE_SPEED = 2.0
 # With a softening spring a random start has at most WITHIN times the displacement of the barrier
-# and WITHIN times the speed that reaches it. Its energy is then at most three quarters of the
-# energy at the barrier. With more energy than at the barrier a start would cross the barrier even
-# without forcing.
+# and WITHIN times the speed that reaches it: at most three quarters of the energy at the barrier.
+# With more energy than there it would cross the barrier even without forcing.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps:
@@ -86,13 +81,11 @@ class Search(NamedTuple):
     placed : list of numpy.ndarray, shape (k, 4)
         Placed starts at T = 0 of each system; empty if a radius is given.
     loose : list of numpy.ndarray, shape (k, 2)
-        States of the loose mass of each system, for `orbit_search.stable_orbits`; empty if a radius
-        is given.
+        Argument of `sweep.stable_orbits` for each system; empty if a radius is given.
     displacement, speed : numpy.ndarray, shape (n,)
         Largest |Z1| and |Z1'| of a random start.
     free_displacement, free_speed : numpy.ndarray, shape (n,)
-        Largest |Z1| and |Z1'| of the free motions. If a radius is given, both are computed by
-        harmonic balance.
+        Largest |Z1| and |Z1'| of the free motions; with a radius by harmonic balance.
     """
 
     random: np.ndarray
@@ -113,17 +106,6 @@ class Search(NamedTuple):
         return data | {"missed_share": missed_share(self.random.shape[1])}
 
 
-def describe_search(starts, radius, seed) -> dict:
-    """Return the parameters of a search for a dataset, without the radius if it is None."""
-    parameters = {"starts": starts, "seed": seed}
-    return parameters if radius is None else parameters | {"radius": radius}
-
-
-def missed_share(starts) -> float:
-    """Return the 95 % upper bound on the share of starts that lead to a motion not found."""
-    return min(1.0, RULE_OF_THREE / starts) if starts else 1.0
-
-
 def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
     """Return the starts of a search. If a radius is given, `warn_if_narrow` is called.
 
@@ -140,11 +122,6 @@ def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
         The random starts of a system depend on the seed and on its index in `systems`.
     settling : Settling
         Settings of the runs of free motions.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If count, radius or seed is out of range.
     """
     if radius is None:
         rows = [
@@ -169,11 +146,19 @@ def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
     return Search(np.array(random), list(placed), list(loose), *np.array(scales))
 
 
-def warn_if_narrow(oscillator, frequencies, radius) -> dict:
-    """Return (displacement, speed) of the largest free motion for each frequency.
+def describe_search(starts, radius, seed) -> dict:
+    """Return the parameters of a search for a dataset, without the radius if it is None."""
+    parameters = {"starts": starts, "seed": seed}
+    return parameters if radius is None else parameters | {"radius": radius}
 
-    Both follow from harmonic balance, in which the speed is W times the displacement. If the radius
-    is too small, a warning is issued.
+
+def missed_share(starts) -> float:
+    """Return the 95 % upper bound on the share of starts that lead to a motion not found."""
+    return min(1.0, RULE_OF_THREE / starts) if starts else 1.0
+
+
+def warn_if_narrow(oscillator, frequencies, radius) -> dict:
+    """Return displacement and speed of the largest free motion for each frequency, by balance.
 
     Warns
     -----
@@ -292,11 +277,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """Return the state at T = 0 after a ramp from rest.
-
-    The packed parameters with the given indices change from `factor` times their target values to
-    the target values.
-    """
+    """Return the state at T = 0 after a ramp from rest of some packed parameters, from `factor`."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent
@@ -314,3 +295,68 @@ def barrier(oscillator):
     """Return |Z1| at the barrier of a softening spring, and the speed at Z1 = 0 that reaches it."""
     stiffness, softening = oscillator.linear_frequency**2, -oscillator.cubic
     return math.sqrt(stiffness / softening), stiffness / math.sqrt(2 * softening)
+
+
+class FreeMotions(NamedTuple):
+    """States and sizes of the free motions at one frequency.
+
+    Attributes
+    ----------
+    states : numpy.ndarray, shape (k, 2)
+        Z1, Z1' of each motion at W T = 0, once in each forcing cycle until the motion repeats, but
+        at most MOST_STATES times.
+    displacement, speed : float
+        Largest |Z1| and |Z1'| of all these motions.
+    """
+
+    states: np.ndarray
+    displacement: float
+    speed: float
+
+
+@lru_cache(1024)
+def free_motions(oscillator, frequency, settling) -> FreeMotions:
+    """Find the free motions at one frequency W, by runs from start states.
+
+    The starts are the state of rest, and states with the amplitudes of harmonic balance and of the
+    resonance peak, each at PHASES phases. The amplitude of the peak leads to motions near a fold
+    that harmonic balance does not predict.
+    """
+    p = pack(oscillator, None, frequency)
+    angles = 2 * np.pi * np.arange(PHASES) / PHASES
+    sizes = np.append(balance_amplitudes(oscillator, frequency), _peak_amplitude(oscillator))
+    turns = np.stack([np.cos(angles), -frequency * np.sin(angles)], axis=1)
+    starts = np.concatenate([[(0.0, 0.0)], *(size * turns for size in sizes)])
+    motions = ensemble.settle(np.tile(p, (len(starts), 1)), np.tile(starts, 2), settling)
+    states, largest, fastest = [], 0.0, 0.0
+    known = set()
+    for record in motions[np.isfinite(motions["maximum_displacement"])]:
+        key = record["outcome"], record["period"], f"{record['maximum_displacement']:.5e}"
+        if key in known:
+            continue
+        known.add(key)
+        course = _course(p, record["state"], int(record["period"]) or settling.watched)
+        largest = max(largest, record["maximum_displacement"])
+        fastest = max(fastest, np.max(np.abs(course[:, 1])))
+        # The state is recorded at the phase W T = pi/2. T = 0 is three quarters of a cycle later.
+        states.append(course[3 * SAMPLES // 4 :: SAMPLES, :2][:MOST_STATES])
+    return FreeMotions(np.concatenate(states or [[(0.0, 0.0)]]), float(largest), float(fastest))
+
+
+def _peak_amplitude(oscillator):
+    """Return a list with the amplitude of the resonance peak, empty if there is no peak."""
+    try:
+        return [maximum_response(oscillator).amplitude]
+    except ValueError:
+        return []
+
+
+def _course(p, state, periods):
+    """Return samples of a free motion over `periods` cycles from a state at W T = pi/2."""
+    begin = strobe_map.strobe_time(p)
+    period = 2 * np.pi / p[FREQUENCY]
+    times = begin + period * np.arange(periods * SAMPLES + 1) / SAMPLES
+    states = np.empty((len(times), 4))
+    none = np.empty((0, 5))
+    traces.trace(p, state.copy(), begin, times, strobe_map.POLISH_TOLERANCE, states, none)
+    return states

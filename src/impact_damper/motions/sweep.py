@@ -1,14 +1,12 @@
 """Find the motions along a sweep of one parameter, by runs from start states and by following.
 
-At each value of the parameter motions are run from the starts of a search, and Newton's method
-searches for further stable orbits. Each settled motion is then followed by Newton's method to the
-next value, upward and downward, so that motions with small basins of attraction are found too. A
-branch ends where its motion cannot be followed. Motions that have not settled are matched between
-neighbouring values by `motions.matching`.
-
-Z1 is the displacement of the primary mass.
+At each value motions are run from the starts of a search, and Newton's method searches for further
+stable orbits, since some attract so few states that hardly any random start leads to them. Each
+settled motion is then followed by Newton's method to the next value, upward and downward. Motions
+that have not settled are matched between neighbouring values by outcome, period and size.
 """
 
+import math
 from itertools import count, pairwise
 
 import numpy as np
@@ -17,14 +15,31 @@ from scipy.sparse.csgraph import connected_components
 
 from impact_damper.data.datasets import flag, is_settled
 from impact_damper.data.shares import wilson_intervals
+from impact_damper.model.packed import CLEARANCE
 from impact_damper.motions import ensemble
-from impact_damper.motions.catalogue import SAME, Catalogue
 from impact_damper.motions.following import StrobeOrbit, follow_stable
-from impact_damper.motions.matching import match_unsettled
-from impact_damper.motions.orbit_search import add_orbits
 from impact_damper.motions.records import MOTION, measured, tabulate
-from impact_damper.motions.strobe_map import STROBE
+from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
+# Records of equal outcome, period and contacts per cycle are one motion if max |Z1| differs
+# relatively by less than SAME. A motion is symmetric if its asymmetry is below SAME.
+SAME = 1e-6
+# A difference of max |Z1| below ROUNDING never separates two motions: for motions near rest,
+# rounding errors exceed SAME times max |Z1|.
+ROUNDING = 1e-11
+# Motions of equal outcome and period that have not settled can be the same if the ratio of their
+# sizes is below SIMILAR.
+SIMILAR = 1.5
+# Two records of equal period are one motion if both have the same of these outcomes, in which the
+# displacement is infinite or 0.
+ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
+# Newton's method for further orbits:
+# LONGEST     longest period of an orbit, in forcing cycles
+# REACH       largest distance of an orbit from its start, divided by the largest |Z1| or |Z1'| of
+#             the known motions at the strobe, or by the clearance if it is larger. With twice this
+#             distance Newton's method takes four times as long and finds hardly more orbits.
+# SAME_ORBIT  two orbits are the same if their states differ by less
+LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch:
 # CRITICAL  smallest modulus of a multiplier that shows a bifurcation; the last orbit before the
 #           bifurcation may have a modulus slightly below 1
@@ -34,138 +49,6 @@ from impact_damper.motions.strobe_map import STROBE
 CRITICAL = 0.98
 COMPLEX = 1e-3
 CLOSE = 0.05
-
-
-def _end_event(record, multiplier, beyond):
-    """Return the name of the event that ends a branch.
-
-    Parameters
-    ----------
-    record : records.MOTION
-        The motion on the branch.
-    multiplier : complex
-        Dominant multiplier of its last orbit; NaN if Newton's method fails because the motion does
-        not depend smoothly on its start.
-    beyond : records.MOTION
-        The motion that the state of the last orbit leads to at the next value of the parameter.
-    """
-    if not abs(multiplier) >= CRITICAL:
-        return "not_smooth"
-    if abs(multiplier.imag) > COMPLEX:
-        return "neimark_sacker"
-    if multiplier.real < 0:
-        return "period_doubling"
-    close = abs(beyond["maximum_displacement"] - record["maximum_displacement"]) < CLOSE
-    splits = record["asymmetry"] < SAME and not beyond["asymmetry"] < SAME
-    if close and splits and beyond["period"] == record["period"]:
-        return "symmetry_breaking"
-    return "fold"
-
-
-def _follow(source, target, index, settling, links, ends):
-    """Follow all motions of the catalogue `source` to the next value of the parameter.
-
-    Motions found at the next value are entered in its catalogue `target`. For two motions on the
-    same branch the pair of their numbers is appended to `links`. For each branch that ends between
-    the two values a dictionary is appended to `ends`.
-    """
-    followed = [
-        follow_stable(source.p, record["state"], record["period"], index, target.p[index])
-        if is_settled(record)
-        else (source.p, StrobeOrbit(record["state"], complex(np.nan)))
-        for record in source.records
-    ]
-    states = np.array([orbit.state for _, orbit in followed]).reshape(-1, 4)
-    rows = np.tile(target.p, (len(states), 1))
-    settled = ensemble.settle(rows, states, settling, from_strobe=True)
-    for i, (record, beyond) in enumerate(zip(list(source.records), settled, strict=True)):
-        p, (state, multiplier) = followed[i]
-        j = target.add(beyond, "followed")
-        if not is_settled(record):
-            continue
-        arrived = p[index] == target.p[index]
-        if arrived and is_settled(beyond) and beyond["period"] == record["period"]:
-            links.append((source.numbers[i], target.numbers[j]))
-            continue
-        last = measured(p, state, int(record["period"]), settling.tolerance)
-        ends.append(
-            {
-                "end_value": p[index],
-                "end_motion": source.numbers[i],
-                "end_direction": flag(
-                    "end_direction", "up" if target.p[index] > p[index] else "down"
-                ),
-                "end_event": flag("end_event", _end_event(record, multiplier, beyond)),
-                "end_displacement": last["maximum_displacement"],
-                "end_multiplier_real": multiplier.real,
-                "end_multiplier_imaginary": multiplier.imag,
-            }
-        )
-
-
-def _branches(catalogues, links):
-    """Return the branch of each motion, indexed by the number of the motion.
-
-    Branches are the connected components of the links. Links between motions that have not settled
-    are added by `match_unsettled`.
-    """
-    links = links + [
-        (first.numbers[i], second.numbers[j])
-        for first, second in pairwise(catalogues)
-        for i, j in match_unsettled(first.records, second.records)
-    ]
-    size = sum(len(catalogue.records) for catalogue in catalogues)
-    pairs = np.array(links or [(0, 0)]).T
-    return connected_components(coo_array((np.ones(len(pairs[0])), pairs), (size, size)), False)[1]
-
-
-def _tables(catalogues, branches, dimension, starts):
-    """Return variables with the dimensions (dimension, motion), by descending displacement.
-
-    Rows with fewer motions are padded by motions with the outcome absent. `starts` is the number of
-    random starts at each value.
-    """
-    width = max(len(catalogue.records) for catalogue in catalogues)
-    records = np.zeros((len(catalogues), width), MOTION)
-    records["outcome"] = flag("outcome", "absent")
-    for name in (
-        "residual",
-        "maximum_displacement",
-        "contacts",
-        "asymmetry",
-        "lyapunov_exponent",
-        "lyapunov_error",
-        "first_frequency",
-        "second_frequency",
-        "frequency_error",
-        "state",
-        "multiplier",
-        "harmonic_displacement",
-        "harmonic_relative",
-    ):
-        records[name] = np.nan
-    extra = {
-        "branch": np.full(records.shape, -1),
-        "motion_starts": np.zeros(records.shape, int),
-        "origin": np.full(records.shape, flag("origin", "absent")),
-    }
-    for row, catalogue in enumerate(catalogues):
-        for column, k in enumerate(catalogue.order()):
-            records[row, column] = catalogue.records[k]
-            extra["branch"][row, column] = branches[catalogue.numbers[k]]
-            extra["motion_starts"][row, column] = catalogue.starts[k]
-            extra["origin"][row, column] = catalogue.origins[k]
-    interval = np.full((2, *records.shape), np.nan)
-    present = records["outcome"] != flag("outcome", "absent")
-    if starts:
-        interval[:, present] = wilson_intervals(extra["motion_starts"][present], starts).T
-    extra |= {"share_lower": interval[0], "share_upper": interval[1]}
-    data = tabulate(records) | extra
-    dims = (dimension, "motion")
-    return {name: (dims, values) for name, values in data.items()} | {
-        "state": ((*dims, "component"), records["state"]),
-        "state_phase": ((), STROBE),
-    }
 
 
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
@@ -180,7 +63,6 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
     dimension : str
         Name of the dimension of the data for this parameter.
     search : start_states.Search
-        Random and placed starts at each value, and states of the loose mass.
     settling : Settling
     workers, progress
         As in `ensemble.settle`.
@@ -189,8 +71,7 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
     -------
     dict
         Registered variables of the distinct motions, with the dimensions (dimension, motion); of
-        the runs, with (dimension, start); of the ends of branches, with (end); and of the range of
-        the search.
+        the runs, with (dimension, start); of the ends of branches, with (end); and of the search.
     """
     size, starts = search.random.shape[:2]
     runs = ensemble.settle(
@@ -252,3 +133,292 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
 def reached(data):
     """Return the mask of the motions of a `sweep` that a random or a placed start leads to."""
     return (data["motion_starts"][1] > 0) | (data["origin"][1] == flag("origin", "placed_start"))
+
+
+def _follow(source, target, index, settling, links, ends):
+    """Follow all motions of the catalogue `source` to the next value, and enter what they lead to.
+
+    For two motions on the same branch the pair of their numbers is appended to `links`. For each
+    branch that ends between the two values a dictionary is appended to `ends`."""
+    followed = [
+        follow_stable(source.p, record["state"], record["period"], index, target.p[index])
+        if is_settled(record)
+        else (source.p, StrobeOrbit(record["state"], complex(np.nan)))
+        for record in source.records
+    ]
+    states = np.array([orbit.state for _, orbit in followed]).reshape(-1, 4)
+    rows = np.tile(target.p, (len(states), 1))
+    settled = ensemble.settle(rows, states, settling, from_strobe=True)
+    for i, (record, beyond) in enumerate(zip(list(source.records), settled, strict=True)):
+        p, (state, multiplier) = followed[i]
+        j = target.add(beyond, "followed")
+        if not is_settled(record):
+            continue
+        arrived = p[index] == target.p[index]
+        if arrived and is_settled(beyond) and beyond["period"] == record["period"]:
+            links.append((source.numbers[i], target.numbers[j]))
+            continue
+        last = measured(p, state, int(record["period"]), settling.tolerance)
+        ends.append(
+            {
+                "end_value": p[index],
+                "end_motion": source.numbers[i],
+                "end_direction": flag(
+                    "end_direction", "up" if target.p[index] > p[index] else "down"
+                ),
+                "end_event": flag("end_event", _end_event(record, multiplier, beyond)),
+                "end_displacement": last["maximum_displacement"],
+                "end_multiplier_real": multiplier.real,
+                "end_multiplier_imaginary": multiplier.imag,
+            }
+        )
+
+
+def _end_event(record, multiplier, beyond):
+    """Return the name of the event that ends a branch of the motion `record`.
+
+    `multiplier` is the dominant multiplier of the last orbit, NaN if the motion does not depend
+    smoothly on its start. `beyond` is the motion that the state of the last orbit leads to at the
+    next value."""
+    if not abs(multiplier) >= CRITICAL:
+        return "not_smooth"
+    if abs(multiplier.imag) > COMPLEX:
+        return "neimark_sacker"
+    if multiplier.real < 0:
+        return "period_doubling"
+    close = abs(beyond["maximum_displacement"] - record["maximum_displacement"]) < CLOSE
+    splits = record["asymmetry"] < SAME and not beyond["asymmetry"] < SAME
+    if close and splits and beyond["period"] == record["period"]:
+        return "symmetry_breaking"
+    return "fold"
+
+
+def _branches(catalogues, links):
+    """Return the branch of each motion, indexed by the number of the motion.
+
+    Branches are the connected components of the links and the matches of motions that have not
+    settled."""
+    links = links + [
+        (first.numbers[i], second.numbers[j])
+        for first, second in pairwise(catalogues)
+        for i, j in match_unsettled(first.records, second.records)
+    ]
+    size = sum(len(catalogue.records) for catalogue in catalogues)
+    pairs = np.array(links or [(0, 0)]).T
+    return connected_components(coo_array((np.ones(len(pairs[0])), pairs), (size, size)), False)[1]
+
+
+def _tables(catalogues, branches, dimension, starts):
+    """Return variables with the dimensions (dimension, motion), by descending displacement.
+
+    Rows with fewer motions are padded by motions with the outcome absent. `starts` is the number of
+    random starts at each value.
+    """
+    width = max(len(catalogue.records) for catalogue in catalogues)
+    records = np.zeros((len(catalogues), width), MOTION)
+    records["outcome"] = flag("outcome", "absent")
+    for name in (
+        "residual",
+        "maximum_displacement",
+        "contacts",
+        "asymmetry",
+        "lyapunov_exponent",
+        "lyapunov_error",
+        "first_frequency",
+        "second_frequency",
+        "frequency_error",
+        "state",
+        "multiplier",
+        "harmonic_displacement",
+        "harmonic_relative",
+    ):
+        records[name] = np.nan
+    extra = {
+        "branch": np.full(records.shape, -1),
+        "motion_starts": np.zeros(records.shape, int),
+        "origin": np.full(records.shape, flag("origin", "absent")),
+    }
+    for row, catalogue in enumerate(catalogues):
+        for column, k in enumerate(catalogue.order()):
+            records[row, column] = catalogue.records[k]
+            extra["branch"][row, column] = branches[catalogue.numbers[k]]
+            extra["motion_starts"][row, column] = catalogue.starts[k]
+            extra["origin"][row, column] = catalogue.origins[k]
+    interval = np.full((2, *records.shape), np.nan)
+    present = records["outcome"] != flag("outcome", "absent")
+    if starts:
+        interval[:, present] = wilson_intervals(extra["motion_starts"][present], starts).T
+    extra |= {"share_lower": interval[0], "share_upper": interval[1]}
+    data = tabulate(records) | extra
+    dims = (dimension, "motion")
+    return {name: (dims, values) for name, values in data.items()} | {
+        "state": ((*dims, "component"), records["state"]),
+        "state_phase": ((), STROBE),
+    }
+
+
+class Catalogue:
+    """Distinct motions at one value of the swept parameter.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+        Packed parameters.
+    numbering : iterator of int
+        Numbers for new motions.
+
+    Attributes
+    ----------
+    records : list of records.MOTION
+    numbers : list of int
+        Numbers of the motions, unique over the sweep.
+    origins : list of int
+        Flags of `origin`, which say how each motion was first found.
+    starts : list of int
+        For each motion the number of random starts that lead to it.
+    """
+
+    def __init__(self, p, numbering):
+        self.p = p
+        self.numbering = numbering
+        self.records, self.numbers, self.origins, self.starts = [], [], [], []
+
+    def find(self, record):
+        """Return the index of a known motion that equals a record or its mirror image, or None."""
+        for i, known in enumerate(self.records):
+            if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
+                continue
+            if record["outcome"] in ALIKE:
+                return i
+            size = known["maximum_displacement"]
+            near = abs(record["maximum_displacement"] - size) < max(SAME * size, ROUNDING)
+            near = near and abs(record["contacts"] - known["contacts"]) < 1e-9
+            if near or (not is_settled(record) and size_ratio(record, known) < SIMILAR):
+                return i
+        return None
+
+    def add(self, record, origin):
+        """Return the index of a motion, and enter it if it is new.
+
+        A new record of a known motion replaces the old record if its max |Z1| is larger by more
+        than SAME."""
+        i = self.find(record)
+        if i is None:
+            i = len(self.records)
+            self.records.append(record)
+            self.numbers.append(next(self.numbering))
+            self.origins.append(flag("origin", origin))
+            self.starts.append(0)
+        elif record["maximum_displacement"] > self.records[i]["maximum_displacement"] + SAME:
+            self.records[i] = record
+        self.starts[i] += origin == "random_start"
+        return i
+
+    def order(self):
+        """Return the indices of the motions by descending max |Z1|."""
+        return np.argsort([record["maximum_displacement"] for record in self.records])[::-1]
+
+
+def match_unsettled(first, second) -> list:
+    """Return the pairs of indices of motions at two neighbouring values that are the same motion.
+
+    Pairs with the closest sizes are matched first; each motion is in at most one pair.
+    """
+    pairs = sorted(
+        (ratio, i, j)
+        for i, one in enumerate(first)
+        for j, other in enumerate(second)
+        if not is_settled(one)
+        and one["outcome"] == other["outcome"]
+        and one["period"] == other["period"]
+        and (ratio := size_ratio(one, other)) < SIMILAR
+    )
+    matched = []
+    for _, i, j in pairs:
+        if all(i != k and j != m for k, m in matched):
+            matched.append((i, j))
+    return matched
+
+
+def size_ratio(one, other):
+    """Return the ratio of the sizes of two motions of the same period, larger over smaller.
+
+    The size is max |Z1|. A chaotic motion may be small during its measurement, so for motions
+    without a period the ratio of their `reach` is returned if it is closer to 1; in an unforced
+    decay these fields are 0. The ratio is 1 if both motions are infinite, or if both are at rest.
+    """
+    if one["maximum_displacement"] == other["maximum_displacement"]:
+        return 1.0
+    names = ["maximum_displacement"] if one["period"] else ["maximum_displacement", "reach"]
+    pairs = [sorted((float(one[name]), float(other[name]))) for name in names]
+    return min(_ratio(larger, smaller) for smaller, larger in pairs)
+
+
+def _ratio(larger, smaller):
+    if larger == smaller:
+        return 1.0
+    return larger / smaller if smaller else math.inf
+
+
+def add_orbits(catalogues, loose, settling, workers) -> None:
+    """Enter the orbits that `stable_orbits` finds into the catalogues of known motions.
+
+    `loose` holds the argument `loose` of `stable_orbits` for each catalogue.
+    """
+    found, stop = [np.empty((0, 4))] * len(catalogues), np.zeros(1, bool)
+
+    def work(part):
+        for k in range(part.start, part.stop):
+            records = [
+                each for each in catalogues[k].records if np.isfinite(each["maximum_displacement"])
+            ]
+            motions = np.array([each["state"][:2] for each in records])
+            found[k] = stable_orbits(catalogues[k].p, motions, loose[k], settling.tolerance, stop)
+
+    ensemble.run_chunks(work, len(catalogues), workers, None, stop, size=1)
+    for catalogue, states in zip(catalogues, found, strict=True):
+        rows = np.tile(catalogue.p, (len(states), 1))
+        for record in ensemble.settle(rows, states, settling, from_strobe=True):
+            catalogue.add(record, "followed")
+
+
+def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
+    """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
+
+    On most of these orbits the primary mass moves nearly as in another motion of the same system,
+    while the loose mass moves differently. Start k of Newton's method therefore has the primary
+    mass on known motion k modulo m and the loose mass anywhere in the gap.
+
+    Parameters
+    ----------
+    p : array, shape (packed.COUNT,)
+    motions : array, shape (m, 2)
+        Z1 and Z1' of known motions at the strobe.
+    loose : array, shape (n, 2)
+        Z2, and velocity Z1' - Z2' of the loose mass, of each start.
+    tolerance : float
+        Largest local error of a step.
+    stop : array of bool, shape (1,)
+        Another thread may set this flag to end the search.
+    """
+    found, none = [], np.empty((0, 4))
+    if len(motions) == 0 or len(loose) == 0:
+        return none
+    reach = REACH * max(np.max(np.abs(motions)), p[CLEARANCE])
+    primary = np.resize(motions, loose.shape)
+    starts = np.column_stack([primary, loose[:, 0], primary[:, 1] - loose[:, 1]])
+    for periods in range(1, LONGEST + 1):
+        for start in starts:
+            if stop[0]:
+                return none
+            state = start.copy()
+            converged, _, multiplier = polish(p, state, periods, reach, tolerance)
+            if not converged or not abs(multiplier) < 1:
+                continue
+            if any(distance(state, each, 1.0) < SAME_ORBIT for each in found):
+                continue
+            run = state.copy()
+            contacts, _ = flow(p, run, none, strobe_time(p), periods, np.bool_(False), tolerance)
+            if contacts:
+                found.append(state)
+    return np.array(found).reshape(-1, 4)

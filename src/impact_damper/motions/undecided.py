@@ -1,12 +1,14 @@
 """Run undecided motions longer, until their outcome is certain.
 
-A run that does not settle to an orbit and is not certainly chaotic may be quasi-periodic, may be
-periodic with a long period, may approach an orbit slowly, may be weakly chaotic, or may have a
-loose mass that drifts in the gap. This module continues such a run in blocks, each twice as long as
-the block before, until one of these outcomes is certain.
+A run that does not settle and is not certainly chaotic may be quasi-periodic, periodic with a long
+period, close to an orbit that it approaches slowly, or weakly chaotic, or its loose mass may drift
+in the gap. It is continued in blocks, each twice as long as the block before.
 
-Z1 is the displacement of the primary mass, and Z2 its displacement relative to the loose mass. A
-strobe is the time of the forcing phase pi/2 in each cycle.
+The states of a quasi-periodic motion at the strobes lie on a closed curve, and advance along it by
+the rotation number on average. The average of a smooth function over N states converges as 1/N, and
+faster than any power of 1/N with weights that vanish at both ends with all derivatives (S. Das, Y.
+Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017). On a chaotic motion the error
+falls as N^(-1/2), so averages over parts of an orbit agree only if the motion is quasi-periodic.
 """
 
 import math
@@ -28,15 +30,14 @@ from impact_damper.motions.records import (
     SETTLED,
     UNRESOLVED,
 )
-from impact_damper.motions.rotation_numbers import find_rotation
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR
 
 # Largest number of forcing cycles of the first block.
 FIRST = 1500
 # Smallest growth of the tangent of a chaotic motion in a block, as a natural logarithm. The tangent
-# also grows while a motion leaves an unstable orbit. The distance from the orbit then grows from a
-# rounding error of 1e-16 to a size of order 1, and the tangent grows as much, by ln(1e16) = 37.
+# also grows while a motion leaves an unstable orbit, from a rounding error of 1e-16 to order 1: by
+# ln(1e16) = 37.
 GROWN = 40.0
 # Number of batches of a block, from which the standard error of the exponent is computed.
 BATCHES = 30
@@ -58,34 +59,27 @@ TORUS = (
     "second_frequency",
     "frequency_error",
 )
+# The rotation number counts as known if the results for parts of an orbit differ by at most
+# AGREEMENT.
+AGREEMENT = 1e-8
+# The advances of the angle from point to point, as points on a circle, must leave an interval of at
+# least INTERVAL revolutions empty. The circle is cut in this interval.
+INTERVAL = 0.02
+# The points of an orbit are sorted by their phases. TURN: largest change of the angle between
+# neighbouring points. WANDERING: largest sum of the moduli of all changes. Both in revolutions.
+TURN = 0.05
+WANDERING = 3.0
+# Smallest number of points of an orbit.
+FEWEST = 100
 
 
 @kernel
 def run_block(p, y, tangent, states, growth, stop):
     """Run a motion in place over the forcing cycles of a block.
 
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-    y : array, shape (4,)
-        State at the strobe, replaced by the last state.
-    tangent : array, shape (1, 4)
-        Solution of the variational equations, also replaced. It is scaled to length 1 after each
-        cycle.
-    states : array, shape (n, 4)
-        Receives the state after each cycle.
-    growth : array, shape (n,)
-        Receives the logarithm of the growth of the tangent in each cycle.
-    stop : array of bool, shape (1,)
-        Another thread may set this flag to end the run.
-
-    Returns
-    -------
-    contacts : int
-        Number of contacts.
-    escaped : bool
-        Whether the motion escaped.
-    """
+    The state `y` and the tangent (1, 4), scaled to length 1 after each cycle, are replaced.
+    `states` (n, 4) and `growth` (n,) receive the state and the logarithm of the growth of the
+    tangent after each cycle. Return the number of contacts, and whether the motion escaped."""
     work = workspace()
     side = side_of(p, y)
     total = 1 if side != 0 else 0
@@ -108,20 +102,11 @@ def run_block(p, y, tangent, states, growth, stop):
 
 
 def name_undecided(parameters, records, limit, further, stop):
-    """Continue the unresolved motions of `records`, and complete their records in place.
+    """Continue the motions that `settle_many` left unresolved, and complete their records.
 
-    Parameters
-    ----------
-    parameters : array, shape (m, packed.COUNT)
-    records : array of records.MOTION, shape (m,)
-        Filled by `settling.settle_many`.
-    limit : int
-        Forcing cycles of the run before. The first block has the same length, but at most FIRST.
-    further : int
-        Largest number of forcing cycles of all blocks together.
-    stop : array of bool, shape (1,)
-        Another thread may set this flag to end the runs. The records are then incomplete.
-    """
+    The first block has the length of the run before, `limit`, but at most FIRST; all blocks
+    together have at most `further` forcing cycles. If another thread sets `stop[0]`, the records
+    are incomplete."""
     curves = []
     for i in np.flatnonzero(records["outcome"] == UNRESOLVED):
         p, record = parameters[i], records[i : i + 1]
@@ -181,7 +166,7 @@ def _name_one(p, record, limit, further, known, stop):
 
 
 def _is_known(record, known, states):
-    """Return whether states lie on known curves (NEIGHBOUR). If they do, complete the record."""
+    """Return whether states lie on known curves; if they do, complete the record."""
     for curves in known:
         apart = np.abs(states[:, None, :3] - curves.states[None, :, :3]).max(axis=2)
         if np.max(np.min(apart, axis=1)) < NEIGHBOUR:
@@ -258,3 +243,70 @@ def _quasi_periodic(p, record, states, mean, error):
             record["frequency_error"] = first * best.error
             return QUASI_PERIODIC if best.known else UNRESOLVED
     return UNRESOLVED
+
+
+class Rotation(NamedTuple):
+    """Rotation number of a map on a closed curve, in revolutions per iterate, from 0 to 1/2.
+
+    `error` is the largest difference between the numbers of the first, middle and last half of an
+    orbit."""
+
+    number: float
+    error: float
+
+    @property
+    def known(self):
+        """True if the error is at most AGREEMENT."""
+        return self.error <= AGREEMENT
+
+
+def birkhoff_average(values):
+    """Return the average of values along an orbit, weighted by exp(-1/(t (1 - t))), 0 < t < 1."""
+    t = np.arange(1, len(values) + 1) / (len(values) + 1)
+    weights = np.exp(-1 / (t * (1 - t)))
+    return np.sum(weights * values) / np.sum(weights)
+
+
+def find_rotation(points):
+    """Return the `Rotation` of a map on the closed curve on which an orbit lies, or None.
+
+    The rotation number is the average advance of the angle around the average of the complex
+    points, which are stretched first to have the same spread in all directions: on a slender curve
+    the angle advances mainly at the two ends. Sorted by the phases that follow from the number, the
+    points of a closed curve go around once; on other sets they jump from side to side."""
+    if len(points) < FEWEST:
+        return None
+    angle = np.angle(_rounded(points)) / (2 * math.pi)
+    advance = np.diff(angle) % 1
+    # The advances are points on a circle, which is cut in the widest interval between them.
+    order = np.sort(advance)
+    intervals = np.diff(order, append=order[0] + 1)
+    widest = np.argmax(intervals)
+    if intervals[widest] < INTERVAL:
+        return None
+    cut = order[widest] + intervals[widest] / 2
+    advance = (advance - cut) % 1 + cut
+    number = birkhoff_average(advance)
+    if not _goes_around_once(angle, number):
+        return None
+    half, quarter = len(advance) // 2, len(advance) // 4
+    parts = [birkhoff_average(advance[k : k + half]) for k in (0, quarter, len(advance) - half)]
+    return Rotation(float(min(number % 1, -number % 1)), float(np.ptp(parts)))
+
+
+def _rounded(points):
+    """Return points relative to their average, stretched to the same spread in all directions."""
+    apart = points - birkhoff_average(points)
+    plane = np.stack([apart.real, apart.imag])
+    spread, axes = np.linalg.eigh(plane @ plane.T)
+    x, y = axes.T @ plane
+    return x * math.sqrt(max(spread[1], 0.0)) + 1j * y * math.sqrt(max(spread[0], 0.0))
+
+
+def _goes_around_once(angle, number):
+    """Return whether angles, in revolutions, go around once in the order of their phases."""
+    order = np.argsort(np.arange(len(angle)) * number % 1)
+    turns = np.diff(angle[order], append=angle[order[0]])
+    turns -= np.round(turns)
+    once = abs(round(np.sum(turns))) == 1
+    return bool(once and np.max(np.abs(turns)) < TURN and np.sum(np.abs(turns)) < WANDERING)

@@ -1,25 +1,19 @@
 """Judge a motion once in each forcing cycle: whether it has settled to an orbit, or is chaotic.
 
-The judgement is at the strobe, the time at which the forcing has the phase W T = pi/2. When a
-motion settles to an orbit of period n, the distances between states n cycles apart decrease
-geometrically. Once the sum of the remaining geometric series is small, Newton's method moves the
-state onto the orbit: it makes the state n cycles later, whose derivative is computed exactly, equal
-to the state. The motion has settled if this orbit is close and stable. By this test a slow passage
-near a fold, during which states hardly change, is not mistaken for an orbit. For other motions the
-largest Lyapunov exponent is computed.
-
-Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
-forcing frequency, and T the time.
+The judgement is at the strobe. When a motion settles to an orbit of period n, the distances between
+states n cycles apart decrease geometrically. Once the sum of the remaining series is small,
+Newton's method moves the state onto the orbit. The motion has settled if this orbit is close and
+stable, so a slow passage near a fold is not mistaken for an orbit. For other motions the largest
+Lyapunov exponent is computed from the growth of a tangent, a solution of the variational equations.
 """
 
 import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import inlined, kernel_only
+from impact_damper.kernel.compiling import inlined, kernel, kernel_only
 from impact_damper.kernel.equation import energy, forcing_amplitude, has_escaped
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
-from impact_damper.motions.growth import BLOCK, RECENT, exponent, follow_tangent
 from impact_damper.motions.records import (
     AT_REST,
     CHAOTIC,
@@ -46,6 +40,10 @@ RING = 2 * LONGEST_PERIOD + 1
 # weak if it is below WEAK per unit of time.
 CONFIDENCE = 4.0
 WEAK = 0.05
+# BLOCK   forcing cycles of a batch, over which the logarithm of the growth of a tangent is summed
+# RECENT  number of last batches in which the tangent of a chaotic motion must grow
+BLOCK = 10
+RECENT = 5
 # NEAR     distance from an orbit at which Newton's method is first tried
 # NEAREST  smallest distance at which Newton's method is tried
 NEAR = 1e-4
@@ -58,9 +56,8 @@ REST = 1e-9
 # untouched  number of successive forcing cycles without contact
 # near       distance from an orbit at which Newton's method is tried next
 # energy     without forcing, the energy at the first strobe
-# The other fields describe the growth of a tangent, a small change of the state (`growth`):
-# periods    number of cycles over which the growth has been followed
-# batch      logarithm of the growth in the present batch of cycles
+# periods    number of cycles over which the tangent has been followed
+# batch      logarithm of its growth in the present batch
 # mean, squares, recent: mean, sum of squares and last values of complete batches
 SEEN = np.dtype(
     [
@@ -76,6 +73,43 @@ SEEN = np.dtype(
         ("recent", "f8", RECENT),
     ]
 )
+
+
+@kernel_only
+def follow_tangent(tangent, growth):
+    """Normalise a tangent after a forcing cycle, and add the logarithm of its growth to the batch.
+
+    Mean and sum of squares over complete batches are updated by Welford's recurrence.
+    """
+    size = 0.0
+    for i in range(4):
+        size += tangent[i] ** 2
+    size = math.sqrt(size)
+    for i in range(4):
+        tangent[i] /= size
+    growth.batch += math.log(size)
+    growth.periods += 1
+    if growth.periods % BLOCK == 0:
+        count = growth.periods // BLOCK
+        change = growth.batch - growth.mean
+        growth.mean += change / count
+        growth.squares += change * (growth.batch - growth.mean)
+        growth.recent[count % RECENT] = growth.batch
+        growth.batch = 0.0
+
+
+@kernel
+def exponent(growth):
+    """Return the mean growth in a batch, its standard error, and whether the growth continues.
+
+    It continues if its average over the last RECENT batches exceeds half its mean over all batches.
+    """
+    count = growth.periods // BLOCK
+    recent = 0.0
+    for i in range(RECENT):
+        recent += growth.recent[i] / RECENT
+    error = math.sqrt(growth.squares / (count * (count - 1.0)))
+    return growth.mean, error, recent > 0.5 * growth.mean
 
 
 @kernel_only
@@ -180,33 +214,24 @@ def watch_free(p, y, seen, out):
 
 @inlined
 def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
-    """Judge a motion at a strobe; return whether the motion is stopped.
+    """Judge a motion at a strobe, complete its record `out`, and return whether it is stopped.
 
     `patience` and `limit` are numbers of forcing cycles. A motion is stopped
 
     - when it has settled, diverged or escaped, or after `limit` cycles;
-    - with the outcome at_rest if there is no forcing and its energy, which cannot grow, is below
-      REST times the energy at the first strobe. An unforced motion is stopped only for this reason,
-      after an escape or divergence, or after `limit` cycles;
-    - with the outcome non_colliding if it has settled without contacts, or if the primary mass is
-      on an orbit, the loose mass has touched no wall for `patience` cycles, and the loose mass
-      would drift by less than 1 % of the clearance in `limit` cycles;
-    - with the outcome drifting after `limit` cycles if the primary mass is on an orbit, the loose
-      mass has touched no wall for `patience` cycles, and the loose mass drifts faster;
-    - with the outcome chaotic after `patience` cycles if the largest Lyapunov exponent exceeds
-      CONFIDENCE standard errors and the tangent still grows in the last batches. (Otherwise a
-      chaotic transient may just have ended.) With an exponent below WEAK the motion is stopped only
-      in the last BLOCK cycles before `limit`, because a slow spiral can look like weak chaos for
-      some time.
+    - as at_rest if there is no forcing and its energy, which cannot grow, is below REST times the
+      energy at the first strobe;
+    - as non_colliding if it has settled without contacts, or if the primary mass is on an orbit and
+      the loose mass has touched no wall for `patience` cycles and would drift by less than 1 % of
+      the clearance in `limit` cycles; as drifting after `limit` cycles if it drifts faster;
+    - as chaotic after `patience` cycles if the largest Lyapunov exponent exceeds CONFIDENCE
+      standard errors and the tangent still grows in the last batches (otherwise a chaotic transient
+      may just have ended). With an exponent below WEAK only in the last BLOCK cycles before
+      `limit`, because a slow spiral can look like weak chaos for some time.
 
-    The exponent is computed from the growth of one tangent, which is followed from cycle
-    `patience`/2 on. From this cycle on `reach` is updated too, the largest
-    (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe. For a motion on an orbit the exponent is computed from the
-    dominant multiplier instead, because the motion before is a transient.
-
-    Outcome, period, residual, dominant multiplier, periods_run, reach and the exponent per unit of
-    time are written to the record `out`. y is moved onto the orbit if there is one.
-    """
+    The tangent is followed from cycle `patience`/2 on. From this cycle on `reach` is updated too.
+    For a motion on an orbit the exponent is computed from the dominant multiplier instead, because
+    the motion before is a transient. y is moved onto the orbit if there is one."""
     k = seen.strobes
     bounded = p[CLEARANCE] < math.inf
     if k == limit:

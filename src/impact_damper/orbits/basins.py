@@ -23,11 +23,12 @@ from impact_damper.motions.attractors import (
     REACH,
     find_attractors,
     free_attractors,
+    label_damped,
+    orbit_passages,
     with_neighbourhoods,
 )
-from impact_damper.motions.damped_labels import label_damped, orbit_passages
-from impact_damper.motions.free_motions import free_motions
-from impact_damper.motions.labels import label_states
+from impact_damper.motions.ensemble import label_states
+from impact_damper.motions.start_states import free_motions
 from impact_damper.orbits.boundary import saddles, stable_manifold
 
 # Half widths of the plane in Z1 and Z1', divided by the largest displacement and speed of the

@@ -23,10 +23,9 @@ from impact_damper.model.checks import (
 from impact_damper.model.packed import CLEARANCE, pack
 from impact_damper.model.parameters import Damper, describe
 from impact_damper.model.settling import check_settling
-from impact_damper.motions.catalogue import SAME
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
-from impact_damper.motions.sweep import reached, sweep
+from impact_damper.motions.sweep import SAME, reached, sweep
 from impact_damper.orbits.branch_minimum import Branch, minimum_table
 from impact_damper.theory.harmonic_balance import optimum_clearance
 from impact_damper.theory.optimum_clearance import analytical_table, excess_table

@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.model.packed import CLEARANCE
-from impact_damper.motions.segment_newton import NUDGE, correction, slopes_of_ends
+from impact_damper.motions.segment_runs import NUDGE, correction, slopes_of_ends
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from impact_damper.motions.segment_newton import FINE_NUDGE
+from impact_damper.motions.segment_runs import FINE_NUDGE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN
 from impact_damper.orbits.shooting import AMPLIFYING

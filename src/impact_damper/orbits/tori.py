@@ -25,8 +25,8 @@ import numpy as np
 
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions import traces
-from impact_damper.motions.rotation_numbers import birkhoff_average, find_rotation
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
+from impact_damper.motions.undecided import birkhoff_average, find_rotation
 from impact_damper.orbits.orbit import TURN, Orbit
 
 # Measurement of the growth.

@@ -11,7 +11,7 @@ import impact_damper as idm
 from impact_damper.data.datasets import flag
 from impact_damper.design.swept_sine import forced, sweep_periods, swept_sine
 from impact_damper.model.packed import FREQUENCY
-from impact_damper.motions.envelopes import envelope
+from impact_damper.motions.records import envelope
 
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
 LINEAR = idm.Machine(**SPRING, force=40)

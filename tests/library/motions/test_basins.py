@@ -13,10 +13,10 @@ from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
-from impact_damper.motions import labels
-from impact_damper.motions.attractors import find_attractors
-from impact_damper.motions.labels import label_states
-from impact_damper.orbits.basins import basins, free_attractors
+from impact_damper.motions import ensemble
+from impact_damper.motions.attractors import find_attractors, free_attractors
+from impact_damper.motions.ensemble import label_states
+from impact_damper.orbits.basins import basins
 from impact_damper.orbits.orbit_branch import periodic_orbit
 
 CUBIC = Oscillator(0.215)
@@ -218,5 +218,5 @@ def test_mirrored_states_with_the_damper_lead_to_motions_of_equal_size():
 
 def test_the_numbers_of_labels_stand_in_the_registry():
     """Kernels may not import the registry of variables, so they repeat two of its numbers."""
-    assert labels.ESCAPED == BASIN_LABEL["escaped"]
-    assert labels.UNRESOLVED == BASIN_LABEL["unresolved"]
+    assert ensemble.GONE == BASIN_LABEL["escaped"]
+    assert ensemble.UNKNOWN == BASIN_LABEL["unresolved"]

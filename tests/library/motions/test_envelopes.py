@@ -14,8 +14,7 @@ from numpy.polynomial import Polynomial
 
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Oscillator
-from impact_damper.motions.envelopes import AT_ONCE, envelope
-from impact_damper.motions.extrema import extremum
+from impact_damper.motions.records import AT_ONCE, envelope, extremum
 
 VIOLENT = np.array([1.0, 0.5, -0.3, 2.0])
 

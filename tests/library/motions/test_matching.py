@@ -6,9 +6,9 @@ from helpers.known_orbits import PAPER
 
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Damper
-from impact_damper.motions.matching import match_unsettled
 from impact_damper.motions.records import MOTION
 from impact_damper.motions.response import frequency_response
+from impact_damper.motions.sweep import match_unsettled
 
 
 def motion(outcome, size, period=0):

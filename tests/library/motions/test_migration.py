@@ -18,8 +18,8 @@ from impact_damper.data.datasets import flag, load, save
 from impact_damper.data.shares import escape_rate, survival, wilson
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
-from impact_damper.motions.damper_release import release_case
 from impact_damper.motions.migration import migrate, trials
+from impact_damper.motions.releases import release_case
 from impact_damper.theory.free_oscillator import free_solutions
 
 CUBIC = Oscillator(0.215)

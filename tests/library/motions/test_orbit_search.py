@@ -12,9 +12,9 @@ from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble, start_states
-from impact_damper.motions.orbit_search import LONGEST, stable_orbits
 from impact_damper.motions.start_states import random_starts, search_starts
 from impact_damper.motions.strobe_map import period_map
+from impact_damper.motions.sweep import LONGEST, stable_orbits
 
 NEVER = np.zeros(1, bool)
 # Oscillator, damper, frequency, and max |Z1| and period of an orbit that few random starts lead to.

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from impact_damper.motions.rotation_numbers import AGREEMENT, birkhoff_average, find_rotation
+from impact_damper.motions.undecided import AGREEMENT, birkhoff_average, find_rotation
 
 GOLDEN = (math.sqrt(5) - 1) / 2
 

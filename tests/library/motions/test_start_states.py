@@ -16,9 +16,13 @@ from scipy.integrate import solve_ivp
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
-from impact_damper.motions.free_motions import free_motions
 from impact_damper.motions.response import frequency_response
-from impact_damper.motions.start_states import missed_share, search_starts, warn_if_narrow
+from impact_damper.motions.start_states import (
+    free_motions,
+    missed_share,
+    search_starts,
+    warn_if_narrow,
+)
 
 SETTLING = Settling()
 

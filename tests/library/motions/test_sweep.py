@@ -16,12 +16,11 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import Damper
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble, strobe_map
-from impact_damper.motions.catalogue import Catalogue
 from impact_damper.motions.following import follow_stable
 from impact_damper.motions.records import MOTION
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.start_states import NO_LOOSE, NO_STARTS, Search
-from impact_damper.motions.sweep import _end_event, sweep
+from impact_damper.motions.sweep import Catalogue, _end_event, sweep
 from impact_damper.motions.traces import trace
 
 FREQUENCIES = np.array([1.25, 1.4, 1.6, 1.75, 1.9, 2.0, 2.05, 2.1])

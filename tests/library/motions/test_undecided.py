@@ -16,7 +16,7 @@ from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble, records, strobe_map, undecided
 from impact_damper.motions.following import follow_stable
-from impact_damper.motions.rotation_numbers import find_rotation
+from impact_damper.motions.undecided import find_rotation
 
 NEVER = np.zeros(1, bool)
 

@@ -15,7 +15,7 @@ from helpers.sampling import sample
 
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper
-from impact_damper.motions.rotation_numbers import birkhoff_average
+from impact_damper.motions.undecided import birkhoff_average
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import STROBE, TURN
 from impact_damper.orbits.shooting import find_orbit, shoot

@@ -1,15 +1,9 @@
 """Motions to which releases of the damper lead, and lifetimes of the violent motion (section 5).
 
-Without the damper the oscillator has two motions of period 1 at the same frequency: the large
-resonance motion and the small non-resonance motion. Release means switching the damper off, so that
-the free motion settles to one of them. Before a release, the damper is switched on during the
-resonance motion, at a phase of the forcing that is drawn uniformly. At this time the loose mass is
-at rest relative to the primary mass, at a place in the gap that is drawn uniformly, as if a clamp
-had held it. Then the motion can be irregular for many cycles before it settles to a periodic orbit.
-This irregular part is the violent motion, and its length is the lifetime. A strobe is the time in
-each forcing cycle at which the forcing has the phase W T = pi/2. Z1 is the displacement of the
-primary mass.
-"""
+The damper is switched on during the resonance motion, at a random phase, with the loose mass at
+rest relative to the primary mass at a random place in the gap, as if a clamp had held it. Then the
+motion can be irregular for many cycles, its lifetime, before it settles to a periodic orbit. A
+release switches the damper off again, so that the free motion settles."""
 
 from dataclasses import replace
 from itertools import count
@@ -23,10 +17,10 @@ from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION
 from impact_damper.model.bounds import FREQUENCY_RANGE, LEAD
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.motions import ensemble, legs
-from impact_damper.motions.catalogue import Catalogue
 from impact_damper.motions.following import record_at
 from impact_damper.motions.records import MOTION, NEVER
 from impact_damper.motions.simulate import random_states
+from impact_damper.motions.sweep import Catalogue
 from impact_damper.theory.free_oscillator import main_solutions
 from impact_damper.theory.single_harmonic import impacting_solutions
 
@@ -62,11 +56,10 @@ class ReleaseCase(NamedTuple):
 
 
 def _free_motion(oscillator, frequency, start, which, settling):
-    """Return the `records.MOTION` of a free motion of period 1 at a frequency, or None.
+    """Return the record of a free motion of period 1 at a frequency, or None.
 
-    The motion is first computed at the frequency `start`: a run begins with the state of the
-    harmonic-balance solution number `which`, by ascending amplitude, and settles. From there the
-    motion is followed to `frequency`.
+    At the frequency `start` a run begins with the state of the harmonic-balance solution number
+    `which`, by ascending amplitude, and settles. From there the motion is followed to `frequency`.
     """
     p = pack(oscillator, None, start)
     free = main_solutions(oscillator, start)
@@ -113,22 +106,17 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return flags (`DAMPED_MOTION`) that classify motions with the damper.
+    """Return flags (`DAMPED_MOTION`) that classify motions by period and max |Z1|, arrays.
 
-    `period` and `displacement` (max |Z1|) are arrays with one entry for each motion. A motion of
-    period 1 is quiet if its max |Z1| is below half the max |Z1| of the free resonance motion.
-    `known` is the attribute of `ReleaseCase`.
-    """
+    A motion of period 1 is quiet if its max |Z1| is below half the max |Z1| of the free resonance
+    motion."""
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
     return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
 
 
 def destination(known, record):
-    """Return the flag (`FREE_MOTION`) that names the free motion in a `records.MOTION`.
-
-    `known` is the attribute of `ReleaseCase`.
-    """
+    """Return the flag (`FREE_MOTION`) that names the free motion in a record."""
     if not is_settled(record):
         return FREE_MOTION["unresolved"]
     if record["period"] == 3:
@@ -140,10 +128,7 @@ def destination(known, record):
 
 
 def _release(case, state, wait, settling, path, entry, stop=NEVER):
-    """Switch the damper off `wait` forcing cycles after a strobe, and fill `entry`, a RELEASE.
-
-    `state` is the state at the strobe.
-    """
+    """Switch the damper off `wait` forcing cycles after a strobe, and fill `entry`, a RELEASE."""
     records = np.zeros(1, MOTION)
     legs.leg(
         case.on,
@@ -165,13 +150,11 @@ def _release(case, state, wait, settling, path, entry, stop=NEVER):
 def _watch_one(case, draws, lifetime, settling, path, records, entry, stop):
     """Run with the damper on, release once, and return the lifetime in forcing cycles.
 
-    The lifetime ends when an orbit captures the run, which means that the run stays close to the
-    orbit from then on (`legs.CAPTURE`). `draws` are four numbers between 0 and 1: the phase at
-    which the damper is switched on, the place of the loose mass, the strobe of the release, and the
-    phase after this strobe. The strobe of the release lies between strobe LEAD (`bounds`), before
-    which the run still depends on its start, and the capture. A run that is captured before strobe
-    LEAD is not released.
-    """
+    `draws` are four numbers between 0 and 1: the phase at which the damper is switched on, the
+    place of the loose mass, the strobe of the release, and the phase after this strobe. The strobe
+    of the release lies between strobe LEAD, before which the run still depends on its start, and
+    the capture by an orbit, which ends the lifetime. A run that is captured before strobe LEAD is
+    not released."""
     legs.leg(
         case.off,
         case.on,
@@ -205,8 +188,7 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
         One for each run.
     lifetime : int
         Largest number of forcing cycles of a run.
-    settling : Settling
-    workers, progress
+    settling, workers, progress
         As in `ensemble.settle`.
 
     Returns
@@ -216,7 +198,6 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
     motions : numpy.ndarray of records.MOTION, shape (n,)
         Motions that the runs settle to.
     entries : numpy.ndarray of RELEASE, shape (n,)
-        The releases.
     """
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     lives = np.empty(len(draws))
@@ -242,11 +223,9 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
 def transient_data(lives, motions, lifetime, known):
     """Return a dict of dataset variables of the lifetimes, and a dict with their coordinate `age`.
 
-    The arguments are those of `watch_runs` and its results. A capture is detected only after the
-    run has settled. A run that was captured shortly before its end is therefore not counted as
-    captured. To avoid a bias, lifetimes are evaluated only up to a horizon: `lifetime` minus the
-    longest time between capture and settling in any run.
-    """
+    A capture is detected only after the run has settled, so a run that was captured shortly before
+    its end is not counted as captured. To avoid a bias, lifetimes are evaluated only up to a
+    horizon: `lifetime` minus the longest time between capture and settling in any run."""
     settled = is_settled(motions)
     delay = np.max(motions["periods_run"][settled] - lives[settled], initial=0)
     horizon = lifetime - delay
@@ -265,13 +244,10 @@ def transient_data(lives, motions, lifetime, known):
 def release_data(case, motions, entries, settling):
     """Return a dict of dataset variables of the releases from the unsettled and settled motions.
 
-    `entries` are the releases from the unsettled motion, and `motions` the settled motions. From
-    each settled motion there are equally many releases, spread evenly over its period. While
-    the loose mass flies, the primary mass moves as without the damper. All releases within one
-    flight therefore lead to the same free motion. The share of releases that lead to a free motion
-    is, apart from the short contacts, the total duration of the flights that lead to this motion,
-    divided by the period.
-    """
+    `entries` are the releases from the unsettled motion, and `motions` the settled motions, each
+    with equally many releases, spread evenly over its period. While the loose mass flies, the
+    primary mass moves as without the damper, so all releases within one flight lead to the same
+    free motion."""
     number = len(entries)
     rows = [entries]
     path = np.empty((settling.limit + 2, 5))
