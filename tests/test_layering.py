@@ -28,7 +28,6 @@ FLOORS = (
     "impact_damper",
     "chatterjee1995.variables",
     "chatterjee1995",
-    "chatterjee1995.comparisons",
     "chatterjee1995.methods",
     "chatterjee1995.stages",
     "chatterjee1995.claims",

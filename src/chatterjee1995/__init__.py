@@ -9,7 +9,6 @@ from chatterjee1995.variables import (  # noqa: F401
     harmonics,
     integrators,
     policies,
-    published,
     studies,
     subharmonic,
 )

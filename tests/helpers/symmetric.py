@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import numpy as np
+from references.masri_caughey import flight_with_speed
 
-from chatterjee1995.comparisons.masri_caughey import flight_with_speed
 from impact_damper.model.packed import pack
 from impact_damper.orbits.shooting import shoot
 
@@ -34,9 +34,8 @@ def linear_orbit(oscillator, damper, frequency, ratio):
     increased in steps.
     """
     linear = replace(oscillator, cubic=0.0)
-    flight = flight_with_speed(linear, damper, frequency, ratio)
-    damper = replace(damper, clearance=flight.clearance)
-    state, phase = flight.state, flight.phase
+    clearance, phase, state = flight_with_speed(linear, damper, frequency, ratio)
+    damper = replace(damper, clearance=clearance)
     for factor in np.linspace(0, 1, 6):
         changed = replace(oscillator, cubic=factor * oscillator.cubic)
         orbit = converged(pack(changed, damper, frequency), state, phase, True)

@@ -1,14 +1,11 @@
-"""Tables of branches of periodic orbits, of their bifurcations, and of branches that leave there.
-
-A branch is a sequence of periodic orbits along the forcing frequency W.
-"""
+"""Tables of branches of periodic orbits and of their bifurcations."""
 
 import numpy as np
 import pandas as pd
 
 from chatterjee1995.claims import extract
 from chatterjee1995.tables.columns import parameter_columns
-from impact_damper.data.datasets import decode, flag
+from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true
 
 DAMPER = ("mass_ratio", "clearance", "restitution")
@@ -34,18 +31,6 @@ SHOWN = {
         "max |Z1|": "displacement max |Z1|",
         "walls before": "order of the walls touched, before it",
         "walls after": "order of the walls touched, after it",
-        "other branch": "branch that leaves",
-    },
-    "other_branches": {
-        "data": "curve",
-        "event": "event",
-        "other branch": "branch that leaves",
-        "events": "events",
-        "periods": "its periods [cycles]",
-        "supercritical": "supercritical",
-        "subcritical": "subcritical",
-        "beside a grazing": "beside a grazing",
-        "stable": "its orbit is stable",
     },
 }
 # Table -> column and value of the rows in the Markdown table; the CSV file has all rows.
@@ -55,23 +40,9 @@ ROWS = {"bifurcations": ("next to stable orbits", "yes")}
 CELLS = {"event": lambda cell: cell.replace("neimark sacker", "Neimark-Sacker")}
 # End at which a branch is left although its orbits go on -> words with the reason.
 LEFT = {
-    "unstable": "left where it becomes unstable, since it winds through chaos there",
+    "unstable": "left among unstable orbits, since it winds through chaos there",
     "point limit": "left after the largest number of orbits, since it winds through chaos",
     "lost": "left because Newton's method finds no further orbit",
-}
-# Outcome of the search for the branch that leaves, and side on which it begins -> words.
-OUTCOMES = {
-    "followed": "followed",
-    "ended": "the branch of the event ends here, at the other branch",
-    "not_followed": "not followed because of its period",
-    "not_passed": "not followed past a grazing",
-    "not_found": "no orbit found",
-}
-SIDES = {
-    "supercritical": "supercritical",
-    "subcritical": "subcritical",
-    "beside_grazing": "beside a grazing",
-    "undecided": "undecided",
 }
 
 
@@ -161,7 +132,6 @@ def bifurcations(datasets) -> pd.DataFrame:
                     "walls before": str(data["walls_before"].values[k]),
                     "walls after": str(data["walls_after"].values[k]),
                     "least speed of contact": float(data["event_speed"][k]),
-                    "other branch": _leaving(data.isel(event=k)),
                 }
             )
     frame = pd.DataFrame(rows)
@@ -179,41 +149,3 @@ def _next_to_stable(data):
         events = np.flatnonzero(data["event_branch"].values == branch)
         found[events] = np.isin(data["event_value"].values[events], at)
     return found
-
-
-def _leaving(event):
-    """Return what became of the branch that leaves at an event, "" at events of other kinds."""
-    outcome, side, stability = (
-        decode(event[f"leaving_{name}"]).item() for name in ("outcome", "side", "stability")
-    )
-    if outcome == "absent":
-        return ""
-    number = int(event["leaving_branch"])
-    if outcome == "ended":
-        return f"ends here, at branch {number + 1}" if number >= 0 else "ends here"
-    words = f"branch {number + 1}" if number >= 0 else OUTCOMES[outcome]
-    return words if side == "absent" else f"{words}, {SIDES[side]}, {stability}"
-
-
-def other_branches(datasets) -> pd.DataFrame:
-    """Return how often branches that leave at bifurcations were followed, found, and not found."""
-    rows = []
-    for name, parameters, data in _branches(datasets):
-        period = data["branch_period"].values[data["event_branch"].values]
-        kinds, outcomes, sides, stable = (
-            decode(data[variable]).values
-            for variable in ("event_kind", "leaving_outcome", "leaving_side", "leaving_stability")
-        )
-        for kind, factor in (("symmetry_breaking", 1), ("period_doubling", 2)):
-            for outcome, words in OUTCOMES.items():
-                at = (kinds == kind) & (outcomes == outcome)
-                if not at.any():
-                    continue
-                # If the branch of the event ends there, the other branch has more symmetry.
-                periods = period[at] // factor if outcome == "ended" else period[at] * factor
-                row = {"data": name} | parameters | {"event": kind.replace("_", " ")}
-                row |= {"other branch": words, "events": int(at.sum())}
-                row |= {"periods": ", ".join(map(str, np.unique(periods)))}
-                row |= {words: int((at & (sides == side)).sum()) for side, words in SIDES.items()}
-                rows.append(row | {"stable": int((at & (stable == "stable")).sum())})
-    return pd.DataFrame(rows)

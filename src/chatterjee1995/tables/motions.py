@@ -13,7 +13,6 @@ from chatterjee1995.claims.claim import Missing
 from chatterjee1995.claims.suppression import high_motions
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import flag
-from impact_damper.data.motion_variables import TORUS
 from impact_damper.data.sweeps import families
 from impact_damper.data.variables import OUTCOME
 
@@ -28,9 +27,6 @@ MATCHED = ("response", "optimum")
 LISTED = 0.05
 # Rare outcomes, counted together in the column `other`.
 OTHERS = ("diverged", "escaped", "at_rest")
-# Kind of a torus around an orbit with a multiplier outside the unit circle, in addition to the pair
-# of multipliers on the circle. Such tori are not listed.
-UNSTABLE_ORBIT = "of_unstable_orbit"
 # A Lyapunov exponent within this number of standard errors of 0 counts as 0.
 NEUTRAL = 3.0
 
@@ -59,17 +55,6 @@ SHOWN = {
         "its error": "error of the second frequency",
         "rotation number": "rotation number",
     },
-    "tori": {
-        "data": "curve",
-        "period": "period of the orbit [cycles]",
-        "W": "Neimark-Sacker point at Ω",
-        "angle": "angle of the multiplier [revolutions]",
-        "torus": "torus that splits off",
-        "W of torus": "Ω of the computed torus",
-        "second frequency": "second frequency of this torus",
-        "rotation number at the point": "rotation number, extrapolated to the point",
-        "growth": "growth: change of ln(amplitude) per period of the orbit / amplitude^2",
-    },
     "chaos": {
         "data": "curve",
         "W": "forcing frequency Ω",
@@ -93,7 +78,7 @@ SHOWN = {
         "not seen, at most": "bound on the share of a motion not seen",
     },
 }
-# Texts shown in Markdown for cells of the columns `stage` and `torus`.
+# Texts shown in Markdown for cells of the column `stage`.
 STAGES = {
     "response": "frequency responses",
     "subharmonic": "starts on the free subharmonic",
@@ -101,13 +86,9 @@ STAGES = {
     "studies": "planes of two parameters",
     "balance_map, high run": "starts at the largest solution of harmonic balance",
 }
-TORI = {"stable": "stable", "unstable": "unstable", "unknown": "not found out"}
 # Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
 # In columns without a function, underscores become spaces.
-CELLS = {"stage": lambda cell: STAGES.get(cell, cell), "torus": lambda cell: TORI.get(cell, cell)}
-# Neimark-Sacker points of two branches are one point if their parameter values differ by less than
-# SAME_VALUE and their max |Z1| by less than SAME_SIZE.
-SAME_VALUE, SAME_SIZE = 1e-7, 1e-4
+CELLS = {"stage": lambda cell: STAGES.get(cell, cell)}
 
 
 def outcomes(datasets) -> pd.DataFrame:
@@ -186,62 +167,6 @@ def quasi_periodic(datasets) -> pd.DataFrame:
                 }
             )
     return pd.DataFrame(rows)
-
-
-def tori(datasets) -> pd.DataFrame:
-    """Return the Neimark-Sacker points at which stable orbits lose their stability, and the tori.
-
-    At such a point a pair of complex multipliers crosses the unit circle, and a torus of
-    quasi-periodic motions splits off. The torus is stable, unstable or of unknown stability. For a
-    stable torus the row holds its frequencies and its rotation number a little beyond the point.
-    """
-    rows = []
-    for name, data in extract.damped(datasets, "branches").items():
-        met = []
-        for k in np.flatnonzero(~data.torus_kind.isin([TORUS["absent"], TORUS[UNSTABLE_ORBIT]])):
-            event = data.isel(event=k)
-            period = int(data.branch_period[int(event.event_branch)])
-            value, size = float(event.event_value), float(event.event_displacement)
-            if any(
-                n == period and abs(w - value) < SAME_VALUE and abs(z - size) < SAME_SIZE
-                for n, w, z in met
-            ):
-                continue
-            met.append((period, value, size))
-            first = float(event.torus_value) / period
-            rows.append(
-                {"data": name}
-                | parameter_columns(data, "damping", *DAMPER)
-                | {
-                    "period": period,
-                    "W": value,
-                    "max |Z1|": size,
-                    "angle": float(event.torus_angle),
-                    "torus": extract.meaning("torus_kind", int(event.torus_kind)),
-                    "growth": float(event.torus_growth),
-                    "W of torus": float(event.torus_value),
-                    "first frequency": first,
-                    "second frequency": first * float(event.torus_number),
-                    "rotation number": float(event.torus_number),
-                    "its error": float(event.torus_error),
-                    "rotation number at the point": float(event.torus_limit),
-                    "rotation number at the point minus angle": float(
-                        event.torus_limit - event.torus_angle
-                    ),
-                }
-            )
-    frame = pd.DataFrame(rows)
-    digits = (
-        "W",
-        "angle",
-        "W of torus",
-        "second frequency",
-        "rotation number",
-        "rotation number at the point",
-    )
-    for column in digits if rows else ():
-        frame[column] = frame[column].map(lambda x: f"{x:.8f}" if np.isfinite(x) else "")
-    return frame.sort_values(["data", "W"], kind="stable") if rows else frame
 
 
 def chaos(datasets) -> pd.DataFrame:

@@ -28,16 +28,6 @@ BRANCH_END = {
     "point_limit": 6,
     "unstable": 7,
 }
-OTHER = {
-    "absent": 0,
-    "followed": 1,
-    "ended": 2,
-    "not_followed": 3,
-    "not_passed": 4,
-    "not_found": 5,
-}
-SIDE = {"absent": 0, "supercritical": 1, "subcritical": 2, "beside_grazing": 3, "undecided": 4}
-TORUS = {"absent": 0, "stable": 1, "unstable": 2, "of_unstable_orbit": 3, "unknown": 4}
 CURVE = {"complete": 0, "cut": 1}
 
 register(
@@ -255,11 +245,6 @@ branch_met | branch edge | | | number of the branch at which a branch ends by sy
   period doubling; -1 if this branch is not in the dataset, or if the branch ends otherwise
 seeds | | | | number of motions from which Newton's method searched for an orbit
 seeds_lost | | | | number of motions from which Newton's method converged to no orbit
-searches | | | | number of searches by Newton's method, from random states, for orbits of period 1
-  to 3
-searches_stable | | | | number of searches that found a stable orbit
-searches_new | | | | number of branches followed from orbits that searches found and no other
-  branch held
 # events
 event_branch | event | | | branch on which an event lies
 event_place | event | | | index along the branch of the orbit at an event
@@ -273,36 +258,6 @@ event_speed | event | velocity | | smallest relative speed at the beginning of a
   event
 walls_before | event | | | walls in the order in which orbits before an event touch them
 walls_after | event | | | walls in the order in which orbits after an event touch them
-# branches that leave at losses of symmetry and period doublings
-leaving_outcome | event | | | what became of the other branch, which leaves at a loss of symmetry
-  or period doubling. followed: it is in the dataset; ended: the branch of the event ends at it;
-  not_followed: one of its orbits was found, but its period is too long; not_passed: it was not
-  followed past a grazing; not_found: none of its orbits was found
-  : OTHER
-leaving_branch | event | | | number of the other branch at an event, -1 if it is not in the
-  dataset
-leaving_value | event | followed | | varied parameter of the orbit of the other branch that was
-  found close to an event
-leaving_displacement | event | displacement | max |Z1| | largest displacement of the orbit of the
-  other branch found close to an event
-leaving_stability | event | | | stability of the orbit of the other branch found close to an event
-  : STABILITY
-leaving_side | event | | | whether the other branch begins supercritical, with as many unstable
-  multipliers as the first branch on its more stable side, or subcritical, with one more; not
-  determined near a grazing, where multipliers change too fast
-  : SIDE
-# tori that begin at Neimark-Sacker points
-torus_kind | event | | | torus that begins at a Neimark-Sacker point: stable, unstable, around an
-  orbit with another multiplier outside the unit circle, or undecided
-  : TORUS
-torus_angle | event | | | angle in revolutions of the multiplier on the unit circle at the point
-torus_growth | event | mixed | | change of the logarithm of the amplitude in a period of the orbit
-  at the point, divided by the square of the amplitude; negative if the torus is stable
-torus_value | event | followed | | varied parameter at which a run settled on a stable torus
-torus_number | event | | | rotation number of that torus, in revolutions per period of the orbit
-torus_error | event | | | difference of that rotation number between parts of the run
-torus_limit | event | | | rotation number extrapolated to the Neimark-Sacker point, from two
-  stable tori
 # basins of attraction
 basin_displacement | basin_displacement | displacement | Z1 | initial displacement of the primary
   mass
@@ -401,9 +356,6 @@ horizon | | | | cycles after which a run is cut off
     EVENT=EVENT,
     FREE_MOTION=FREE_MOTION,
     MINIMUM=MINIMUM,
-    OTHER=OTHER,
     OUTCOME=OUTCOME,
-    SIDE=SIDE,
     STABILITY=STABILITY,
-    TORUS=TORUS,
 )

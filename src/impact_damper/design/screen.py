@@ -20,7 +20,7 @@ from impact_damper.design.refine import BestOrbit, refine
 from impact_damper.design.task import LEAST_GAP, spread
 from impact_damper.model.packed import CLEARANCE
 from impact_damper.orbits.quiet_orbits import dominant_root, is_symmetric_pair, quiet_orbits
-from impact_damper.theory.slow_invariant_manifold import VibroImpactAbsorber
+from impact_damper.theory.straight_flight import light_mass_optimum
 
 # The map holds the quiet orbits at several gaps and frequencies.
 # MOST_GAP: largest gap, divided by the largest gap of rule (18) in the band.
@@ -149,14 +149,13 @@ def _limit(task, best):
 def _manifold_gap(task):
     """Return the gap (m) with the smallest response at the natural frequency, or NaN.
 
-    It follows from the slow invariant manifold (`literature.slow_invariant_manifold`).
+    It follows from the slow invariant manifold (`theory.straight_flight`).
     """
     machine = task.machine
     if machine.cubic_stiffness or not machine.linear_stiffness or task.restitution == 1:
         return np.nan
     oscillator, damper, frequency = task.system(1e-3, machine.natural_frequency)
-    absorber = VibroImpactAbsorber(
-        damper.mass_ratio, task.restitution, oscillator.damping / (2 * oscillator.linear_frequency)
-    )
+    damping_ratio = oscillator.damping / (2 * oscillator.linear_frequency)
+    best = light_mass_optimum(damper.mass_ratio, task.restitution, damping_ratio)
     static = oscillator.forcing_amplitude(frequency) / oscillator.linear_frequency**2
-    return 2 * task.scales.to_si(absorber.optimum().clearance * static, "displacement")
+    return 2 * task.scales.to_si(best * static, "displacement")

@@ -11,40 +11,29 @@ import numpy as np
 import xarray as xr
 from tqdm import tqdm
 
-from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.datasets import flag
 from impact_damper.model.bounds import FREQUENCY_RANGE, shown
 from impact_damper.model.checks import check_frequency, check_span
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
-from impact_damper.orbits.branch_datasets import (
-    branches_dataset,
-    leaving_variables,
-    torus_variables,
-)
+from impact_damper.orbits.branch_datasets import branches_dataset
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.other_branches import follow_others
-from impact_damper.orbits.random_search import COUNT, stable_orbits
 from impact_damper.orbits.shooting import find_orbit
 
-# Branches of long periods wind through chaos, some for more than 20000 orbits. Therefore their
-# lengths are limited.
-# MOST_POINTS: largest number of orbits of a branch in one direction.
-# MOST_LONG: the same for periods of more than LONG forcing cycles.
-# LONGEST: branches of longer periods are followed only as far as they are stable.
-MOST_POINTS, MOST_LONG, LONG, LONGEST = 8000, 4400, 8, 15
+# A branch of period 1 is followed to its ends. Any other branch is left once its unstable orbits in
+# a row last BEYOND forcing cycles together: farther on, branches wind through chaos for up to 20000
+# orbits, and the stable parts there are narrower than 0.01 in frequency.
+BEYOND = 300
 
 
 def complete_branches(oscillator, damper, frequencies, motions, *, progress=None):
     """Follow every branch of orbits over frequency on which a settled motion lies.
 
-    Stable orbits that lie on none of these branches are searched for from random states.
-
-    At each loss of symmetry and each period doubling another branch leaves, and an orbit of this
-    other branch is searched for. The other branch is followed if its period is at most 3 forcing
-    cycles, or at most 4 if it leaves beside a stable orbit, or at most 9 if its orbits are stable
-    where it begins. If a branch of a period of at most 4 ends at another branch, this one is
-    followed too. A branch is followed to its ends or up to a largest number of orbits, and with a
-    period above 15 only as far as its orbits are stable.
+    A branch that leaves next to stable orbits, where an orbit loses its symmetry or doubles its
+    period, is followed too if its orbits are stable where it begins, or if the first branch has the
+    period 1 or 3. A branch of period 1 is followed to its ends, any other until 300 forcing cycles
+    of unstable orbits lie behind each other.
 
     Parameters
     ----------
@@ -61,18 +50,8 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
     Returns
     -------
     xarray.Dataset
-        The variables of `orbit_branch` for all branches, and:
-
-        - `seeds`, the number of settled motions, and `seeds_lost`, the number of those from which
-          Newton's method found no orbit;
-        - `searches`, the number of searches from random states, `searches_stable`, the number of
-          those that found a stable orbit, and `searches_new`, the number of branches that only they
-          found;
-        - for each loss of symmetry and period doubling: `leaving_outcome`, which says whether the
-          other branch was found and followed, and the orbit of the other branch that was found
-          closest to the event;
-        - with a damper, for each Neimark-Sacker point: `torus_kind`, the kind of the torus that
-          begins there, and the rotation number of a stable torus.
+        The variables of `orbit_branch` for all branches; `seeds`, the number of settled motions,
+        and `seeds_lost`, the number of those from which Newton's method found no orbit.
 
         A branch and its mirror image count as one. With a damper, motions without contacts are left
         out, because they are motions of the oscillator without the damper.
@@ -103,9 +82,8 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
         return p
 
     def follow(orbit, value):
-        most = MOST_POINTS if orbit.periods <= LONG else MOST_LONG
-        stable = orbit.periods > LONGEST
-        return follow_branch(family, orbit, value, frequencies, most, stable=stable)
+        beyond = np.inf if orbit.periods == 1 else BEYOND / orbit.periods
+        return follow_branch(family, orbit, value, frequencies, beyond)
 
     branches, lost = [], 0
     seeds = sorted(_seeds(motions, damper), key=lambda seed: seed[:3])
@@ -117,22 +95,12 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
             elif not any(branch.holds(orbit, frequency) for branch in branches):
                 branches.append(follow(orbit, frequency))
                 bar.set_postfix(branches=len(branches))
-    settled = len(branches)
-    stable = list(stable_orbits(family, damper, frequencies))
-    for value, orbit in stable:
-        if not any(branch.holds(orbit, value) for branch in branches):
-            branches.append(follow(orbit, value))
-    searches = {"searches": COUNT, "searches_stable": len(stable)}
-    searches["searches_new"] = len(branches) - settled
-    others = follow_others(branches, follow)
+    follow_others(branches, follow)
     if progress is not None:
         tqdm.write(f"{progress}: {_summary(branches, len(seeds), lost)}", file=sys.stderr)
     parameters = describe(oscillator, damper) | {"parameter": "frequency"}
-    data = branches_dataset(branches, float, parameters, "Branches of periodic orbits")
     counts = {"seeds": len(seeds), "seeds_lost": lost}
-    counts |= searches | leaving_variables(others)
-    counts |= torus_variables(branches) if damper is not None else {}
-    return data.assign(dataset(counts, {}, parameters, data.attrs["title"]).variables)
+    return branches_dataset(branches, float, parameters, "Branches of periodic orbits", counts)
 
 
 def _summary(branches, seeds, lost):

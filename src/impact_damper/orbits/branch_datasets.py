@@ -11,15 +11,12 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.records import phase_of
 from impact_damper.motions.simulate import COMPONENTS
-from impact_damper.orbits.other_branches import SAME_SIZE, SAME_VALUE, met_by
-from impact_damper.orbits.tori import torus_behind
+from impact_damper.orbits.other_branches import met_by
 
 # A contact counts as near grazing if the relative speed at its beginning is below SLOW. Floquet
 # multipliers then describe very small disturbances only: the effect of a disturbance d also has a
 # term with the power 3/2 of d, whose coefficient grows near grazing.
 SLOW = 0.01
-# Numbers of `tori.Torus` that are stored.
-TORUS_NUMBERS = ("angle", "growth", "value", "number", "error", "limit")
 
 
 def _status(orbit):
@@ -64,82 +61,7 @@ def orbit_variables(pairs):
     }
 
 
-def torus_variables(branches):
-    """Return the variables of the tori that begin at Neimark-Sacker points.
-
-    A torus is a surface in the space of states on which quasi-periodic motions surround an orbit.
-    If an event lies on several branches, its torus is looked for once.
-
-    Parameters
-    ----------
-    branches : list of Branch
-        With a damper, over the forcing frequency.
-
-    Returns
-    -------
-    dict of numpy.ndarray
-        Variables with the dimension `event`; the kind is "absent" for other events.
-    """
-    known, kinds, numbers = [], [], []
-    for branch in branches:
-        for _, event in branch.events:
-            kind, values = "absent", [np.nan] * len(TORUS_NUMBERS)
-            if event.kind == "neimark_sacker":
-                torus = next((each for point, each in known if _is_same(point, event.point)), None)
-                if torus is None:
-                    torus = torus_behind(event.point)
-                    known.append((event.point, torus))
-                kind, values = torus.kind, [getattr(torus, name) for name in TORUS_NUMBERS]
-            kinds.append(flag("torus_kind", kind))
-            numbers.append(values)
-    table = np.array(numbers).reshape(-1, len(TORUS_NUMBERS)).T
-    columns = {f"torus_{name}": row for name, row in zip(TORUS_NUMBERS, table, strict=True)}
-    return {"torus_kind": np.array(kinds, int)} | columns
-
-
-def _is_same(first, second):
-    """Return whether two points of branches at events are the same."""
-    sizes = (point.orbit.record["maximum_displacement"] for point in (first, second))
-    return (
-        first.orbit.periods == second.orbit.periods
-        and abs(first.value - second.value) < SAME_VALUE
-        and abs(next(sizes) - next(sizes)) < SAME_SIZE
-    )
-
-
-def leaving_variables(found):
-    """Return the variables of the branches that leave at losses of symmetry and period doublings.
-
-    Parameters
-    ----------
-    found : list of list of (Other or None)
-        Result of `follow_others`.
-
-    Returns
-    -------
-    dict of numpy.ndarray
-        Variables with the dimension `event`, keyed by name. At other events they are absent, -1 or
-        NaN.
-    """
-    others = [other for each in found for other in each]
-    begun = [other.departure if other else None for other in others]
-    points = [each.point if each else None for each in begun]
-    outcomes = [other.outcome if other else "absent" for other in others]
-    stable = [("stable" if p.orbit.stable else "unstable") if p else "absent" for p in points]
-    sides = [each.side if each else "absent" for each in begun]
-    return {
-        "leaving_outcome": np.array([flag("leaving_outcome", name) for name in outcomes], int),
-        "leaving_branch": np.array([other.number if other else -1 for other in others], int),
-        "leaving_value": np.array([point.value if point else np.nan for point in points]),
-        "leaving_displacement": np.array(
-            [p.orbit.record["maximum_displacement"] if p else np.nan for p in points]
-        ),
-        "leaving_stability": np.array([flag("stability", name) for name in stable], int),
-        "leaving_side": np.array([flag("leaving_side", name) for name in sides], int),
-    }
-
-
-def branches_dataset(branches, back, parameters, title):
+def branches_dataset(branches, back, parameters, title, more=None):
     """Return a dataset of branches.
 
     Parameters
@@ -151,6 +73,8 @@ def branches_dataset(branches, back, parameters, title):
     parameters : dict
         Parameters of the dataset, as from `describe`.
     title : str
+    more : dict, optional
+        Further variables.
 
     Returns
     -------
@@ -184,4 +108,4 @@ def branches_dataset(branches, back, parameters, title):
         "walls_after": np.array([event.after for _, _, event in events], object),
     }
     coordinates = {"component": list(COMPONENTS), "edge": ["lower", "upper"]}
-    return dataset(data, coordinates, parameters, title)
+    return dataset(data | (more or {}), coordinates, parameters, title)

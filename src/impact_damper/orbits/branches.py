@@ -28,7 +28,6 @@ from impact_damper.orbits.continuation import (
 )
 from impact_damper.orbits.cutting import holds_still, recut
 from impact_damper.orbits.grazing import through_grazing
-from impact_damper.orbits.hidden import hides_bifurcations
 from impact_damper.orbits.steps import folds_twice, next_point, passes_unseen, with_bend
 
 # Largest number of orbits in one direction.
@@ -69,7 +68,7 @@ class Branch:
         end of the range of the parameter. "closed": the branch is a closed curve.
         "symmetry_breaking", "period_doubling": at a branch of more symmetry. "contact_lost": at a
         motion without contacts. "lost": Newton's method fails. "point_limit": after the largest
-        number of orbits. "unstable": at the first unstable orbit, if only stable ones were wanted.
+        number of orbits. "unstable": after the largest number of unstable orbits in a row.
     lost : int
         Number of events that could not be located.
     """
@@ -121,7 +120,7 @@ def _at_value(point, ahead, value):
     return point.problem.at_value(point, value)
 
 
-def follow_branch(family, orbit, value, span, most=MOST_POINTS, *, stable=False) -> Branch:
+def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
     """Follow a branch from an orbit in both directions of a parameter.
 
     Parameters
@@ -134,10 +133,8 @@ def follow_branch(family, orbit, value, span, most=MOST_POINTS, *, stable=False)
         Value of the parameter of this orbit.
     span : tuple of float
         Least and greatest value of the parameter.
-    most : int
-        Largest number of orbits in one direction. A branch with more orbits ends as "point_limit".
-    stable : bool
-        Follow the branch only as far as its orbits are stable. It then ends as "unstable".
+    beyond : int, optional
+        Largest number of unstable orbits in a row. A branch with more ends as "unstable".
 
     Returns
     -------
@@ -154,7 +151,7 @@ def follow_branch(family, orbit, value, span, most=MOST_POINTS, *, stable=False)
         first = problem.begin(orbit, value, direction)
         if first is None:
             raise ArithmeticError(f"no orbit of the family at {value:g} close to the one given")
-        walks.append(_walk(problem, first, span, most, stable))
+        walks.append(_walk(problem, first, span, beyond))
         if walks[-1].ends[1] == "closed":
             return replace(walks[-1], ends=("closed", "closed"))
     down, up = walks
@@ -170,20 +167,20 @@ def _reversed(event):
     return event._replace(before=event.after, after=event.before)
 
 
-def _walk(problem, first, span, most, stable=False) -> Branch:
+def _walk(problem, first, span, beyond) -> Branch:
     """Follow a branch from the point `first` along its tangent.
 
     The other arguments are those of `follow_branch`. In the attribute `ends` of the result the
     reason before the first point is "".
     """
-    points, events, lost, end = [first], [], 0, ""
+    points, events, lost, end, idle = [first], [], 0, "", 0
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
         outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0
         end = "range_ends" if outward else ""
     if not holds_still(first):
         points[0] = first = recut(first)
     length, tried = FIRST_STEP, None
-    while not end and len(points) < most:
+    while not end and len(points) < MOST_POINTS:
         point = points[-1]
         ahead, factor = next_point(point, span, length)
         changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
@@ -204,7 +201,7 @@ def _walk(problem, first, span, most, stable=False) -> Branch:
             along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
             pieces = [(point, ahead, *events_between(point, ahead, along))]
             step = pieces[0][:3]
-            unseen = passes_unseen(*step) or hides_bifurcations(*step)
+            unseen = passes_unseen(*step)
             if length > CLEAR_STEP and (pieces[0][3] or unseen):
                 length /= 2
                 continue
@@ -230,7 +227,8 @@ def _walk(problem, first, span, most, stable=False) -> Branch:
                     points.append(event.point)
             if end in ("", "range_ends", "closed"):
                 points.append(first if end == "closed" else ahead)
-            if stable and not (end or ahead.orbit.stable):
+            idle = 0 if ahead.orbit.stable else idle + 1
+            if not end and idle > beyond:
                 end = "unstable"
             if end:
                 break

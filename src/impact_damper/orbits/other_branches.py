@@ -1,25 +1,12 @@
-"""The branches that leave other branches at bifurcations: all searched for, and some followed.
+"""Follow the branches that leave other branches next to their stable orbits."""
 
-A branch is the curve of the periodic orbits over a parameter. At every loss of symmetry and every
-period doubling another branch leaves. The orbits of this other branch have less symmetry: they are
-not symmetric, or repeat only after twice the period. An orbit of the other branch close to the
-bifurcation is always searched for. The branch is followed only if its period is short or its orbits
-are stable where it begins. Otherwise the search would not end, because period doublings form
-infinite cascades, and unstable branches of long periods wind through chaos.
+from impact_damper.orbits.switching import LEAVING, met_branch, other_branch
 
-An end of a branch is its first or its last point. Z1 is the displacement of the primary mass.
-Multipliers are Floquet multipliers.
-"""
-
-from typing import NamedTuple
-
-from impact_damper.orbits.switching import LEAVING, Departure, departure, met_branch, other_branch
-
-# Longest period, in forcing cycles, of the branches that are followed.
-# ALWAYS: of any branch.
-# BESIDE_STABLE: of a branch that leaves beside a stable orbit.
+# Longest period, in forcing cycles, of a branch that is followed from another branch.
+# WHOLE: of the first branch, if the other one is followed also where it begins unstable.
 # STABLE: of a branch whose orbits are stable where it begins.
-ALWAYS, BESIDE_STABLE, STABLE = 3, 4, 9
+# MET: of a branch whose end is a branch that is followed too.
+WHOLE, STABLE, MET = (1, 3), 9, 4
 # Two branches meet at an event if the parameter and max |Z1| at the event and at the end of the
 # other branch agree within these tolerances. The end is a fold, located to 1e-7 in branch length.
 SAME_VALUE, SAME_SIZE = 1e-6, 1e-4
@@ -27,117 +14,54 @@ SAME_VALUE, SAME_SIZE = 1e-6, 1e-4
 NEAR = 1e-9
 
 
-class Other(NamedTuple):
-    """What was found of the other branch at a bifurcation.
-
-    Attributes
-    ----------
-    outcome : str
-        "followed": the other branch begins at the bifurcation and is in the list of branches.
-        "ended": the other branch is the one of more symmetry, and the branch on which the
-        bifurcation lies ends at it. "not_followed": the period of the other branch is too long.
-        "not_passed": its period is short enough, but a grazing is close, and Newton's method found
-        no orbit beyond it. "not_found": no orbit of the other branch was found.
-    departure : Departure or None
-        Beginning of the other branch; None if the outcome is "ended" or "not_found".
-    number : int
-        Index of the other branch in the list of branches, -1 if it is not in the list.
-    """
-
-    outcome: str
-    departure: Departure | None = None
-    number: int = -1
-
-
 def follow_others(branches, follow):
-    """Follow the branches that leave at bifurcations, and return the outcome at each bifurcation.
+    """Append the branches that leave other branches, or at which they end, to the list `branches`.
 
-    The branches of more symmetry at which a branch ends are followed too. New branches are
-    appended to the list, and the branches that leave them are followed in turn.
-
-    Parameters
-    ----------
-    branches : list of Branch
-    follow : callable
-        Function that returns the `Branch` of an orbit. Its arguments are the orbit and the value of
-        the parameter.
-
-    Returns
-    -------
-    list of list of (Other or None)
-        An entry for each branch, with an entry for each of its events; None for an event that is
-        not a loss of symmetry or a period doubling.
+    A branch that leaves next to stable orbits is followed if its first branch has a period of
+    WHOLE, or if it begins stable and its period is at most STABLE. Elsewhere it begins unstable,
+    and is followed only where a branch of a period of WHOLE loses its symmetry. `follow` returns
+    the `Branch` of an orbit at a value of the parameter.
     """
-    found = []
     for branch in branches:
-        _follow_ends(branches, branch, follow)
-        found.append([_follow_at(branches, branch, *each, follow) for each in branch.events])
-    ends = [
-        (number, edge)
-        for number, branch in enumerate(branches)
-        for edge in (0, 1)
-        if branch.ends[edge] in LEAVING
-    ]
-    for number, others in enumerate(found):
-        for k, other in enumerate(others):
-            if other is None:
-                continue
-            event = branches[number].events[k][1]
-            if other.outcome == "ended":
-                edge = 1 if branches[number].events[k][0] else 0
-                others[k] = other._replace(number=met_by(branches, number, edge))
-            elif other.number < 0:
-                met = [end for end in ends if end[0] != number and ends_at(branches, *end, event)]
-                if met:
-                    others[k] = other._replace(outcome="followed", number=met[0][0])
-    return found
+        for edge in (0, -1):
+            point = _more_symmetric(branches, branch, edge)
+            if point is not None:
+                branches.append(follow(point.orbit, point.value))
+        for place, event in branch.events:
+            point = _leaving(branches, branch, place, event)
+            if point is not None:
+                branches.append(follow(point.orbit, point.value))
 
 
-def _follow_ends(branches, branch, follow):
-    """Follow the branches of more symmetry at which a branch ends.
-
-    This is done only for branches of periods up to BESIDE_STABLE.
-    """
-    for edge, kind in zip((0, -1), branch.ends, strict=True):
-        if kind in LEAVING and branch.points[0].orbit.periods <= BESIDE_STABLE:
-            met = met_branch(branch.points[edge], kind)
-            if met and not any(_passes(each, kind, met) for each in branches):
-                branches.append(follow(met.orbit, met.value))
-
-
-def _follow_at(branches, branch, place, event, follow):
-    """Find the branch that leaves at an event of a branch, and follow it if its period allows it.
-
-    `place` is the index of the event's point. Return an `Other`, or None for an event that is not a
-    loss of symmetry or a period doubling. `follow_others` changes the outcome later if the branch
-    that leaves is reached from its other end.
-    """
-    if event.kind not in LEAVING:
+def _more_symmetric(branches, branch, edge):
+    """Return the point of a new branch of more symmetry at which a branch ends, or None."""
+    kind = branch.ends[edge]
+    if kind not in LEAVING or branch.points[0].orbit.periods > MET:
         return None
-    if _is_end(branch, place, event):
-        return Other("ended")
-    begun = departure(event)
-    if begun is None:
-        return Other("not_found")
-    periods = begun.point.orbit.periods
+    met = met_branch(branch.points[edge], kind)
+    return met if met and not any(_passes(each, kind, met) for each in branches) else None
+
+
+def _leaving(branches, branch, place, event):
+    """Return a point of a new branch that leaves at an event, or None.
+
+    `place` is the index of the event's point on its branch.
+    """
+    if event.kind not in LEAVING or _is_end(branch, place, event):
+        return None
+    if any(ends_at(branches, k, edge, event) for k in range(len(branches)) for edge in (0, 1)):
+        return None
+    first, doubled = branch.points[0].orbit.periods, event.kind == "period_doubling"
     beside = branch.points[max(place - 1, 0) : place + 2]
-    near_stable = any(point.orbit.stable for point in beside)
-    whole = periods <= ALWAYS or (near_stable and periods <= BESIDE_STABLE)
-    if not (whole or (begun.point.orbit.stable and periods <= STABLE)):
-        return Other("not_followed", begun)
-    for number in range(len(branches)):
-        if any(ends_at(branches, number, edge, event) for edge in (0, 1)):
-            return Other("followed", begun, number)
-    start = other_branch(event)
-    if not whole and not (start and start.orbit.stable) and begun.side != "beside_grazing":
-        start = begun.point
-    if start is None:
-        return Other("not_passed", begun)
-    for number, each in enumerate(branches):
-        if each is not branch and each.holds(start.orbit, start.value):
-            return Other("followed", begun, number)
-    branches.append(follow(start.orbit, start.value))
-    return Other("followed", begun, len(branches) - 1)
+    if not any(point.orbit.stable for point in beside) and (doubled or first not in WHOLE):
+        return None
+    if first not in WHOLE and first * (1 + doubled) > STABLE:
+        return None
+    start = other_branch(event, stable=first not in WHOLE)
+    others = (each for each in branches if each is not branch)
+    if start is None or any(each.holds(start.orbit, start.value) for each in others):
+        return None
+    return start
 
 
 def _is_end(branch, place, event):

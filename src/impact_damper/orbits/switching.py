@@ -33,11 +33,10 @@ from impact_damper.orbits.shooting import shoot
 from impact_damper.orbits.turns import turns_of
 
 # Search for an orbit of the other branch at a distance from the bifurcation.
-# DISTANCES: distances that are tried, one after the other, for an orbit of clearly less symmetry.
-# CLOSE: the same for an orbit as close as possible to the bifurcation.
+# DISTANCES: distances that are tried, one after the other.
 # ASIDE: largest distance of the orbit found from the first guess, divided by its distance from the
 #   bifurcation.
-DISTANCES, CLOSE, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4), (1e-4, 1e-5, 1e-6), 0.5
+DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
 # Search for an orbit of the other branch close to a grazing.
 # SHARES: changes of the height, divided by the height at the bifurcation, that are tried.
 # MISSED: largest relative error of the predicted distance of the orbit from the bifurcation.
@@ -49,24 +48,6 @@ LEAVING = ("symmetry_breaking", "period_doubling")
 # A branch meets another one at its end if the last orbit and the orbit of the other branch are at
 # most MEETING apart.
 MEETING = 1e-3
-
-
-class Departure(NamedTuple):
-    """The beginning of the branch that leaves at a bifurcation.
-
-    Attributes
-    ----------
-    point : Point
-        The orbit found closest to the bifurcation.
-    side : str
-        Compares the number of unstable multipliers (modulus above 1) of the orbit with that of the
-        first branch on the more stable side of the bifurcation. "supercritical": both numbers are
-        equal. "subcritical": the orbit has one more. "undecided": any other difference.
-        "beside_grazing": not compared, because multipliers change too fast close to a grazing.
-    """
-
-    point: Point
-    side: str
 
 
 class _Leaving(NamedTuple):
@@ -87,42 +68,15 @@ class _Leaving(NamedTuple):
     direction: np.ndarray
 
 
-def departure(event) -> Departure | None:
-    """Return the beginning of the branch that leaves at a bifurcation.
-
-    Parameters
-    ----------
-    event : Event
-        A loss of symmetry or a period doubling.
-
-    Returns
-    -------
-    Departure or None
-        None if Newton's method finds no orbit.
-
-    Raises
-    ------
-    ValueError
-        If the event is of another kind.
-    """
-    leaving = _leaving(event)
-    point = _at_distance(leaving, CLOSE)
-    if point is None:
-        point = next(_at_heights(leaving), None)
-        return point and Departure(point, "beside_grazing")
-    first = event.point.orbit.cycle_multipliers
-    others = np.delete(first, np.argmin(np.abs(first + 1)))
-    more = np.sum(np.abs(point.orbit.cycle_multipliers) > 1) - np.sum(np.abs(others) > 1)
-    return Departure(point, {0: "supercritical", 1: "subcritical"}.get(int(more), "undecided"))
-
-
-def other_branch(event) -> Point | None:
+def other_branch(event, *, stable=False) -> Point | None:
     """Return a point, close to a bifurcation, from which the branch that leaves can be followed.
 
     Parameters
     ----------
     event : Event
         A loss of symmetry or a period doubling.
+    stable : bool
+        Return only a point whose orbit is stable.
 
     Returns
     -------
@@ -137,12 +91,17 @@ def other_branch(event) -> Point | None:
     """
     leaving = _leaving(event)
     doubled = event.kind == "period_doubling"
-    point = _at_distance(leaving, DISTANCES)
-    if point is not None:
-        return point if _is_other(point.orbit, doubled) else None
+
+    def fits(point):
+        return _is_other(point.orbit, doubled) and (point.orbit.stable or not stable)
+
+    found = filter(None, (_at_distance(leaving, distance) for distance in DISTANCES))
+    points = list(found) if stable else list(islice(found, 1))
+    if points:
+        return next(filter(fits, points), None)
     for point in islice(_at_heights(leaving), PASSAGES):
         passage = through_grazing(point, REACH)
-        if passage and _is_other(passage.points[-1].orbit, doubled):
+        if passage and fits(passage.points[-1]):
             return passage.points[-1]
     return None
 
@@ -195,15 +154,13 @@ def _leaving(event):
     return _Leaving(whole, x, direction / whole.length(direction))
 
 
-def _at_distance(leaving, distances):
-    """Return the first point of the other branch found at one of several distances, or None."""
+def _at_distance(leaving, distance):
+    """Return the point of the other branch at a distance from the bifurcation, or None."""
     problem, x, direction = leaving
-    for distance in distances:
-        guess = x + distance * direction
-        near = problem.correct(guess, direction)
-        if near is not None and problem.length(near.x - guess) <= ASIDE * distance:
-            return near
-    return None
+    guess = x + distance * direction
+    near = problem.correct(guess, direction)
+    close = near is not None and problem.length(near.x - guess) <= ASIDE * distance
+    return near if close else None
 
 
 def _at_heights(leaving):

@@ -272,3 +272,15 @@ def elastic_ratios(flight) -> tuple[float, float]:
     displacement = whole * IMPULSE * (kink - contact) - flight.mass_ratio
     harmonic = whole * (1 - contact) * np.pi**2 / 8 - flight.mass_ratio
     return displacement, harmonic
+
+
+def light_mass_optimum(mass_ratio, restitution, damping_ratio) -> float:
+    """Return d0 of the smallest response at the resonance of a linear oscillator, to first order.
+
+    It is divided by the static deflection. The impacts then take place in the middle position of
+    the primary mass, whose speed there is q = (2/pi) (1 - e)/(1 + e) times d0; 8 rm/pi^2 is the
+    first harmonic of the impulses. The mass ratio and the damping ratio are small. O. V. Gendelman,
+    J. Sound Vib. 331(21), 4599-4608, 2012; E. Gourc et al., J. Vib. Acoust. 137(3), 031008, 2015.
+    """
+    loss = 2 / np.pi * (1 - restitution) / (1 + restitution)
+    return 1 / (2 * damping_ratio * loss + 8 * mass_ratio / np.pi**2)

@@ -3,16 +3,10 @@
 import numpy as np
 import pytest
 
-from chatterjee1995.tables import motions
-from impact_damper.data.datasets import dataset, decode
-from impact_damper.model.packed import pack
-from impact_damper.model.parameters import Damper, Oscillator, describe
+from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions.simulate import simulate
 from impact_damper.motions.steady import steady_motion
-from impact_damper.orbits.branch_datasets import branches_dataset, torus_variables
-from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit_branch import orbit_branch, periodic_orbit
-from impact_damper.orbits.shooting import find_orbit
 
 OSCILLATOR = Oscillator(damping=0.215)
 
@@ -60,25 +54,3 @@ def test_an_orbit_that_repeats_sooner_is_told_and_not_followed():
         periodic_orbit(OSCILLATOR, damper, 2.0, state, period=3)
     with pytest.raises(ArithmeticError, match="period = 3: .* repeats after a divisor"):
         orbit_branch(OSCILLATOR, damper, 2.0, state, period=3, span=(1.9, 2.1))
-
-
-def test_only_neimark_sacker_points_have_tori_and_the_table_lists_each_once():
-    """The stable torus of the damper of figure 10 begins at a point that lies on two branches."""
-    damper = Damper(0.25, 1.0, restitution=0.75)
-
-    def family(value):
-        return pack(OSCILLATOR, damper, value)
-
-    orbit = find_orbit(family(1.6), (0.7796, 0.1704, 0.8163, -0.9718), 3)
-    branches = [follow_branch(family, orbit, 1.6, (1.59, span)) for span in (1.61, 1.8)]
-    made = describe(OSCILLATOR, damper) | {"parameter": "frequency"}
-    found = branches_dataset(branches, float, made, "Branches")
-    found = found.assign(dataset(torus_variables(branches), {}, made, "Tori").variables)
-    kinds, points = decode(found.torus_kind), decode(found.event_kind) == "neimark_sacker"
-    assert list(kinds[points]) == ["stable", "stable"] and np.all(kinds[~points] == "absent")
-    assert np.all(np.isfinite(found.torus_angle) == points)
-    (row,) = motions.tori({"branches": {"figure_10": found}}).to_dict("records")
-    assert float(row["W"]) == pytest.approx(1.59352297, abs=1e-7)
-    assert row["first frequency"] == pytest.approx(float(row["W of torus"]) / 3)
-    second = float(row["angle"]) * row["first frequency"]
-    assert float(row["second frequency"]) == pytest.approx(second, abs=1e-4)

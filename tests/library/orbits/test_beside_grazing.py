@@ -132,7 +132,7 @@ def test_variations_along_a_direction_are_sums_of_those_by_parameters():
 def test_a_branch_may_be_left_where_it_loses_stability(thrice):
     value, state = THRICE
     orbit = find_orbit(family(value), state, 3)
-    part = follow_branch(family, orbit, value, (1.2, 1.32), stable=True)
+    part = follow_branch(family, orbit, value, (1.2, 1.32), 0)
     assert part.ends[0] == "unstable"
     stable = [point.orbit.stable for point in part.points]
     assert stable[1:] == [True] * (len(stable) - 1) and not stable[0]

@@ -10,10 +10,8 @@ import pytest
 
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.orbits.bifurcations import _is_complex_pair, events_between
+from impact_damper.orbits.bifurcations import _is_complex_pair
 from impact_damper.orbits.branches import follow_branch
-from impact_damper.orbits.continuation import Problem
-from impact_damper.orbits.hidden import hides_bifurcations
 from impact_damper.orbits.shooting import find_orbit
 
 CHANGES = {"fold": 1, "symmetry_breaking": 1, "period_doubling": 1, "neimark_sacker": 2}
@@ -36,13 +34,6 @@ CASES = {
         (1.690, 1.6925),
     ),
 }
-# W, phase and state of a symmetric orbit of period 7 with the damper of figure 5 (a). The branch
-# has two losses of symmetry at larger W: at 1.661081 and 1.665833.
-BEFORE_TWO_LOSSES = (
-    1.6607936847446518,
-    2.908858122417371,
-    [-0.40427670589641235, -0.15225110539453973, 0.27734003610564995, -1.3276315715040206],
-)
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -83,34 +74,3 @@ def _reachable(count, changes):
 def test_only_a_conjugate_pair_on_the_unit_circle_makes_a_torus(multipliers, expected):
     """In the last two cases two multipliers that are not conjugate have the product 1."""
     assert _is_complex_pair(np.array(multipliers, complex)) == expected
-
-
-def test_a_step_that_hides_two_losses_of_symmetry_is_recognized():
-    """The step to W = 1.6665 passes both losses of symmetry, and none of them is located."""
-    point, ahead, events = _step_over_losses_of_symmetry(1.6665)
-    assert not events and hides_bifurcations(point, ahead, events)
-
-
-def _step_over_losses_of_symmetry(last):
-    """Return the ends of a step that ends at W = `last`, and the events located on the step."""
-
-    def family(frequency):
-        return pack(Oscillator(0.215), Damper(0.12, 2.0), frequency)
-
-    first, phase, state = BEFORE_TWO_LOSSES
-    orbit = find_orbit(family(first), state, 7, phase)
-    point = Problem.of(family, orbit).begin(orbit, first, 1)
-    ahead = point
-    for value in np.linspace(first, last, 12)[1:]:
-        ahead = point.problem.at_value(ahead, value)
-    length = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
-    events, lost = events_between(point, ahead, length)
-    assert not lost
-    return point, ahead, events
-
-
-def test_a_step_without_one_of_its_events_is_recognized():
-    """Without the loss of symmetry the multipliers outside the unit circle are unaccounted for."""
-    point, ahead, events = _step_over_losses_of_symmetry(1.6645)
-    assert not hides_bifurcations(point, ahead, events)
-    assert hides_bifurcations(point, ahead, [])

@@ -84,7 +84,7 @@ def test_an_end_that_is_left_open_has_its_reason():
     left = made.assign(branch_end=made["branch_end"].copy(data=ends))
     table = table_branches.orbits({"branches": {"closed": made, "left": left}}).set_index("data")
     assert table["one end"]["closed"] == "closed" and table["other end"]["left"] == "range ends"
-    assert table["one end"]["left"].startswith("left where it becomes unstable, since")
+    assert table["one end"]["left"].startswith("left among unstable orbits, since")
 
 
 def orbit_columns(frequency, stable):

@@ -88,20 +88,6 @@ TABLES = (
         "Quasi-periodic motions of the responses and their two frequencies, from rotation numbers.",
     ),
     Table(
-        "tori",
-        "chatterjee1995.tables.motions",
-        ("branches",),
-        "Tori that split off from stable orbits at their Neimark-Sacker points. The growth is the "
-        "change of the logarithm of the amplitude in a period, divided by the square of the "
-        "amplitude; if it is negative the torus is stable. Motions on stable tori were simulated "
-        "at two Ω near the point; the table gives the nearer Ω. The rotation number is "
-        "extrapolated to the point, where it must equal the angle of the multiplier. The second "
-        "frequency is missing if no torus was found at these Ω, because the orbit ends, or because "
-        "the torus locks or becomes chaotic too soon. The kind of a torus is not found out if a "
-        "grazing or the resonance 1:3 is too close. Orbits that are unstable on both sides of "
-        "their point are left out.",
-    ),
-    Table(
         "shares",
         "chatterjee1995.tables.motions",
         ("response", "optimum"),
@@ -128,12 +114,11 @@ TABLES = (
         "chatterjee1995.tables.branches",
         ("branches",),
         "Branches of periodic orbits: range, stable parts, and events at both ends. A branch "
-        "begins at a settled motion, at a stable orbit that Newton's method found in one of 360 "
-        "searches from random states, or at a point of another branch: where an orbit loses its "
-        "symmetry or doubles its period (table `other_branches`), or where the other branch ends. "
-        "A branch has at most 8000 orbits in one direction, or 4400 if its period is above 8. A "
-        "branch whose period is above 15 is left where it becomes unstable. Newton's method finds "
-        "no next orbit where several contacts appear at almost the same frequency. The column "
+        "begins at a settled motion or at a point of another branch: where an orbit loses its "
+        "symmetry or doubles its period, or where the other branch ends. A branch of period 1 is "
+        "followed to its ends, any other until 300 forcing cycles of unstable orbits lie behind "
+        "each other. Newton's method finds no next orbit where several contacts appear at almost "
+        "the same frequency. The column "
         "`not located` of the CSV counts events that lie between two orbits but were not located.",
     ),
     Table(
@@ -142,18 +127,5 @@ TABLES = (
         ("branches",),
         "Located bifurcations and changes of contact next to stable periodic orbits; the CSV has "
         "those of unstable orbits too. An event at which two branches meet has a row for each.",
-    ),
-    Table(
-        "other_branches",
-        "chatterjee1995.tables.branches",
-        ("branches",),
-        "What became of the branches that leave where an orbit loses its symmetry or doubles its "
-        "period. An orbit of every such branch is searched for close to the event. A branch is "
-        "followed up to period 3, up to period 4 if it leaves next to stable orbits, and up to "
-        "period 9 if it is stable where it begins. Other branches are left, since doublings form "
-        "infinite cascades and unstable orbits of long periods wind through chaos. A branch is "
-        "supercritical if it exists on the side of the event on which the first orbit is more "
-        "unstable, and subcritical if it exists on the other side. The side is not determined near "
-        "a grazing, since the multipliers change too fast there.",
     ),
 )
