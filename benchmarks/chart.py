@@ -13,7 +13,8 @@ import pandas as pd
 from benchmarks.accuracy import measured
 from benchmarks.methods import RIVALS, TIMED, applying, starts_of
 from benchmarks.timing import interleaved
-from chatterjee1995.methods.methods import colour_of, name_and_mode
+from chatterjee1995.methods.integrators import runs_of_accuracy
+from chatterjee1995.methods.labels import colour_of
 from impact_damper.plot.panels.style import (
     BLACK,
     BLUE,
@@ -45,9 +46,9 @@ def looks():
     """Return colour, line and marker of each method; rivals that locate contacts get full lines."""
     rivals, markers = {}, {}
     for label in RIVALS:
-        name, located = name_and_mode(label)
-        marker = markers.setdefault(name, MARKERS[len(markers) % len(MARKERS)])
-        rivals[label] = colour_of(name), "-" if located else ":", marker
+        integrator, located = runs_of_accuracy()[label]
+        marker = markers.setdefault(integrator.name, MARKERS[len(markers) % len(MARKERS)])
+        rivals[label] = colour_of(integrator.name), "-" if located else ":", marker
     return LOOK | rivals
 
 

@@ -2,7 +2,7 @@
 
 For a scene (a test case) and a tolerance a method prepares a function from starts (initial states)
 to states at the end. The kernel is this package's compiled integrator. The integrators with which
-it is compared, called rivals, come from `chatterjee1995.methods.methods`.
+it is compared, called rivals, come from `chatterjee1995.methods.integrators`.
 """
 
 from collections.abc import Callable
@@ -11,14 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from benchmarks.heyoka_runs import BATCH, Motions
-from chatterjee1995.methods.methods import (
-    COMPARED,
-    METHODS,
-    integrators,
-    name_and_mode,
-    title_with_mode,
-)
-from chatterjee1995.methods.taylor_runs import ROWS, SERIES, steps_of, take_steps
+from chatterjee1995.methods.integrators import runs_of_accuracy
+from chatterjee1995.methods.integrators.taylor import ROWS, SERIES, steps_of, take_steps
+from chatterjee1995.methods.labels import method_in_words
 from impact_damper.kernel import batch
 from impact_damper.kernel.single import workspace
 from impact_damper.kernel.tangents import advance
@@ -106,9 +101,8 @@ def heyoka_batch(scene, tolerance):
 
 
 def rival(label):
-    """Return the timed method of an integrator of `rivals.methods`, called for each start."""
-    name, locate = name_and_mode(label)
-    integrator = integrators()[name]
+    """Return the timed method of a run of the stage `accuracy`, called for each start."""
+    integrator, locate = runs_of_accuracy()[label]
 
     def prepare(scene, tolerance):
         given = scene.begin, scene.periods, tolerance, locate
@@ -118,10 +112,10 @@ def rival(label):
 
         return run
 
-    return TimedMethod(title_with_mode(label), prepare, METHODS[name].slow)
+    return TimedMethod(method_in_words(label), prepare, integrator.slow)
 
 
-RIVALS = tuple(label for label in COMPARED["accuracy"] if label != "taylor")
+RIVALS = tuple(label for label in runs_of_accuracy() if label != "taylor")
 TIMED = {
     "kernel": TimedMethod("this kernel, one at a time", single),
     "kernel_ensemble": TimedMethod("this kernel, ensemble", ensemble),

@@ -25,7 +25,7 @@ WHOLE = {
     "highest",
     "candidates",
 }
-WHOLE |= {"highest_cold", "periods", "passages", "implicit_passages", "points", "most_steps"}
+WHOLE |= {"highest_cold", "periods", "passages", "points", "most_steps"}
 WHOLE |= {"period", "scipy_every"}
 # Keys of numbers that may be zero.
 ZERO_ALLOWED = {"seed", "linear_frequency", "highest_cold", "scipy_every", "within"}

@@ -9,7 +9,6 @@ job.save(
         job.oscillator,
         job["frequency"],
         passages=job["passages"],
-        implicit_passages=job["implicit_passages"],
         radius=job["radius"],
         depths=job.powers("depths"),
         tolerances=job.powers("tolerances"),

@@ -9,8 +9,8 @@ from itertools import cycle
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from chatterjee1995.methods.methods import COMPARED, METHODS, colour_of, name_and_mode
-from chatterjee1995.methods.words import method_in_words
+from chatterjee1995.methods.integrators import runs_of_accuracy
+from chatterjee1995.methods.labels import colour_of, method_in_words
 from impact_damper.data.datasets import parameters_of
 from impact_damper.data.variables import VARIABLES
 from impact_damper.plot.panels.style import (
@@ -162,12 +162,11 @@ def _method(axes, role, work, error, bars, good, bad):
 
 def _roles(data):
     """Return label, colour, marker and line of each method, in the order of the legend."""
-    roles = {"taylor": (METHODS["taylor"].title, colour_of("taylor"), "o", "-")}
-    further = sorted(set(data["method"].values) - {*COMPARED["accuracy"], *ORBIT_LOOKS})
+    roles = {"taylor": (method_in_words("taylor"), colour_of("taylor"), "o", "-")}
+    further = sorted(set(data["method"].values) - {*runs_of_accuracy(), *ORBIT_LOOKS})
     for name, (marker, line) in zip(further, cycle(OTHER_ORDERS)):
         roles[name] = (method_in_words(name), colour_of("taylor"), marker, line)
-    for label in COMPARED["accuracy"]:
+    for label, (integrator, located) in runs_of_accuracy().items():
         if label not in roles:
-            name, located = name_and_mode(label)
-            roles[label] = (method_in_words(label), colour_of(name), *LOOKS[located])
+            roles[label] = (method_in_words(label), colour_of(integrator.name), *LOOKS[located])
     return roles | {name: (method_in_words(name), *look) for name, look in ORBIT_LOOKS.items()}

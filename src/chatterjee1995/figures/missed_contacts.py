@@ -3,8 +3,7 @@
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from chatterjee1995.methods.methods import METHODS
-from impact_damper.data.shares import missed_share
+from chatterjee1995.methods.integrators import integrators
 from impact_damper.plot.panels.maps import edges
 from impact_damper.plot.panels.style import (
     BLACK,
@@ -47,8 +46,8 @@ def draw_missed_contacts(*, missed_contacts):
     panels = drawn.subplots(rows, COLUMNS, sharex=True).ravel()
     for k, (axes, name) in enumerate(zip(panels, data["integrator"].values, strict=False)):
         image = _panel(axes, data, name)
-        axes.set_title(METHODS[name].title, loc="right", fontsize=8)
-        if METHODS[name].fixed:
+        axes.set_title(integrators()[name].title, loc="right", fontsize=8)
+        if integrators()[name].fixed:
             axes.set_ylabel("Steps a cycle")
         elif k % COLUMNS == 0:
             axes.set_ylabel(axis_label(data["method_tolerance"]))
@@ -70,12 +69,12 @@ def draw_missed_contacts(*, missed_contacts):
 
 def _panel(axes, data, name):
     """Draw the panel of one method, and return the image of the shares of missed contacts."""
-    of, depths, fixed = data.sel(integrator=name), data["depth"].values, METHODS[name].fixed
+    of, depths, fixed = data.sel(integrator=name), data["depth"].values, integrators()[name].fixed
     y = data["fixed_steps"].values if fixed else data["method_tolerance"].values
     image = axes.pcolormesh(
         edges(depths),
         edges(y),
-        missed_share(of),
+        of["contacts_missed"],
         cmap="cividis_r",
         vmin=0,
         vmax=1,

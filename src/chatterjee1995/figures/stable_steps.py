@@ -5,7 +5,7 @@ Figure kind `stable_steps`.
 
 import numpy as np
 
-from chatterjee1995.methods.methods import METHODS
+from chatterjee1995.methods.integrators import integrators
 from impact_damper.data.datasets import parameters_of
 from impact_damper.plot.panels.style import (
     GREY,
@@ -52,7 +52,7 @@ def draw_stable_steps(*, stable_steps):
     panels = drawn.subplots(1, len(stable_steps), sharey=True, squeeze=False)[0]
     for axes, data in zip(panels, stable_steps, strict=True):
         for index, name in enumerate(data["fixed_method"].values):
-            _draw_method(axes, data.sel(fixed_method=name), index, METHODS[name].title)
+            _draw_method(axes, data.sel(fixed_method=name), index, integrators()[name].title)
         words = parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
         axes.set(xscale="log", yscale="log", xlabel=axis_label(data["contact_stiffness"]))
         axes.set_title(words)

@@ -1,59 +1,125 @@
-"""Error and counted work of every method and model on a test case (scene), at several settings.
+"""Error and work of every method and model on a test case (scene), at several settings.
 
-A method is an integrator, a model solves for a periodic motion directly (`rivals.orbit_models`).
-The reference is a run in 80-bit arithmetic by an independent program. Work is counted in
-floating-point operations. No method can follow a chaotic motion to its end. For such a motion
-averages are compared, with their standard errors. The reference is then a longer run of the Taylor
-series, the integrator of this package, at its tightest tolerance. A method misses or invents
-contacts of a chaotic motion if its number of contacts per cycle differs too much from the number of
-the reference (CONTACTS_OFF, SURE).
+The reference of a motion is a run in 80-bit arithmetic by an independent program. No method can
+follow a chaotic motion to its end, so averages are compared, and the reference is a longer run of
+the Taylor series at its tightest tolerance.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
 from chatterjee1995.methods import averages, orbit_models
-from chatterjee1995.methods.comparison_scenes import check_accuracy, reference_of
-from chatterjee1995.methods.methods import (
-    COMPARED,
-    METHODS,
-    START_HARMONICS,
-    STATISTICS,
-    integrators,
-    name_and_mode,
-)
-from chatterjee1995.methods.taylor_runs import name_of, taylor
+from chatterjee1995.methods.integrators import runs_of_accuracy
+from chatterjee1995.methods.integrators.taylor import taylor
+from chatterjee1995.methods.labels import ERRORS, START_HARMONICS, STATISTICS
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.model.bounds import PERIODS_RANGE, check_count
-from impact_damper.model.packed import FREQUENCY
-from impact_damper.model.parameters import describe
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import Damper, Oscillator, describe, pick
 from impact_damper.motions.simulate import COMPONENTS, check_state
 from impact_damper.motions.strobe_map import strobe_time
 
 # Length of the reference run of a chaotic motion, divided by the length of the compared runs.
 LONGER = 4
-# Slow integrators (`methods.Method.slow`) run a chaotic motion only with their SHORT loosest
-# tolerances.
-SHORT = 1
 # The number of contacts per cycle of a chaotic motion is right if it differs from the number of the
 # reference by at most the fraction CONTACTS_OFF plus SURE standard errors of the compared run.
 CONTACTS_OFF, SURE = 0.1, 2
 
 
+class ComparisonScene(NamedTuple):
+    """A motion on which methods are compared.
+
+    Attributes
+    ----------
+    name : str
+    oscillator : Oscillator
+    damper : Damper or None
+    frequency : float
+    state : sequence of float
+        Z1, Z1', Z2, Z2' at W T = pi/2.
+    periods : int
+        Forcing cycles of a run.
+    motion : str
+        "steady" for a periodic motion of one forcing cycle, which some models compute without a
+        run; "transient"; or "chaotic".
+    accuracy : dict
+        "quantity", a name in `labels.ERRORS`, or in `labels.STATISTICS` for a chaotic motion; and
+        "within", the largest error of it that a user accepts.
+    """
+
+    name: str
+    oscillator: Oscillator
+    damper: Damper | None
+    frequency: float
+    state: object
+    periods: int
+    motion: str
+    accuracy: dict
+
+    @property
+    def p(self):
+        """Packed parameters."""
+        return pack(self.oscillator, self.damper, self.frequency)
+
+    def check(self):
+        """Raise TypeError or ValueError if an attribute is not of its kind or out of range."""
+        check_count("periods", self.periods, **PERIODS_RANGE)
+        check_state(self.state, self.damper)
+        quantity = self.accuracy["quantity"]
+        allowed = STATISTICS if self.motion == "chaotic" else ERRORS
+        if quantity not in allowed:
+            raise ValueError(
+                f"accuracy: quantity = {quantity!r}: must be one of {', '.join(allowed)} "
+                f"for a {self.motion} motion"
+            )
+
+
+class Reference(NamedTuple):
+    """Values of a run that are taken as exact, named as in `Run`."""
+
+    state: np.ndarray
+    contact_times: np.ndarray
+    displacement: float
+
+
+def reference_of(scene, stored):
+    """Return the reference of a scene from its entry in `workflow/resources/references.json`.
+
+    Raises
+    ------
+    ValueError
+        If the entry belongs to another scene.
+    """
+    p, begin = scene.p, strobe_time(scene.p)
+    end = begin + scene.periods * 2 * np.pi / p[FREQUENCY]
+    values = stored["parameters"]
+    damper = Damper(**pick(Damper, values)) if "mass_ratio" in values else None
+    system = pack(Oscillator(**pick(Oscillator, values)), damper, values["frequency"])
+    same = np.array_equal(system, p) and stored["first"] == list(scene.state)
+    if not same or abs(stored["end"] - end) > 1e-9:
+        raise ValueError(
+            "reference: belongs to other parameters, another start or another number of cycles "
+            "than the scene; compute it again (tests/references/extended/scenes.py)"
+        )
+    times = np.array([contact[1] for contact in stored["contacts"]])
+    return Reference(np.array(stored["state"]), times, stored["amplitude"])
+
+
 def error_against_work(scene, settings, stored=None):
-    """Return errors and counted work of each method on a test case (scene).
+    """Return errors and work of each method on a test case (scene).
 
     Parameters
     ----------
     scene : ComparisonScene
     settings : dict
-        For each key of `methods.TOLERANCE_KEYS` a list of decreasing tolerances; `orders`: further
-        pairs of orders of the Taylor series, in flight and in contact; `evaluations`: for each name
-        in `methods.LIMITED`, the number of evaluations of the right-hand side per forcing cycle
-        after which a run is given up; `harmonics`: highest harmonic of harmonic balance; `batch`:
-        number of forcing cycles in a batch (standard errors follow from the averages of batches);
-        `scipy_periods`: forcing cycles for which slow integrators run a chaotic motion.
+        For each of `labels.TOLERANCE_KEYS` a list of decreasing tolerances; `orders`: further pairs
+        of orders of the Taylor series; `evaluations`: evaluations of the rate per forcing cycle
+        after which a run of a slow integrator is given up; `harmonics`: highest harmonic of
+        harmonic balance; `batch`: forcing cycles of a batch (`averages`); `scipy_periods`: forcing
+        cycles for which slow integrators run a chaotic motion.
     stored : dict or None
-        Stored reference of this test case (`reference_of`); not needed if the motion is chaotic.
+        Stored reference of this test case; not needed if the motion is chaotic.
 
     Returns
     -------
@@ -66,75 +132,49 @@ def error_against_work(scene, settings, stored=None):
     TypeError, ValueError
         If an argument is not of its kind or out of range.
     """
-    check_count("periods", scene.periods, **PERIODS_RANGE)
-    check_state(scene.state, scene.damper)
-    check_accuracy(scene.motion, scene.accuracy)
+    scene.check()
     if scene.motion == "chaotic":
         data = _averages(scene, settings)
     else:
         if stored is None:
             raise ValueError("stored: a motion that is not chaotic needs its reference")
         data = _errors(scene, settings, reference_of(scene, stored))
-    made = describe(scene.oscillator, scene.damper) | {
-        "scene": scene.name,
-        "frequency": scene.frequency,
-        "periods": scene.periods,
-        "motion": scene.motion,
-        "accuracy": scene.accuracy,
-        "tolerance": scene.tolerance,
-    }
+    names = ("name", "frequency", "periods", "motion", "accuracy")
+    made = describe(scene.oscillator, scene.damper) | {name: getattr(scene, name) for name in names}
+    made["scene"] = made.pop("name")
     coordinates = {"component": list(COMPONENTS), "statistic": list(STATISTICS)}
-    return dataset(data, coordinates, made, "Error of methods against counted work")
+    return dataset(data, coordinates, made, "Error of methods against work")
 
 
 def integrations(scene, settings, slow_periods):
-    """Run each integrator at each setting.
+    """Yield label, tolerance, `Run` and forcing cycles of each integrator at each tolerance.
 
-    Slow integrators run for `slow_periods` forcing cycles, and only with their loosest tolerances
-    (SHORT) if the motion is chaotic. Once a slow run is given up, tighter tolerances are left out.
-
-    Yields
-    ------
-    label : str
-        Label of the integrator (`methods.COMPARED`).
-    setting : float
-        Tolerance.
-    run : rivals.runs.Run
-    periods : int
-        Forcing cycles of the run.
+    Slow integrators run for `slow_periods` cycles, and only with their loosest tolerance if the
+    motion is chaotic. Once a run is given up, tighter tolerances are left out.
     """
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:
-        yield "taylor", tolerance, taylor(*given, tolerance), scene.periods
         for orders in settings["orders"]:
             run = taylor(*given, tolerance, tuple(orders))
-            yield name_of(orders), tolerance, run, scene.periods
+            yield "taylor_{}_{}".format(*orders), tolerance, run, scene.periods
     if scene.motion != "steady" and scene.damper is not None:
         tolerance, restitution = min(settings["taylor"]), scene.damper.restitution
         run = orbit_models.rigid(p, restitution, *given[1:], tolerance)
         yield "rigid", tolerance, run, scene.periods
-    rivals = [(label, *name_and_mode(label)) for label in COMPARED["accuracy"] if label != "taylor"]
-    # Without a damper there are no contacts to locate, and both modes are the same.
-    for mode in (False, True) if scene.damper is not None else (False,):
-        for label, name, locate in rivals:
-            if locate == mode:
-                yield from _at_tolerances(label, name, locate, scene, settings, slow_periods)
-
-
-def _at_tolerances(label, name, locate, scene, settings, slow_periods):
-    """Yield what `integrations` yields, for one integrator in one mode, at each tolerance."""
-    method, integrator = METHODS[name], integrators()[name]
-    tolerances, periods, most = settings[method.tolerances], scene.periods, None
-    if method.slow:
-        periods, most = slow_periods, settings["evaluations"][name] * slow_periods
-        tolerances = tolerances[: SHORT if scene.motion == "chaotic" else None]
-    given = scene.p, np.array(scene.state, float), strobe_time(scene.p), periods
-    for tolerance in tolerances:
-        run = integrator.run(*given, tolerance, locate, most)
-        yield label, tolerance, run, periods
-        if run.status == "capped":
-            break
+    for label, (integrator, locate) in runs_of_accuracy().items():
+        # Without a damper there are no contacts to locate, and both ways are the same.
+        if scene.damper is None and locate and False in integrator.located:
+            continue
+        tolerances, periods, most = settings[integrator.tolerances], scene.periods, None
+        if integrator.slow:
+            periods, most = slow_periods, settings["evaluations"] * slow_periods
+            tolerances = tolerances[: 1 if scene.motion == "chaotic" else None]
+        for tolerance in tolerances:
+            run = integrator.run(*given[:3], periods, tolerance, locate, most)
+            yield label, tolerance, run, periods
+            if run.status == "capped":
+                break
 
 
 def _errors(scene, settings, reference):
@@ -165,9 +205,6 @@ def _errors(scene, settings, reference):
         "contact_time_error": np.where(np.isnan(errors["state"]), np.nan, errors["contact_time"]),
         "contact_excess": errors["contacts"],
         "amplitude_error": errors["amplitude"],
-        "reference_state": reference.state,
-        "reference_contacts": len(reference.contact_times),
-        "reference_amplitude": reference.displacement,
     }
 
 

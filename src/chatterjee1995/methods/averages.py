@@ -1,16 +1,14 @@
 """Averages of a chaotic motion with their standard errors, from batches of forcing cycles.
 
-The forcing cycles of a run are grouped into batches of successive cycles. The average is the mean
-of the batch means, and its standard error follows from the scatter of the batch means.
-
-W T is the phase of the forcing.
+The average is the mean of the means of batches of successive cycles, and its standard error follows
+from their scatter.
 """
 
 import math
 
 import numpy as np
 
-from chatterjee1995.methods.methods import STATISTICS
+from chatterjee1995.methods.labels import STATISTICS
 from chatterjee1995.methods.rigid_impacts import rigid_map
 from impact_damper.kernel.single import side_of, workspace
 from impact_damper.kernel.tangents import advance
@@ -19,23 +17,10 @@ from impact_damper.motions.strobe_map import strobe_time
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return the averages of a run in each batch of forcing cycles.
+    """Return the averages of a `Run` in each batch of forcing cycles, shape (periods // batch,).
 
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters.
-    run : runs.Run
-    begin : float
-        Time at which the run begins.
-    periods, batch : int
-        Number of forcing cycles of the run and of a batch.
-
-    Returns
-    -------
-    dict
-        Arrays of shape (periods // batch,). "contact_rate": contacts per cycle. "displacement":
-        mean over the cycles of the largest displacement |Z1| of the primary mass in a cycle.
+    "contact_rate": contacts per cycle. "displacement": mean over the cycles of the largest |Z1| in
+    a cycle.
     """
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
@@ -51,10 +36,9 @@ def of_run(p, run, begin, periods, batch):
 
 
 def exponents(p, start, tolerance, periods, batch):
-    """Return the largest Lyapunov exponent per unit of time T in each batch, by the Taylor series.
+    """Return the largest Lyapunov exponent per unit of T in each batch, by the Taylor series.
 
-    `start` is the state at W T = pi/2, and `tolerance` the tolerance of the integrator. The
-    other arguments are those of `of_run`.
+    `start` is the state at W T = pi/2.
     """
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
@@ -88,8 +72,7 @@ def _renormalised(tangent):
 def estimates(batches):
     """Return the mean (row 0) and standard error (row 1) of each of STATISTICS, shape (2, 3).
 
-    `batches` maps the name of a statistic to its values in the batches. The entries of a statistic
-    without values are NaN.
+    `batches` maps statistics to their values in the batches; a missing statistic gives NaN.
     """
     table = np.full((2, len(STATISTICS)), np.nan)
     for k, name in enumerate(STATISTICS):

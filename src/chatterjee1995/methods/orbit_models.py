@@ -1,13 +1,11 @@
-"""Models that compute a steady motion, and the number of operations of each model.
+"""Models that compute a steady motion, a periodic motion of one forcing cycle, and their work.
 
-A steady motion is a periodic motion of one forcing cycle. Most models solve for it instead of
-integrating from a state. If a harmonic balance has several solutions, the solution nearest to the
-initial state of the test case is taken, which favours the model. Numbers in brackets are equations
-of the paper. The counted work of a model is its number of floating-point operations:
+Of several solutions of a harmonic balance the one nearest to the initial state of the test case is
+taken, which favours the model. The work of a model is its number of floating-point operations:
 
-- Rigid balance (14): the eigenvalues of the companion matrices of a polynomial of degree 6 and of
-  its derivative, with 10 n^3 operations for n eigenvalues, and the search for roots of the
-  polynomial between its extrema.
+- Rigid balance (14) of the paper: the eigenvalues of the companion matrices of a polynomial of
+  degree 6 and of its derivative, with 10 n^3 operations for n eigenvalues, and the search for roots
+  of the polynomial between its extrema.
 - Full balance (7): BALANCE_EVALUATIONS evaluations of the equation with BALANCE_OPERATIONS each,
   and the eigenvalues of a companion matrix of degree BALANCE_DEGREE. These numbers were measured in
   the search for all roots in the test cases. Without a damper: the eigenvalues for two cubics.
@@ -17,9 +15,7 @@ of the paper. The counted work of a model is its number of floating-point operat
   solutions are first guesses, are included.
 - Rigid impacts and shooting: Newton's method integrates the motion and its four variational
   equations over a cycle, once for each iteration, by steps of the Taylor series. The balance with
-  `methods.START_HARMONICS`, whose solution is the first guess, is included.
-
-Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
+  `labels.START_HARMONICS`, whose solution is the first guess, is included.
 """
 
 import math
@@ -28,16 +24,22 @@ from typing import NamedTuple
 
 import numpy as np
 
-from chatterjee1995.methods.rigid_impacts import MOST_IMPACTS, rebound, rigid_map
-from chatterjee1995.methods.rigid_orbits import mended_orbit, mended_walls, rigid_orbit
-from chatterjee1995.methods.runs import Run, stopped
-from chatterjee1995.methods.taylor_runs import (
+from chatterjee1995.methods.integrator import Run, stopped
+from chatterjee1995.methods.integrators.taylor import (
     FLIGHT,
     MEETING,
     all_steps,
     counted,
     step_work,
-    steps_work,
+    work_of_steps,
+)
+from chatterjee1995.methods.rigid_impacts import (
+    MOST_IMPACTS,
+    mended_orbit,
+    mended_walls,
+    rebound,
+    rigid_map,
+    rigid_orbit,
 )
 from impact_damper.kernel.single import step, workspace
 from impact_damper.model.packed import CLEARANCE, DASHPOT, FREQUENCY, pack
@@ -63,7 +65,7 @@ class Model(NamedTuple):
     status : str
         "ended", "failed" or "not_applicable".
     operations : float
-        Counted work.
+        Work.
     state : numpy.ndarray, shape (4,)
         Z1, Z1', Z2, Z2' at W T = pi/2.
     contact_phases : numpy.ndarray
@@ -80,11 +82,10 @@ class Model(NamedTuple):
 
 
 def rigid(p, restitution, start, t, periods, tolerance):
-    """Return the `Run` with rigid walls from the state `start` at the time t.
+    """Return the `Run` with rigid walls from the state `start` at the time t, with W t = pi/2.
 
-    The phase W T is pi/2 at this time. Flights are integrated by the Taylor series. The field
-    `peaks` of the run holds only the largest |Z1| in each forcing cycle, and `peak_times` the
-    middles of the cycles.
+    Its `peaks` are the largest |Z1| in each forcing cycle, and its `peak_times` the middles of the
+    cycles.
     """
     p = p.copy()
     p[DASHPOT] = 0.0
@@ -95,7 +96,7 @@ def rigid(p, restitution, start, t, periods, tolerance):
         _, _, impacts, _, _, largest = rigid_map(p, restitution, y, tolerance)
         peaks.append(largest)
         if impacts == MOST_IMPACTS:
-            return stopped("failed", steps_work(counts))
+            return stopped("failed", work_of_steps(counts))
         now, end = t, t + period
         while now < end:
             length, side = step(p, y, 0, now, end - now, tolerance, work)
@@ -106,12 +107,12 @@ def rigid(p, restitution, start, t, periods, tolerance):
                 rebound(p, restitution, y, none, now)
     middles = t + period * (np.arange(periods) + 0.5)
     peaks = np.array(peaks)
-    done = steps_work(counts), y, np.array(began), middles, peaks, float(np.max(peaks))
+    done = work_of_steps(counts), y, np.array(began), middles, peaks, float(np.max(peaks))
     return Run("ended", *done)
 
 
 def without(status, work=0.0):
-    """Return a `Model` without a motion. The status says why there is none."""
+    """Return a `Model` without a motion; the status says why."""
     return Model(status, work, np.full(4, np.nan), np.empty(0), np.nan)
 
 
@@ -122,11 +123,6 @@ def of_coefficients(balance, coefficients, work):
     phases = rows[:, 1] if balance.damper is not None else np.empty(0)
     largest = fourier.largest(coefficients[0], balance.harmonics)
     return Model("ended", work, state, phases, largest)
-
-
-def nearest(models, state):
-    """Return the model whose Z1 and Z1' are nearest to those of `state`, or None without models."""
-    return min(models, key=lambda each: np.max(np.abs(each.state - state)[:2]), default=None)
 
 
 def rigid_balance(oscillator, damper, frequency, state):
@@ -142,30 +138,12 @@ def rigid_balance(oscillator, damper, frequency, state):
             at = np.concatenate([a * turn.real, damper.clearance * turn.real])
             touching = np.array([-phase, np.pi - phase]) % (2 * np.pi)
             models.append(Model("ended", work, at, touching, abs(a)))
-    return nearest(models, state) or without("failed", work)
-
-
-def single_terms(oscillator, damper, frequency):
-    """Return a list of the complex amplitudes of all solutions with one harmonic.
-
-    Each has the shape (2, 1), for Z1 and Z2, or (1, 1) if `damper` is None. They solve equation (7)
-    with the restitution 1, or the cubic equation of the oscillator without a damper.
-    """
-    if damper is None:
-        solutions = free_solutions(oscillator, frequency)
-        sizes = solutions.amplitude[:, None]
-    else:
-        elastic = replace(damper, restitution=1.0)
-        solutions = single_harmonic.impacting_solutions(oscillator, elastic, frequency)
-        sizes = np.stack([solutions.amplitude, solutions.relative_amplitude], axis=1)
-    return [
-        size[:, None] * np.exp(1j * phase) / 2
-        for size, phase in zip(sizes, solutions.phase, strict=True)
-    ]
+    nearest = min(models, key=lambda each: np.max(np.abs(each.state - state)[:2]), default=None)
+    return nearest or without("failed", work)
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """Return the `Model` by balance of one harmonic (`single_terms`)."""
+    """Return the `Model` by balance of one harmonic, equation (7), for elastic contacts."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
@@ -176,14 +154,24 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return the solution of `single_terms` nearest to `state`, or None, and the work.
+    """Return the solution with one harmonic nearest to `state`, or None, and the work.
 
-    The work is the number of operations to find all solutions.
+    The solution is complex amplitudes of Z1 and Z2, shape (2, 1), or of Z1, shape (1, 1), without a
+    damper. Contacts count as elastic. The work is the number of operations to find all solutions.
     """
-    work = BALANCE_EVALUATIONS * BALANCE_OPERATIONS + 10 * BALANCE_DEGREE**3
     if damper is None:
         work = 2 * 10 * 3**3
-    terms = single_terms(oscillator, damper, frequency)
+        solutions = free_solutions(oscillator, frequency)
+        sizes = solutions.amplitude[:, None]
+    else:
+        work = BALANCE_EVALUATIONS * BALANCE_OPERATIONS + 10 * BALANCE_DEGREE**3
+        elastic = replace(damper, restitution=1.0)
+        solutions = single_harmonic.impacting_solutions(oscillator, elastic, frequency)
+        sizes = np.stack([solutions.amplitude, solutions.relative_amplitude], axis=1)
+    terms = [
+        size[:, None] * np.exp(1j * phase) / 2
+        for size, phase in zip(sizes, solutions.phase, strict=True)
+    ]
 
     def away(coefficients):
         turned = 2j * coefficients[0, 0] * np.array([1, 1j * frequency])
@@ -193,10 +181,10 @@ def nearest_term(oscillator, damper, frequency, state):
 
 
 def many_harmonics(oscillator, damper, frequency, state, highest):
-    """Return a dictionary of models by harmonic balance, keyed by their highest harmonic.
+    """Return models by harmonic balance, keyed by their highest harmonic 3, 7, 15, ... `highest`.
 
-    The highest harmonics are 3, 7, 15, ... up to `highest`. The first guess of Newton's method is
-    the last solution that converged, and for harmonic 3 the solution with one harmonic.
+    The first guess of Newton's method is the last solution that converged, and for harmonic 3 the
+    solution with one harmonic.
     """
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
@@ -228,48 +216,41 @@ def _transform(samples):
 
 
 def rigid_impacts(oscillator, damper, frequency, start):
-    """Return a dictionary of two models: "rigid" walls, and corrected walls ("rigid_mended").
+    """Return the models with rigid walls, "rigid", and corrected walls, "rigid_mended", by name.
 
-    The corrected walls (`contact.rigid_orbits`) account for the duration of a contact. Their error
-    is of the order 1/r1, with the contact stiffness r1. The first guess of Newton's method is the
-    model `start`.
+    The first guess of Newton's method is the model `start`.
     """
-    models = {"rigid": without("not_applicable"), "rigid_mended": without("not_applicable")}
     if damper is None:
-        return models
+        return dict.fromkeys(("rigid", "rigid_mended"), without("not_applicable"))
     work = start.operations
     orbit, _ = rigid_orbit(oscillator, damper, frequency, start.state, REACH)
     if orbit is None:
-        return dict.fromkeys(models, without("failed", work))
+        return dict.fromkeys(("rigid", "rigid_mended"), without("failed", work))
     p = pack(oscillator, damper, frequency)
     run = rigid(p, damper.restitution, orbit.state, strobe_time(p), 1, POLISH_TOLERANCE)
-    each = run.operations / step_work(FLIGHT) * step_work(FLIGHT, 4)
+    each = run.operations / step_work(FLIGHT) * step_work(FLIGHT, tangents=True)
     work += orbit.maps * each
-    phases = _phases(p, run)
-    models["rigid"] = Model("ended", work, orbit.state, phases, orbit.displacement)
+    models = {"rigid": _rigid_model(p, run, orbit, work)}
     better, _ = mended_orbit(oscillator, damper, frequency, orbit, REACH)
     if better is None:
         return models | {"rigid_mended": without("failed", work)}
     p[CLEARANCE], restitution = mended_walls(oscillator, damper, orbit)
     run = rigid(p, restitution, better.state, strobe_time(p), 1, POLISH_TOLERANCE)
-    phases = _phases(p, run)
-    work += better.maps * each
-    model = Model("ended", work, better.state, phases, better.displacement)
-    return models | {"rigid_mended": model}
+    return models | {"rigid_mended": _rigid_model(p, run, better, work + better.maps * each)}
 
 
-def _phases(p, run):
-    return p[FREQUENCY] * run.contact_times % (2 * math.pi)
+def _rigid_model(p, run, orbit, work):
+    """Return the `Model` of a rigid orbit and of its run over a cycle."""
+    phases = p[FREQUENCY] * run.contact_times % (2 * math.pi)
+    return Model("ended", work, orbit.state, phases, orbit.displacement)
 
 
 def shooting(oscillator, damper, frequency, start):
     """Return the `Model` by shooting with the Taylor series, with the first guess `start`."""
     p = pack(oscillator, damper, frequency)
     orbit = find_orbit(p, start.state)
-    begin = strobe_time(p)
-    steps, _ = all_steps(p, start.state, begin, 1, POLISH_TOLERANCE)
-    each = steps_work(counted(steps), 4)
-    work = start.operations + orbit.maps * each
+    steps, _ = all_steps(p, start.state, strobe_time(p), 1, POLISH_TOLERANCE)
+    work = start.operations + orbit.maps * work_of_steps(counted(steps), tangents=True)
     if not orbit.converged:
         return without("failed", work)
     phases = p[FREQUENCY] * orbit.contacts[:, 1] % (2 * math.pi) if orbit.touching else np.empty(0)

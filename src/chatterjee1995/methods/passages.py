@@ -1,13 +1,4 @@
-"""Passages: flights of the loose mass without walls, whose largest |Z2| is known.
-
-They are test cases for integrators that detect contacts. |Z2| is the distance of the loose mass
-from the middle of the gap. A wall that is placed slightly nearer than the largest |Z2| is touched
-once, for a short time. A wall that is placed slightly further away is not touched. A method that
-computes the distance to the wall only at the ends of its steps can hardly distinguish the two
-cases.
-
-Z1 is the displacement of the primary mass.
-"""
+"""Passages: random flights without walls whose largest |Z2| is known to rounding."""
 
 import math
 from typing import NamedTuple
@@ -26,14 +17,10 @@ TOLERANCE = 1e-15
 
 
 class Passage(NamedTuple):
-    """A flight without walls over one forcing cycle from T = 0.
+    """A flight without walls over one forcing cycle from the state `state` at T = 0.
 
-    Attributes
-    ----------
-    state : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' at T = 0.
-    time, extremum, curvature : float
-        Time at which |Z2| is largest, the largest |Z2|, and |Z2''| at that time.
+    `time`, `extremum` and `curvature` are the time at which |Z2| is largest, and |Z2| and |Z2''|
+    there.
     """
 
     state: np.ndarray
@@ -91,33 +78,18 @@ def without_walls(p):
     return flying
 
 
-def draw_passages(p, count, radius, deepest, seed):
-    """Return random passages over one forcing cycle, and the number of flights drawn to find them.
+def draw_passages(p, count, radius, deepest, seed) -> list:
+    """Return `count` random passages over one forcing cycle.
 
     The initial states are uniform in a ball of the given radius. A flight is kept as a passage if
     |Z2| at its beginning and at its end is at least `deepest` below the largest |Z2|. Then the
     largest |Z2| is an extremum, and a wall that is nearer by up to `deepest` is not touched at the
     beginning and at the end.
-
-    Parameters
-    ----------
-    p : numpy.ndarray, shape (packed.COUNT,)
-        Packed parameters; those of the damper have no effect.
-    count : int
-        Number of passages.
-    radius, deepest : float
-        Radius of the ball, and largest depth of a passage beyond a wall.
-    seed : int
-
-    Returns
-    -------
-    list of Passage, int
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)
-    passages, drawn = [], 0
+    passages = []
     while len(passages) < count:
-        drawn += 1
         direction = random.standard_normal(4)
         size = radius * random.random() ** 0.25
         state = size * direction / np.linalg.norm(direction)
@@ -125,4 +97,4 @@ def draw_passages(p, count, radius, deepest, seed):
         time, extremum, bend = largest_of_flight(flying, y, 0.0, 2 * math.pi / p[FREQUENCY])
         if extremum - max(abs(state[2]), abs(y[2])) > deepest and extremum > 2 * deepest:
             passages.append(Passage(state, time, extremum, bend))
-    return passages, drawn
+    return passages

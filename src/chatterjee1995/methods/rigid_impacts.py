@@ -1,15 +1,16 @@
-"""The rigid-impact model: flights between rigid walls, and instantaneous impacts.
+"""The rigid-impact model: flights between rigid walls, instantaneous impacts, and its orbits.
 
-Z1 is the displacement of the primary mass, and Z2 the displacement of the primary mass relative to
-the loose mass. An impact changes Z2' to -e Z2', with the restitution e, and conserves the momentum
-Z1' + rm (Z1' - Z2'), with the mass ratio rm. The model is the limit of equations (20) to (25) for
-an infinite contact stiffness r1. In this limit an impact takes no time, so forces other than the
-contact force change no velocity during the impact.
+The model is the limit of equations (20) to (25) of the paper for an infinite contact stiffness r1.
+An impact changes Z2' to -e Z2' and conserves the momentum Z1' + rm (Z1' - Z2').
 
-W is the forcing frequency, and T the time. Numbers in brackets are equations of the paper.
+Corrected ("mended") walls imitate compliant walls, whose contacts last a time tc. They are farther
+out by delta = v tc e/(1 + e), with the approach speed v, so that the loose mass returns to
+|Z2| = d0 when the compliant contact ends. Their restitution e' makes its speed there agree. The
+error of an orbit is of order 1/sqrt(r1) between plain rigid walls and 1/r1 between corrected walls.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,13 +19,25 @@ from impact_damper.kernel.equation import acceleration
 from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, workspace
 from impact_damper.kernel.tangents import step_with_tangents
-from impact_damper.model.packed import DAMPING, FREQUENCY, INVERSE_MASS_RATIO
+from impact_damper.model.packed import (
+    CLEARANCE,
+    DAMPING,
+    DASHPOT,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    pack,
+)
 from impact_damper.motions.records import extremum
-from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE, strobe_time
+from impact_damper.theory.contact_law import damping_ratio, natural_frequency
 
 # Number of impacts in a forcing cycle at which the integration stops. With e < 1 an infinite number
 # of impacts can follow each other in a finite time.
 MOST_IMPACTS = 200
+# Largest number of steps of Newton's method.
+ITERATIONS = 12
+# Largest relative difference of the approach speeds of the two impacts of a symmetric orbit.
+SAME_SPEED = 1e-6
 
 
 @kernel
@@ -62,7 +75,7 @@ def rigid_map(p, restitution, y, tolerance):
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
-        Packed parameters (`packed.pack`). The dashpot must be 0. The stiffness r1 has no effect.
+        Packed parameters. The dashpot must be 0. The stiffness r1 has no effect.
     restitution : float
         e.
     y : array, shape (4,)
@@ -106,3 +119,119 @@ def rigid_map(p, restitution, y, tolerance):
             impacts += 1
             rebound(p, restitution, state, tangents, t)
     return state, tangents.T.copy(), impacts, speed, first, largest
+
+
+class RigidOrbit(NamedTuple):
+    """A symmetric orbit of the rigid model with two impacts in a forcing cycle.
+
+    Attributes
+    ----------
+    state : numpy.ndarray, shape (4,)
+        Z1, Z1', Z2, Z2' at W T = pi/2.
+    multiplier : complex
+        Dominant Floquet multiplier.
+    displacement : float
+        max |Z1|.
+    speed : float
+        Approach speed |Z2'| of the impacts.
+    acceleration : float
+        Acceleration of Z1 towards the wall before an impact.
+    maps : int
+        Number of integrations over a forcing cycle that Newton's method took.
+    """
+
+    state: np.ndarray
+    multiplier: complex
+    displacement: float
+    speed: float
+    acceleration: float
+    maps: int
+
+
+def rigid_orbit(oscillator, damper, frequency, guess, reach):
+    """Find an orbit of the rigid model by Newton's method. The damper's r1 has no effect.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+    frequency : float
+    guess : array, shape (4,)
+        State near the orbit at W T = pi/2.
+    reach : float
+        Largest difference of a component of the state from the guess.
+
+    Returns
+    -------
+    orbit : RigidOrbit or None
+    status : str
+        "found"; "not_followed" if Newton's method fails; "other_contacts" if the orbit does not
+        have two symmetric impacts in a cycle; "chatter" if a cycle has MOST_IMPACTS impacts.
+    """
+    return _solve(pack(oscillator, damper, frequency), damper.restitution, guess, reach)
+
+
+def mended_orbit(oscillator, damper, frequency, orbit, reach):
+    """Return orbit and status as `rigid_orbit`, between the corrected walls of `mended_walls`.
+
+    Newton's method begins at `orbit`, the orbit between plain rigid walls.
+    """
+    clearance, restitution = mended_walls(oscillator, damper, orbit)
+    p = pack(oscillator, damper, frequency)
+    p[CLEARANCE] = clearance
+    return _solve(p, restitution, orbit.state, reach)
+
+
+def _solve(p, restitution, guess, reach):
+    """Return orbit and status as `rigid_orbit`, for packed parameters and any restitution."""
+    p = p.copy()
+    p[DASHPOT] = 0.0
+    restitution = float(restitution)  # numba would compile the map a second time for an int
+    y = np.array(guess, float)
+    for k in range(ITERATIONS):
+        state, matrix, impacts, slowest, first, largest = rigid_map(
+            p, restitution, y, POLISH_TOLERANCE
+        )
+        if impacts == MOST_IMPACTS:
+            return None, "chatter"
+        if impacts == 0:
+            break
+        change = np.linalg.solve(np.eye(4) - matrix, state - y)
+        if np.max(np.abs(change)) < CONVERGED:
+            if impacts != 2 or abs(first[0] - slowest) > SAME_SPEED * first[0]:
+                return None, "other_contacts"
+            values = np.linalg.eigvals(matrix)
+            largest_value = values[np.argmax(np.abs(values))]
+            dominant = complex(largest_value.real, abs(largest_value.imag))
+            return RigidOrbit(y, dominant, largest, *first, k + 1), "found"
+        y = y + change
+        if not np.max(np.abs(y - guess)) < reach:
+            break
+    return None, "not_followed"
+
+
+def mended_walls(oscillator, damper, orbit):
+    """Return clearance d0 + delta and restitution e' of rigid walls that replace compliant ones.
+
+    `orbit` is the orbit between plain rigid walls, with the approach speed v and the acceleration a
+    of Z1 towards the wall before the contact. The corrections are of first order in 1/wn, with the
+    natural frequency wn and the damping ratio z of the contact. Three effects change e, and e' may
+    exceed 1:
+
+    - The damping h of Z1 also damps the relative motion in contact, by h rm/(1 + rm), and thereby
+      increases z.
+    - The load of the contact, G = (a + h rm/(1 + rm) v)/(wn v), adds -2 z (1 + e) G to e.
+    - Between d0 and the rigid wall at d0 + delta the loose mass flies under the acceleration a
+      before and a_after after the impact. Adding (delta/v^2) (a_after/e - e a) to e compensates
+      this flight, which the compliant contact does not have.
+    """
+    e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
+    reduced = damper.mass_ratio / (1 + damper.mass_ratio)
+    z, natural = damping_ratio(e), natural_frequency(damper)
+    duration = np.pi / (natural * np.sqrt(1 - z * z))
+    shift = v * duration * e / (1 + e)
+    after = before + h * (1 + e) * reduced * v
+    load = (before + h * reduced * v) / (natural * v)
+    damped = e * np.pi * h * reduced / (2 * natural * (1 - z * z) ** 1.5)
+    returned = e - damped - 2 * z * (1 + e) * load
+    return damper.clearance + shift, returned + shift / v**2 * (after / e - e * before)

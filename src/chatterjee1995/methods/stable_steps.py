@@ -1,12 +1,8 @@
 """The largest steps with which fixed-step methods keep the quiet motion, for each stiffness r1.
 
-The quiet motion, for which a damper is designed, has period 1 and two contacts per cycle. A method
-keeps it if its computed motion stays close. Every run starts on the exact quiet orbit and takes
-equal steps h, a whole number of them in each cycle, without locating contacts. The linear stability
-of a method limits h omega_c, where omega_c = sqrt(r1 (1 + 1/rm)) is the natural frequency of an
-undamped contact and rm the mass ratio.
-
-Z1 is the displacement of the primary mass and W T the phase of the forcing.
+Every run starts on the exact quiet orbit and takes equal steps h, a whole number of them in each
+cycle, without locating contacts. The linear stability of a method limits h omega_c, where
+omega_c = sqrt(r1 (1 + 1/rm)) is the natural frequency of an undamped contact.
 """
 
 import itertools
@@ -15,8 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from chatterjee1995.methods.methods import COMPARED, integrators
-from impact_damper.data.datasets import dataset, flag, is_settled
+from chatterjee1995.methods.integrators import integrators
+from impact_damper.data.datasets import dataset, is_settled
 from impact_damper.model.bounds import (
     MOST_STEPS_RANGE,
     PERIODS_RANGE,
@@ -32,24 +28,20 @@ from impact_damper.motions.following import StrobeOrbit
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.orbits.compliant_orbits import compliant_orbit
 from impact_damper.orbits.grid_following import Grid
-from impact_damper.theory.free_oscillator import main_solutions
 
-LABELS = COMPARED["stable_steps"]
 # A run keeps the quiet motion with an accuracy if max |Z1| of every cycle differs relatively by at
-# most this number from that of the exact orbit.
+# most this number from the exact orbit.
 ACCURACIES = (0.01, 0.1)
-# Orbits are followed in r1.
-# FACTOR: largest factor between neighbouring r1.
-# REACH: largest distance of an orbit's state from the predicted state.
-FACTOR = 10.0**0.0625
-REACH = 0.2
+# Orbits are followed in r1 in steps of at most this factor, to states at most REACH away from the
+# prediction.
+FACTOR, REACH = 10.0**0.0625, 0.2
 # Local error allowed in the exact orbits, the reference of the runs.
 EXACT = 1e-13
 # A stable step is reported only if at least this number of the smallest steps tested keep the quiet
 # motion.
 CONFIRMED = 4
-# The largest stable step falls as a power of r1. The exponent is fitted to r1 from STIFF on, where
-# contacts are much shorter than a cycle.
+# The exponent with which the largest stable step falls is fitted from this r1 on, where contacts
+# are much shorter than a cycle.
 STIFF = 1e3
 
 
@@ -120,23 +112,6 @@ def _in_steps(own, targets):
     return np.concatenate(cells)
 
 
-def _verdict(largest, exact, bound):
-    """Return the largest relative deviation of max |Z1| in any cycle, and the name of a verdict.
-
-    `largest` are the computed max |Z1| of the cycles, and `exact` that of the orbit. A run has
-    escaped if |Z1| exceeds `bound`.
-    """
-    if not np.isfinite(largest).all():
-        return np.inf, "diverged"
-    deviation = np.abs(largest / exact - 1).max()
-    if largest.max() > bound:
-        return deviation, "escaped"
-    for accuracy, name in zip(ACCURACIES, ("within_1_percent", "within_10_percent"), strict=True):
-        if deviation <= accuracy:
-            return deviation, name
-    return deviation, "off"
-
-
 def _largest_step(held, tested, steps):
     """Return the largest step that keeps the quiet motion, as do all smaller tested steps.
 
@@ -164,7 +139,7 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """Return whether fixed-step methods keep the quiet motion, for each stiffness and step.
+    """Return the largest steps with which fixed-step methods keep the quiet motion.
 
     Parameters
     ----------
@@ -185,14 +160,12 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     Returns
     -------
     xarray.Dataset
-        For each (fixed_method, contact_stiffness, scaled_step): `step_verdict`, and
-        `step_deviation`, the largest relative deviation of a cycle's max |Z1| from the exact one,
-        NaN if not run. A run has escaped if |Z1| exceeds half the largest amplitude without damper
-        by harmonic balance at W. For each (fixed_method, contact_stiffness, accuracy):
-        `stable_step`, the largest step h that keeps the accuracy, as do all smaller tested steps,
-        NaN if these are fewer than CONFIRMED; `largest_holding_step`, the largest h that keeps the
-        accuracy, even if a smaller one does not. For each (fixed_method, accuracy): `step_slope`,
-        the slope of log(1/h) over log r1 from r1 = STIFF on, and its standard error.
+        For each (fixed_method, contact_stiffness, scaled_step): `step_deviation`, the largest
+        relative deviation of a cycle's max |Z1| from the exact one, infinite if the run diverged
+        and NaN if not run. For each (fixed_method, contact_stiffness, accuracy): `stable_step`, the
+        largest step h that keeps the accuracy, as do all smaller tested steps, NaN if these are
+        fewer than CONFIRMED. For each (fixed_method, accuracy): `step_slope`, the slope of log(1/h)
+        over log r1 from r1 = STIFF on, and its standard error.
 
     Raises
     ------
@@ -214,23 +187,17 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     period = 2 * math.pi / frequency
     counts = np.ceil(period * contact[:, None] / scaled).astype(int)
     tested = counts <= most_steps
-    bound = 0.5 * np.max(main_solutions(oscillator, frequency).amplitude)
-    methods = [integrators()[name] for name in LABELS]
-    verdicts, deviations = _cells(methods, orbits, counts, tested, bound, periods)
+    methods = integrators("stable_steps").values()
+    deviations = np.array([_deviations(each, orbits, counts, tested, periods) for each in methods])
     data = {
-        "step_verdict": verdicts,
         "step_deviation": deviations,
-        "steps_per_period": counts,
         "linear_limit": np.array([method.stability_limit for method in methods]),
         "contact_frequency": contact,
-        "reference_displacement": _of(orbits, "displacement"),
-        "orbit_multiplier": [abs(each) for each in _of(orbits, "multiplier")],
-        "free_bound": bound,
     }
     data |= _step_data(deviations, tested, period / counts, stiffnesses)
     made = describe(oscillator, damper) | {"frequency": frequency, "periods": periods}
     coordinates = {
-        "fixed_method": list(LABELS),
+        "fixed_method": [method.name for method in methods],
         "contact_stiffness": stiffnesses,
         "scaled_step": scaled,
         "accuracy": list(ACCURACIES),
@@ -238,25 +205,18 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     return dataset(data, coordinates, made, "Largest steps that keep the quiet motion")
 
 
-def _cells(methods, orbits, counts, tested, bound, periods):
-    """Return the verdict and the deviation of each method, orbit and number of steps.
-
-    `counts` are numbers of steps in a cycle, and `tested` marks those that are run.
-    """
-    shape = (len(methods), *counts.shape)
-    verdicts = np.full(shape, flag("step_verdict", "not_run"))
-    deviations = np.full(shape, np.nan)
+def _deviations(method, orbits, counts, tested, periods):
+    """Return the largest relative deviation of max |Z1| for each orbit and number of steps."""
+    deviations = np.full(counts.shape, np.nan)
     for i, orbit in enumerate(orbits):
         if orbit is None:
-            verdicts[:, i] = flag("step_verdict", "no_orbit")
             continue
         given = orbit.parameters, orbit.state, strobe_time(orbit.parameters), periods
-        for m, method in enumerate(methods):
-            for j in np.flatnonzero(tested[i]):
-                largest = method.largest_displacements(*given, counts[i, j])
-                deviations[m, i, j], name = _verdict(largest, orbit.displacement, bound)
-                verdicts[m, i, j] = flag("step_verdict", name)
-    return verdicts, deviations
+        for j in np.flatnonzero(tested[i]):
+            largest = method.largest_displacements(*given, counts[i, j])
+            away = np.abs(largest / orbit.displacement - 1).max()
+            deviations[i, j] = np.inf if np.isnan(away) else away
+    return deviations
 
 
 def _step_data(deviations, tested, sizes, stiffnesses):
@@ -271,16 +231,9 @@ def _step_data(deviations, tested, sizes, stiffnesses):
             for of_method in held
         ]
     )
-    holding = np.where(held, sizes[:, :, None], -np.inf).max(axis=2)
     slopes = np.array([[_slope(stiffnesses, row) for row in each.T] for each in stable])
     return {
         "stable_step": stable,
-        "largest_holding_step": np.where(np.isfinite(holding), holding, np.nan),
         "step_slope": slopes[..., 0],
         "step_slope_error": slopes[..., 1],
     }
-
-
-def _of(found, name):
-    """Return the attribute `name` of each orbit; NaN for a missing orbit."""
-    return np.array([np.nan if orbit is None else getattr(orbit, name) for orbit in found])

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from chatterjee1995.methods.rigid_orbits import mended_orbit, rigid_orbit
+from chatterjee1995.methods.rigid_impacts import mended_orbit, rigid_orbit
 from chatterjee1995.stages.logged_contacts import extreme_motions
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.model.bounds import RUNS_RANGE, check_count

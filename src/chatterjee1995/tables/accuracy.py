@@ -1,7 +1,7 @@
 """Tables of the accuracy of methods on test cases (scenes), and of the accuracy of design models.
 
 A scene is one motion with a required accuracy: a quantity and its largest allowed error. Methods
-are integrators and models that compute a periodic orbit directly (ORBIT_MODELS). Their work is
+are integrators and models that compute a periodic orbit directly. Their work is
 counted in floating-point operations. Equation numbers in brackets are those of the paper: (7)
 is harmonic balance with one harmonic, (18) its rule for the clearance d0.
 """
@@ -10,13 +10,11 @@ import numpy as np
 import pandas as pd
 
 from chatterjee1995.claims import extract
-from chatterjee1995.methods.methods import COMPARED, ORBIT_MODELS
-from chatterjee1995.methods.words import method_in_words
+from chatterjee1995.methods.integrators import runs_of_accuracy
+from chatterjee1995.methods.labels import MODELS, method_in_words
 from chatterjee1995.tables import clearance, responses
 from impact_damper.data.datasets import flag, parameters_of
 
-INTEGRATORS = COMPARED["accuracy"]
-LABELS = INTEGRATORS + ORBIT_MODELS
 # Text of a required accuracy for each quantity; `{:g}` takes the largest error allowed.
 WORDS = {
     "amplitude": "max |Z1|, relative error {:g}",
@@ -70,9 +68,11 @@ def models(datasets) -> pd.DataFrame:
     for name, data in datasets.get("accuracy", {}).items():
         made = parameters_of(data)
         asked = WORDS[made["accuracy"]["quantity"]].format(made["accuracy"]["within"])
-        best, integrator = cheapest(data, LABELS), cheapest(data, INTEGRATORS)
-        others = sorted(set(data["method"].values) - set(LABELS))
-        for method in [*LABELS, *others]:
+        runs = list(runs_of_accuracy())
+        labels = [*runs, *MODELS]
+        best, integrator = cheapest(data, labels), cheapest(data, runs)
+        others = sorted(set(data["method"].values) - set(labels))
+        for method in [*labels, *others]:
             k = cheapest(data, (method,))
             if k is None:
                 k = _most_accurate(data, method)
@@ -82,7 +82,6 @@ def models(datasets) -> pd.DataFrame:
             words = "cheapest that is accurate enough" if k == best else ""
             if k == integrator != best:
                 words = "cheapest integrator"
-            used = made["tolerance"] if method == "taylor" else None
             row = {
                 "scene": name,
                 "asks": asked,
@@ -92,7 +91,6 @@ def models(datasets) -> pd.DataFrame:
                 "operations": float(of.operations) or np.nan,
                 "meets it": extract.meaning("meets_accuracy", of.meets_accuracy),
                 "choice": words,
-                "tolerance in use": np.nan if used is None else used,
             }
             rows.append(row | (_averages(data, of) if "average" in data else _errors(of)))
     return pd.DataFrame(rows)

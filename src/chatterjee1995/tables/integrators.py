@@ -1,27 +1,15 @@
-"""Tables on failures of integrators: missed contacts, largest steps, verdicts on motions.
+"""Tables on failures of integrators: missed contacts and largest steps.
 
-A verdict is right if the motion that an integrator computes is the motion that exists in truth. The
-contact frequency omega_c is the natural frequency of the two masses on the contact spring.
+The contact frequency omega_c is the natural frequency of the two masses on the contact spring.
 """
 
 import numpy as np
 import pandas as pd
 
 from chatterjee1995.claims import extract
-from chatterjee1995.methods.methods import COMPARED, METHODS, name_and_mode, title_with_mode
-from chatterjee1995.methods.words import CASES, method_in_words
-from impact_damper.data.datasets import flag
-from impact_damper.data.shares import missed_share
-from impact_damper.data.table_files import in_words
+from chatterjee1995.methods.integrators import integrators
+from chatterjee1995.methods.labels import method_in_words
 
-
-def _setting(label):
-    """Return the name of a method's setting; `label` is the method with its mode of use."""
-    return "steps a cycle" if METHODS[name_and_mode(label)[0]].fixed else "tolerance"
-
-
-# Number of integrators, the first of `COMPARED`, that the Markdown table `method_verdicts` shows.
-SHOWN_METHODS = 8
 # Columns of the Markdown tables with their heads; the CSV files have all columns.
 SHOWN = {
     "missed_contacts": {
@@ -46,15 +34,10 @@ SHOWN = {
         "slope of 1/h in r1": "slope of log 1/h over log r1",
         "its error": "standard error of the slope",
     },
-    "method_verdicts": {"scene": "scene"}
-    | {
-        label: f"{title_with_mode(label)} [{_setting(label)}]"
-        for label in COMPARED["method_verdicts"][:SHOWN_METHODS]
-    },
 }
 # Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
 # In columns without a function, underscores become spaces.
-CELLS = {"method": method_in_words, "scene": lambda cell: CASES.get(cell, in_words(cell))}
+CELLS = {"method": method_in_words}
 
 
 def missed_contacts(datasets) -> pd.DataFrame:
@@ -66,23 +49,21 @@ def missed_contacts(datasets) -> pd.DataFrame:
     """
     rows = []
     for name, data in datasets.get("missed_contacts", {}).items():
-        contacts = data.passages * data.sizes["depth"]
+        contacts = int(extract.parameter(data, "passages")) * data.sizes["depth"]
         for method in data.integrator.values:
             for i, tolerance in enumerate(data.method_tolerance.values):
                 of = data.sel(integrator=method).isel(method_tolerance=i)
                 counts = of.passage_count.sum("depth")
-                missed = missed_share(of)
-                deep = data.depth.values[missed.values >= 0.5]
-                fixed = METHODS[method].fixed
+                deep = data.depth.values[of.contacts_missed.values >= 0.5]
+                fixed = integrators()[method].fixed
                 rows.append(
                     {
                         "data": name,
                         "method": method,
                         "tolerance": np.nan if fixed else tolerance,
                         "fixed steps": int(data.fixed_steps[i]) if fixed else np.nan,
-                        "mean steps a period": float(of.mean_steps),
                         "median error of |Z2|": float(of.motion_error),
-                        "contacts": int(contacts.sel(integrator=method)),
+                        "contacts": contacts,
                         "found": int(counts.sel(contact_outcome="found")),
                         "unseen": int(counts.sel(contact_outcome="unseen")),
                         "not reached": int(counts.sel(contact_outcome="not_reached")),
@@ -120,50 +101,8 @@ def stable_steps(datasets) -> pd.DataFrame:
                             / float(here.stable_step),
                             "h omega_c": scaled,
                             "linear limit of it": float(of.linear_limit),
-                            "largest h omega_c that keeps the accuracy": float(
-                                here.largest_holding_step * here.contact_frequency
-                            ),
                             "slope of 1/h in r1": float(of.step_slope),
                             "its error": float(of.step_slope_error),
                         }
                     )
     return pd.DataFrame(rows)
-
-
-def method_verdicts(datasets) -> pd.DataFrame:
-    """Return the loosest tolerance, or fewest steps, from which on each method's verdict is right.
-
-    The table has one row for each test case (scene): a motion near an orbit of known stability. If
-    a method has no such tolerance, the cell says why: the method was not run on the scene, was
-    never right, or was right, but not at the strictest tolerance.
-    """
-    rows = []
-    for data in datasets.get("method_verdicts", {}).values():
-        for scene in data.scene.values:
-            of = data.sel(scene=scene)
-            rows.append(
-                {
-                    "scene": str(scene),
-                    "W": float(of.scene_frequency),
-                    "period": int(of.scene_period),
-                    "multiplier": float(of.scene_multiplier),
-                    "truth": extract.meaning("scene_truth", of.scene_truth),
-                    "comes to period": int(of.landing_period),
-                    "periods run": int(of.scene_periods),
-                }
-                | {
-                    str(method): _right_from(of.sel(verdict_method=method))
-                    for method in data.verdict_method.values
-                }
-            )
-    return pd.DataFrame(rows)
-
-
-def _right_from(data):
-    """Return the entry of `method_verdicts` for one method on one scene."""
-    if np.isfinite(data.right_from):
-        return float(data.right_from)
-    if (data.verdict == flag("verdict", "not_run")).all():
-        return "not run"
-    right = (data.verdict == flag("verdict", "right")).any()
-    return "not at the strictest" if right else "never right"

@@ -1,8 +1,4 @@
-"""Error and counted work of integrators and models on test cases (scenes).
-
-A scene is a motion with a reference, which is taken as exact. A run is one integrator or model with
-one setting.
-"""
+"""Error and work of integrators and models on test cases (scenes), one run for each setting."""
 
 from impact_damper.data.variables import register
 
@@ -29,8 +25,5 @@ reference_average | statistic | | | average in the reference
 reference_average_error | statistic | | | standard error of the average in the reference
 meets_accuracy | run | | | whether the run meets the accuracy required by the scene
   : no 0, yes 1
-reference_state | component | | | state of the reference at the end of the run
-reference_contacts | | | | number of contacts in the reference
-reference_amplitude | | | max |Z1| | max |Z1| of the reference
     """,
 )

@@ -125,10 +125,10 @@ def warm_up_rivals(orders=()) -> None:
     orders : list of list of int
         As for `compile_all`.
     """
-    from chatterjee1995.methods.methods import COMPARED, METHODS, integrators, name_and_mode
+    from chatterjee1995.methods.integrators import integrators
+    from chatterjee1995.methods.integrators.taylor import ORDERS, taylor
     from chatterjee1995.methods.orbit_models import rigid
     from chatterjee1995.methods.passages import draw_passages, without_walls
-    from chatterjee1995.methods.taylor_runs import ORDERS, taylor
     from impact_damper.motions.strobe_map import strobe_time
 
     p = pack(OSCILLATOR, DAMPER, 2.0)
@@ -136,15 +136,13 @@ def warm_up_rivals(orders=()) -> None:
     for each in (ORDERS, *map(tuple, orders)):
         taylor(p, start, begin, 1, 1e-3, each)
     rigid(p, 0.75, start, begin, 1, 1e-3)
-    rivals = integrators()
-    resolution = {name: 100 if each.fixed else 1e-3 for name, each in METHODS.items()}
-    for label in COMPARED["accuracy"]:
-        name, locate = name_and_mode(label)
-        rivals[name].run(p, start, begin, 1, 1e-3, locate, 1000)
-    for name in COMPARED["missed_contacts"][1:]:
-        rivals[name].flight(without_walls(p), start, 1.0, resolution[name], 0.5)
-    for name in COMPARED["stable_steps"]:
-        rivals[name].largest_displacements(p, start, begin, 1, 100)
+    for each in integrators("accuracy").values():
+        for locate in each.located:
+            each.run(p, start, begin, 1, 1e-3, locate, 1000)
+    for each in integrators("missed_contacts").values():
+        each.flight(without_walls(p), start, 1.0, 100 if each.fixed else 1e-3, 0.5)
+    for each in integrators("stable_steps").values():
+        each.largest_displacements(p, start, begin, 1, 100)
     draw_passages(p, 1, 2.0, 0.1, 1995)
 
 

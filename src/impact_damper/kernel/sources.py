@@ -47,7 +47,11 @@ def _imports(path, packages):
             names += [alias.name for alias in node.names]
         else:
             names += [f"{node.module}.{alias.name}" for alias in node.names]
-    return set(map(module_file, names))
+    files = set(map(module_file, names))
+    # A package that imports all its modules at run time depends on them.
+    if path.name == "__init__.py" and "iter_modules(__path__)" in path.read_text():
+        files |= set(path.parent.glob("*.py"))
+    return files
 
 
 @cache

@@ -1,6 +1,6 @@
 """Find symmetric orbits of period 1 with two compliant contacts by Newton's method.
 
-`contact.rigid_orbits` finds the corresponding orbits with rigid impacts.
+`chatterjee1995.methods.rigid_impacts` finds the corresponding orbits with rigid impacts.
 
 Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass and W T
 the phase of the forcing.

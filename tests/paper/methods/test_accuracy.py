@@ -1,9 +1,4 @@
-"""Errors and counted work of methods on scenes (test cases), and the tolerance that stages use.
-
-The counted work is the number of floating-point operations.
-
-Z1 is the displacement of the primary mass. A stage is a step of the workflow.
-"""
+"""Errors and work of methods on scenes (test cases), and the tolerance of production runs."""
 
 import json
 import math
@@ -13,14 +8,13 @@ import numpy as np
 import pytest
 from helpers import configurations
 
-from chatterjee1995.methods import accuracy, averages, orbit_models, runs, taylor_runs
-from chatterjee1995.methods.comparison_scenes import ComparisonScene
-from chatterjee1995.methods.methods import LIMITED, TOLERANCE_KEYS, integrators
-from chatterjee1995.methods.operations import ELEMENTARY, operations
-from chatterjee1995.tables.accuracy import LABELS, SHOWN, cheapest, models
+from chatterjee1995.methods import accuracy, averages
+from chatterjee1995.methods.integrator import read_off
+from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
+from chatterjee1995.methods.integrators.taylor import taylor
+from chatterjee1995.methods.labels import MODELS, TOLERANCE_KEYS
+from chatterjee1995.tables.accuracy import SHOWN, cheapest, models
 from impact_damper.data.datasets import flag
-from impact_damper.kernel.compiling import kernel
-from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions import traces
 from impact_damper.motions.strobe_map import strobe_time
@@ -33,7 +27,7 @@ FEW = {
     "taylor": [1e-3, 1e-6, 1e-9],
     "orders": [[10, 13]],
     "merson": [1e-5, 1e-7],
-    "evaluations": dict.fromkeys(LIMITED, 2000) | {"Radau": 300},
+    "evaluations": 2000,
     "harmonics": 15,
     "batch": 10,
     "scipy_periods": 20,
@@ -48,9 +42,9 @@ def scene(name, **changes):
         parts = (given[key] for key in ("mass_ratio", "clearance", "restitution"))
         damper = Damper(*parts, CONFIG["contact_stiffness"])
     keys = ("frequency", "state", "periods", "motion", "accuracy")
-    rest = {key: given[key] for key in keys} | {"tolerance": given.get("tolerance")} | changes
+    rest = {key: given[key] for key in keys} | changes
     oscillator = Oscillator(free["damping"], free["linear_frequency"])
-    return ComparisonScene(name, oscillator, damper, **rest)
+    return accuracy.ComparisonScene(name, oscillator, damper, **rest)
 
 
 def of(data, method):
@@ -62,83 +56,16 @@ def inelastic():
     return accuracy.error_against_work(scene("inelastic"), FEW, REFERENCES["inelastic"])
 
 
-def straight(a, b):
-    x = a * b + math.sqrt(a)
-    return x / b - a
-
-
-def with_loops(values, order):
-    total = 0.0
-    for k in range(order):
-        total += values[k - 1] * values[k + 1]
-    while total < 1.0:
-        total = total * 2.0 + math.exp(total)
-    return math.cos(total) if order > 3 else total
-
-
-def of_pairs(a, b):
-    pair = a * (b, a - b)
-    for _ in range(3):
-        pair = -pair + (a, 0.0)
-    first, second = pair - a
-    pair = first * second
-    return pair * a
-
-
-compiled = kernel(straight)
-
-
-def calling(a):
-    return compiled(a + 1.0, a)
-
-
-def test_operations_are_counted_as_by_hand():
-    assert operations(straight) == 5
-    # `calling` adds a sum to the operations of the function that it calls.
-    assert operations(calling) == 1 + operations(compiled)
-    assert operations(calling, without=(compiled,)) == 1
-    # `of_pairs`: a product of a number and a pair, a difference in the pair, three sums and a
-    # difference of pairs, and two products of numbers.
-    assert operations(of_pairs) == 2 + 1 + 3 * 2 + 2 + 1 + 1
-    # `with_loops`: ten rounds of a product and a sum; three of a product, a sum and an exponential;
-    # a cosine.
-    assert operations(with_loops, 3, order=10) == 10 * 2 + 3 * (2 + ELEMENTARY) + ELEMENTARY
-
-
-def test_a_loop_of_unknown_length_is_told():
-    with pytest.raises(ValueError, match="length is not known"):
-        operations(with_loops)
-
-
-@pytest.mark.parametrize("kind", [taylor_runs.FLIGHT, taylor_runs.MEETING, taylor_runs.CONTACT])
-def test_a_step_costs_what_the_recurrence_does(kind):
-    # With the order N of the Taylor series, the product Z1 times Z1^2 takes about N^2/2 products
-    # and the square Z1^2, by symmetry, N^2/8, each with as many sums. All other terms, and the
-    # search for the contact, grow linearly with N.
-    order = CONTACT_ORDER if kind == taylor_runs.CONTACT else FLIGHT_ORDER
-    assert 1.0 < taylor_runs.step_work(kind) / (1.25 * order**2 + 20 * order) < 2.0
-    assert taylor_runs.step_work(kind, 1) > taylor_runs.step_work(kind)
-
-
-def test_a_contact_that_is_expected_costs_its_step_more():
-    assert taylor_runs.step_work(taylor_runs.MEETING) > taylor_runs.step_work(taylor_runs.FLIGHT)
-    given = scene("design")
-    begin = strobe_time(given.p)
-    rows, _ = taylor_runs.all_steps(given.p, np.array(given.state), begin, 3, 1e-9)
-    counts = taylor_runs.counted(rows)
-    assert counts[taylor_runs.MEETING] == counts[taylor_runs.CONTACT] == 6
-
-
 def test_contacts_and_peaks_from_samples_agree_with_those_of_the_series():
     for name in ("resonance", "design"):
         given = scene(name)
         begin, period = strobe_time(given.p), 2 * math.pi / given.frequency
-        run = taylor_runs.taylor(given.p, np.array(given.state), begin, 2, 1e-13)
+        run = taylor(given.p, np.array(given.state), begin, 2, 1e-13)
         times = begin + period * np.arange(801) / 400
         states = np.empty((801, 4))
         start = np.array(given.state)
         traces.trace(given.p, start, begin, times, 1e-13, states, np.empty((0, 5)))
-        read = runs.read_off(given.p, 0.0, times, states)
+        read = read_off(given.p, 0.0, times, states)
         assert len(read.contact_times) == len(run.contact_times)
         assert np.allclose(read.contact_times, run.contact_times, atol=1e-4)
         assert read.displacement == pytest.approx(run.displacement, rel=1e-7)
@@ -174,16 +101,6 @@ def test_models_of_the_orbit_have_errors_in_the_expected_order(inelastic):
     ).all()
 
 
-def test_an_elastic_balance_solves_its_own_equations():
-    given = scene("design")
-    parts = given.oscillator, given.damper, given.frequency
-    model = orbit_models.full_balance(*parts, np.array(given.state))
-    many = orbit_models.many_harmonics(*parts, np.array(given.state), 3)
-    assert model.status == many[3].status == "ended"
-    assert len(model.contact_phases) == 2
-    assert many[3].operations > model.operations
-
-
 def test_contacts_near_grazing_are_missed_by_methods_that_check_the_ends_of_steps():
     few = FEW | {"taylor": [1e-8], "merson": [1e-7]}
     data = accuracy.error_against_work(scene("grazing"), few, REFERENCES["grazing"])
@@ -215,7 +132,7 @@ def typical_averages(given, integrate, periods, exponents=False):
 def test_averages_agree_between_methods_and_have_errors_that_fall():
     given = scene("chaos")
     short, long = (
-        typical_averages(given, lambda *problem: taylor_runs.taylor(*problem, 1e-9), periods, True)
+        typical_averages(given, lambda *problem: taylor(*problem, 1e-9), periods, True)
         for periods in (400, 1600)
     )
     assert (np.abs(short[0] - long[0]) < 4 * np.hypot(short[1], long[1])).all()
@@ -264,11 +181,12 @@ def test_an_accuracy_that_a_motion_does_not_have_is_refused():
 
 
 def test_the_table_marks_the_cheapest(inelastic):
+    labels = [*runs_of_accuracy(), *MODELS]
     table = models({"accuracy": {"inelastic": inelastic}})
     # The column of averages exists for chaotic scenes only.
     assert SHOWN["models"].keys() - {"contacts a period"} <= set(table)
     chosen = table[table.choice == "cheapest that is accurate enough"]
-    meets = table[(table["meets it"] == "yes") & table.method.isin(LABELS)]
+    meets = table[(table["meets it"] == "yes") & table.method.isin(labels)]
     assert len(chosen) == 1
     assert chosen.operations.iloc[0] == meets.operations.min()
-    assert set(table.method) <= {*LABELS, "taylor_10_13"}
+    assert set(table.method) <= {*labels, "taylor_10_13"}

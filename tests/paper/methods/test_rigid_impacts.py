@@ -11,8 +11,7 @@ from helpers.known_orbits import DESIGN, INELASTIC, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from chatterjee1995.methods.rigid_impacts import MOST_IMPACTS, rebound, rigid_map
-from chatterjee1995.methods.rigid_orbits import rigid_orbit
+from chatterjee1995.methods.rigid_impacts import MOST_IMPACTS, rebound, rigid_map, rigid_orbit
 from impact_damper.model.packed import DASHPOT, pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions.strobe_map import period_map

@@ -13,7 +13,7 @@ from helpers.known_orbits import DESIGN, INELASTIC, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 
 from chatterjee1995.figures.rigid_limit import draw_rigid_limit
-from chatterjee1995.methods.rigid_orbits import mended_orbit, rigid_orbit
+from chatterjee1995.methods.rigid_impacts import mended_orbit, rigid_orbit
 from chatterjee1995.stages.rigid_limit import rigid_limit
 from chatterjee1995.tables.contact import SHOWN
 from chatterjee1995.tables.contact import rigid_limit as table

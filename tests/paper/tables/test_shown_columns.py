@@ -13,7 +13,7 @@ from helpers.made_up import world
 from helpers.made_up_design import made_up_design
 from helpers.running import ROOT
 
-from chatterjee1995.methods.words import method_in_words
+from chatterjee1995.methods.labels import method_in_words
 from chatterjee1995.workflow import selection
 from chatterjee1995.workflow.chapter import make_table
 from chatterjee1995.workflow.registry import TABLES

@@ -92,10 +92,6 @@ class MissedContacts(WithOscillator):
 
     frequency: FREQUENCY
     passages: count("random flights without contact, each over one forcing cycle", **RUNS_RANGE)
-    implicit_passages: count(
-        "passages, counted from the first, on which the implicit Radau method is run",
-        **RUNS_RANGE,
-    )
     radius: RADIUS
     depths: GEOMETRIC
     tolerances: TOLERANCES
@@ -105,9 +101,6 @@ class MissedContacts(WithOscillator):
 
     def contradictions(self, path, config):
         yield from super().contradictions(path, config)
-        if self.implicit_passages > self.passages:
-            reason = f"must be at most passages = {self.passages} (it counts the first of them)"
-            yield problem((*path, "implicit_passages"), self.implicit_passages, reason)
         yield from close_steps(path, self)
 
 

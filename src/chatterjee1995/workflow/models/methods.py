@@ -1,14 +1,6 @@
 """Methods compared on test cases (scenes) with references: scenes and settings."""
 
-from pydantic import create_model
-
-from chatterjee1995.methods.methods import (
-    ERRORS,
-    LIMITED,
-    START_HARMONICS,
-    STATISTICS,
-    TOLERANCE_KEYS,
-)
+from chatterjee1995.methods.labels import ERRORS, START_HARMONICS, STATISTICS, TOLERANCE_KEYS
 from chatterjee1995.workflow.models.system import (
     FREQUENCY,
     RUN_PERIODS,
@@ -27,9 +19,6 @@ from impact_damper.model.bounds import (
 COMPONENT = number("component of a state", least=-FARTHEST, most=FARTHEST)
 DECREASING = several(
     number("tolerance of a method", **METHOD_TOLERANCE_RANGE), "decreasing tolerances", least=1
-)
-EVALUATIONS = count(
-    "evaluations of the equations of motion per forcing cycle", least=1, most=1000000
 )
 ORDER = count("order of the series", least=6, most=60)
 
@@ -74,29 +63,23 @@ class Scene(MaybeWithDamper):
             yield problem((*path, "accuracy", "quantity"), self.accuracy.quantity, reason)
 
 
-Evaluations = create_model(
-    "Evaluations",
-    __base__=Section,
-    __doc__="Numbers of evaluations after which a run of a slow integrator is given up.",
-    **dict.fromkeys(LIMITED, (EVALUATIONS, ...)),
-)
-ByTolerances = create_model(
-    "ByTolerances",
-    __base__=Section,
-    __doc__="Tolerances of the integrators that are compared, by the keys of their registry.",
-    **dict.fromkeys(TOLERANCE_KEYS, (DECREASING, ...)),
-)
-
-
-class Comparison(ByTolerances):
+class Comparison(Section):
     """Settings of the methods that are compared on the scenes."""
 
+    taylor: DECREASING
+    merson: DECREASING
+    scipy: DECREASING
     orders: several(
         several(ORDER, "in flight and in contact", least=2, most=2),
         "orders of the Taylor series in flight and in contact, compared with the package's own",
         distinct=True,
     )
-    evaluations: Evaluations
+    evaluations: count(
+        "evaluations of the equations of motion per forcing cycle after which a run of SciPy's "
+        "methods is given up",
+        least=1,
+        most=1000000,
+    )
     harmonics: count(
         "highest harmonic (Newton's method for the exact orbit begins with "
         f"{START_HARMONICS} harmonics)",

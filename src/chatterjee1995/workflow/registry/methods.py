@@ -59,7 +59,7 @@ def rigid_limit(config, name):
 
 def missed_contacts(config, name):
     entry = config["missed_contacts"][name]
-    keys = ("frequency", "passages", "implicit_passages", "radius")
+    keys = ("frequency", "passages", "radius")
     return {
         "oscillator": oscillator(config, entry["oscillator"]),
         **{key: entry[key] for key in keys},
@@ -83,7 +83,6 @@ def accuracy(config, name):
     entry = config["scenes"][name]
     return system(config, entry) | {
         **{key: entry[key] for key in ("frequency", "state", "periods", "motion", "accuracy")},
-        "tolerance": entry.get("tolerance"),
         "settings": config["comparison"],
     }
 

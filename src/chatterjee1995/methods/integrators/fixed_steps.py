@@ -1,10 +1,6 @@
-"""Fixed-step methods: Heun, velocity Verlet, the classical Runge-Kutta method, Runge-Kutta-Merson.
+"""Methods with equal steps that step over contacts: Runge-Kutta 4, velocity Verlet, Merson.
 
-Contacts are not located. Each evaluation of the rate (time derivative of the state) adds the
-contact force if the position Z2 is beyond a wall.
-
-Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass. A
-strobe is the time in each cycle at which the forcing has the phase W T = pi/2.
+To add one, write its step, its number, its place in `one_step` and its entry in INTEGRATORS.
 """
 
 import math
@@ -12,24 +8,12 @@ import math
 import numpy as np
 
 from chatterjee1995.methods.equations import largest_within, moved, rate_by_position
-from chatterjee1995.methods.runs import Integrator
+from chatterjee1995.methods.integrator import Integrator
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import external_force
 from impact_damper.model.packed import FREQUENCY
 
-NAMES = ("heun", "verlet", "runge_kutta_4", "merson")
-HEUN, VERLET, RUNGE_KUTTA_4, MERSON = range(4)
-
-# Largest product h omega of step h and frequency omega for which the computed motion of an undamped
-# linear oscillator does not grow. At this product |R(i h omega)| = 1 with the stability function R,
-# the factor of a step for y' = z y/h. For Merson's method R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 +
-# z^5/144.
-STABILITY_LIMIT = {
-    "heun": 0.0,
-    "verlet": 2.0,
-    "runge_kutta_4": math.sqrt(8.0),
-    "merson": math.sqrt(12.0),
-}
+VERLET, RUNGE_KUTTA_4, MERSON = range(3)
 # A run has diverged once |Z1| + |Z1'| + |Z2'| exceeds BEYOND.
 BEYOND = 1e3
 # Largest number of steps in one call of a compiled function, unless one forcing cycle takes more.
@@ -46,14 +30,6 @@ def forcing(p, t, h):
         external_force(p, t + 0.5 * h),
         external_force(p, t + h),
     )
-
-
-@kernel_only
-def heun_step(p, drives, h, y):
-    """Return the state after a step of Heun's method, order 2."""
-    k1 = rate_by_position(p, drives[0], y)
-    k2 = rate_by_position(p, drives[3], moved(y, h, k1))
-    return moved(moved(y, 0.5 * h, k1), 0.5 * h, k2)
 
 
 @kernel_only
@@ -94,12 +70,7 @@ def merson_step(p, drives, h, y):
 
 @kernel
 def one_step(method, p, drives, h, y):
-    """Return the state after a step of the method with an index in `NAMES`.
-
-    `drives` is the result of `forcing` for the step.
-    """
-    if method == HEUN:
-        return heun_step(p, drives, h, y)
+    """Return the state after a step h of a method under the forces `drives` of `forcing`."""
     if method == VERLET:
         return verlet_step(p, drives, h, y)
     if method == RUNGE_KUTTA_4:
@@ -109,28 +80,10 @@ def one_step(method, p, drives, h, y):
 
 @kernel
 def run_fixed(method, p, start, t, steps, strobes, largest):
-    """Run with a whole number of equal steps in each forcing cycle.
+    """Run forcing cycles of `steps` equal steps from the state `start` at the time t.
 
-    Parameters
-    ----------
-    method : int
-        Index in `NAMES`.
-    p : array, shape (packed.COUNT,)
-        Packed parameters (`packed.pack`).
-    start : array, shape (4,)
-        Initial state.
-    t : float
-        Time of the initial state.
-    steps : int
-        Steps in a forcing cycle.
-    strobes, largest : array, shapes (n, 4) and (n,)
-        Receive the state at the end of each of n cycles and the largest |Z1| in each cycle. If the
-        run diverges (`BEYOND`), the entries from this cycle on are NaN.
-
-    Returns
-    -------
-    int
-        Number of cycles completed before a divergence; n without one.
+    `strobes` (n, 4) and `largest` (n,) receive the state at the end of each cycle and its largest
+    |Z1|, NaN from a divergence on. Return the number of cycles completed.
     """
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
@@ -165,19 +118,15 @@ def fixed_ends(method, p, start, t, step, ends):
 
 
 class FixedStep(Integrator):
-    """A method of `NAMES` with equal steps.
+    """A method with equal steps; `number` selects it in `one_step`."""
 
-    Parameters
-    ----------
-    name : str
-        One of `NAMES`.
-    """
+    fixed = True
 
-    def __init__(self, name):
-        self.number = NAMES.index(name)
-        self.stability_limit = STABILITY_LIMIT[name]
+    def __init__(self, number, name, title, place, compared, stability_limit):
+        self.number, self.name, self.title, self.place = number, name, title, place
+        self.compared, self.stability_limit = compared, stability_limit
 
-    def _run(self, p, start, begin, periods, steps):
+    def largest_displacements(self, p, start, begin, periods, steps):
         strobes, largest = np.full((periods, 4), np.nan), np.full(periods, np.nan)
         at_once = max(STEPS_AT_ONCE // int(steps), 1)
         for first in range(0, periods, at_once):
@@ -186,28 +135,35 @@ class FixedStep(Integrator):
             if done < len(strobes[part]):
                 break
             start = strobes[part][-1]
-        return strobes, largest
-
-    def strobes(self, p, start, begin, periods, resolution, locate=False):
-        return self._run(p, start, begin, periods, resolution)[0]
-
-    def largest_displacements(self, p, start, begin, periods, steps):
-        return self._run(p, start, begin, periods, steps)[1]
+        return largest
 
     def flight(self, p, state, end, resolution, time):
         ends = np.empty((resolution, 5))
         fixed_ends(self.number, p, state, 0.0, end / resolution, ends)
         if not np.abs(ends[:, 1:]).max() < BEYOND:
             return None
-        return self._seen(p, np.concatenate([[[0.0, *state]], ends]), time)
+        return self.seen(p, np.concatenate([[[0.0, *state]], ends]), time)
 
-    def _seen(self, p, ends, time):
-        """Return |Z2| at the ends of the steps, and |Z2| at `time`.
+    def seen(self, p, ends, time):
+        """Return |Z2| at the ends of steps, rows of time and state, and |Z2| at `time`.
 
-        `ends`, shape (n, 5), are the times and states at the ends of the steps. |Z2| at `time` is
-        computed by an extra step that ends at this time.
+        |Z2| at `time` is computed by an extra step that ends at this time.
         """
         last = ends[ends[:, 0] <= time][-1]
         there = np.empty((1, 5))
         fixed_ends(self.number, p, last[1:].copy(), last[0], time - last[0], there)
         return np.abs(ends[:, 3]), abs(there[0, 3])
+
+
+# The stability limit z = h omega solves |R(i z)| = 1, with R the factor of a step for y' = z y/h.
+INTEGRATORS = (
+    FixedStep(VERLET, "verlet", "velocity Verlet", 1, ("stable_steps",), 2.0),
+    FixedStep(
+        RUNGE_KUTTA_4,
+        "runge_kutta_4",
+        "Runge-Kutta 4",
+        2,
+        ("stable_steps", "missed_contacts"),
+        math.sqrt(8.0),
+    ),
+)

@@ -1,0 +1,200 @@
+"""The interface of integrators, and the contacts and peaks of a run from the ends of its steps."""
+
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+from numpy.polynomial.polynomial import polyder, polyval
+
+from chatterjee1995.methods.equations import rate, wall_at
+from impact_damper.model.bounds import METHOD_TOLERANCE_RANGE, STEPS_RANGE, check_count
+from impact_damper.model.checks import check_increasing, check_numbers
+from impact_damper.model.packed import CLEARANCE
+
+# Number of bisections that locate a root, enough for the accuracy of floating-point numbers.
+HALVINGS = 54
+
+
+class Run(NamedTuple):
+    """A motion computed by an integrator.
+
+    Attributes
+    ----------
+    status : str
+        "ended", "failed", or "capped" after too many evaluations of the rate.
+    operations : float
+        Work, in floating-point operations.
+    state : numpy.ndarray, shape (4,)
+        State at the end.
+    contact_times : numpy.ndarray
+        Times at which contacts begin.
+    peak_times, peaks : numpy.ndarray
+        Times of the local maxima of |Z1|, and the maxima; both ends of the run are included.
+    displacement : float
+        Largest |Z1|.
+    """
+
+    status: str
+    operations: float
+    state: np.ndarray
+    contact_times: np.ndarray
+    peak_times: np.ndarray
+    peaks: np.ndarray
+    displacement: float
+
+
+def stopped(status, work):
+    """Return a `Run` that did not reach its end, with NaN in place of its results."""
+    none = np.empty(0)
+    return Run(status, work, np.full(4, np.nan), none, none, none, np.nan)
+
+
+class Integrator:
+    """The interface of an integrator.
+
+    The methods share these arguments: `p`, packed parameters; `start`, state (4,) at the time
+    `begin`; `periods`, forcing cycles; `locate`, whether steps end where contacts begin and end.
+    `resolution` is a tolerance, or with fixed steps the number of steps in a cycle.
+
+    Attributes
+    ----------
+    name, title : str
+    place : int
+        Place among the integrators in figures and tables.
+    compared : tuple of str
+        Stages that compare it. REQUIRED names the method that each stage calls.
+    fixed : bool
+        Whether it takes equal steps in place of a tolerance.
+    located : tuple of bool
+        For the stage `accuracy`: the values of `locate` with which it runs.
+    tolerances : str
+        For the stage `accuracy`: its list of tolerances, a name in `labels.TOLERANCE_KEYS`.
+    slow : bool
+        Whether the stage `accuracy` limits the evaluations and the length of its runs.
+    stability_limit : float
+        For the stage `stable_steps`: the largest product of step and frequency with which the
+        motion of an undamped oscillator does not grow.
+    """
+
+    REQUIRED: ClassVar = {
+        "accuracy": "run",
+        "missed_contacts": "flight",
+        "stable_steps": "largest_displacements",
+    }
+
+    name = title = tolerances = ""
+    place = 0
+    compared = ()
+    fixed = slow = False
+    located = (False, True)
+    stability_limit = 0.0
+
+    def label(self, locate):
+        """Return the label of its runs with contacts located or not, such as "merson_kink"."""
+        return f"{self.name}_{'located' if locate else 'kink'}"
+
+    def run(self, p, start, begin, periods, tolerance, locate, most_evaluations=None) -> Run:
+        """Return the run. A slow integrator stops after `most_evaluations` of the rate."""
+        raise NotImplementedError
+
+    def end(self, p, start, begin, periods, tolerance, locate) -> np.ndarray:
+        """Return the state at the end, NaN if the run fails, as fast as possible (benchmarks)."""
+        return self.run(p, start, begin, periods, tolerance, locate).state
+
+    def flight(self, p, state, end, resolution, time):
+        """Return |Z2| at the ends of the steps of a flight over [0, end], and |Z2| at `time`.
+
+        `state` is the state at the time 0. Return None if the run fails.
+        """
+        raise NotImplementedError
+
+    def touches(self, p, state, levels, resolution):
+        """Return whether each of `levels`, walls at |Z2|, is touched within a cycle from `state`.
+
+        None, the default, stands for an integrator that finds a contact if a step ends beyond it.
+        """
+
+    def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
+        """Return the largest |Z1| in each cycle with fixed steps, NaN from a divergence on."""
+        raise NotImplementedError
+
+
+def check_resolutions(tolerances, steps):
+    """Check increasing tolerances, and as many increasing numbers of steps in a cycle.
+
+    Return the tolerances and the numbers of steps, reversed: the fewest steps take the place of the
+    largest tolerance.
+    """
+    tolerances = check_numbers("tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
+    check_increasing("tolerances", tolerances)
+    steps = [check_count("steps", value, **STEPS_RANGE) for value in steps]
+    check_increasing("steps", steps)
+    if len(steps) != len(tolerances):
+        raise ValueError(f"steps: must be as many as tolerances, {len(tolerances)}; {steps} given")
+    return tolerances, steps[::-1]
+
+
+def read_off(p, work, times, ends):
+    """Return the `Run` with the times (n,) and the states (n, 4) at the ends of its steps.
+
+    Beginnings of contacts and maxima of |Z1| within a step are those of the polynomial of degree 5
+    that agrees with the states and their rates at both ends of the step.
+    """
+    if not np.isfinite(ends).all():
+        return stopped("failed", work)
+    at, peaks = _turning_points(p, times, ends)
+    began = _beginnings(p, times, ends)
+    return Run("ended", work, ends[-1], began, at, peaks, float(np.max(peaks)))
+
+
+def _beginnings(p, times, ends):
+    """Return the times in steps from between the walls to or beyond a wall at which |Z2| = d0."""
+    place, distance = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
+    inside = (distance > 0) | ((distance == 0) & (place * ends[:, 3] < 0))
+    steps = np.flatnonzero(inside[:-1] & ~inside[1:])
+    penetration = _quintics(p, times, ends, 2, steps) * np.sign(place[steps + 1])
+    penetration[0] -= p[CLEARANCE]
+    began = times[steps] + np.diff(times)[steps] * root(penetration, 0.0, 1.0)
+    return np.where(distance[steps + 1] == 0, times[steps + 1], began)
+
+
+def _turning_points(p, times, ends):
+    """Return the times at which Z1' is zero, with both ends of the run, and |Z1| there."""
+    steps = np.flatnonzero(ends[:-1, 1] * ends[1:, 1] < 0)
+    course = _quintics(p, times, ends, 0, steps)
+    fraction = root(polyder(course), 0.0, 1.0)
+    at = times[steps] + np.diff(times)[steps] * fraction
+    peaks = np.abs(polyval(fraction, course, tensor=False))
+    return (
+        np.concatenate([times[:1], at, times[-1:]]),
+        np.concatenate([np.abs(ends[:1, 0]), peaks, np.abs(ends[-1:, 0])]),
+    )
+
+
+def _quintics(p, times, ends, index, steps):
+    """Return Hermite polynomials, coefficients (6, m), of a component of the state in m steps.
+
+    The variable of each polynomial goes from 0 to 1 over the step. Value, first and second
+    derivative agree with the state and its rate at both ends of the step.
+    """
+    rates = [
+        np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
+        for at in (steps, steps + 1)
+    ]
+    left, right = (each.reshape(-1, 4) for each in rates)
+    h = np.diff(times)[steps]
+    first = [ends[steps, index], h * left[:, index], h**2 / 2 * left[:, index + 1]]
+    rest = ends[steps + 1, index] - sum(first)
+    speed = h * right[:, index] - first[1] - 2 * first[2]
+    bend = h**2 / 2 * right[:, index + 1] - first[2]
+    last = [10 * rest - 4 * speed + bend, -15 * rest + 7 * speed - 2 * bend]
+    return np.array([*first, *last, 6 * rest - 3 * speed + bend])
+
+
+def root(coefficients, low, high):
+    """Return a root of each polynomial, a column, between low and high, where its signs differ."""
+    sign = np.sign(polyval(low, coefficients, tensor=False))
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        before = polyval(middle, coefficients, tensor=False) * sign > 0
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    return low

@@ -1,0 +1,28 @@
+"""The integrators that are compared; each module of this package declares one or several.
+
+To add an integrator, write a module with a constant INTEGRATORS, or an entry in the one of an
+existing module. Stages, figures, tables and the compilation of kernels follow the declarations.
+"""
+
+import pkgutil
+from functools import cache
+from importlib import import_module
+
+
+@cache
+def integrators(stage=None) -> dict:
+    """Return the integrators by name, all or those that a stage compares, in their order."""
+    modules = [import_module(f"{__name__}.{each.name}") for each in pkgutil.iter_modules(__path__)]
+    declared = [each for module in modules for each in module.INTEGRATORS]
+    declared.sort(key=lambda each: each.place)
+    return {each.name: each for each in declared if stage is None or stage in each.compared}
+
+
+@cache
+def runs_of_accuracy() -> dict:
+    """Return the integrator, and whether it locates contacts, by the labels of `accuracy`."""
+    return {
+        each.label(located): (each, located)
+        for each in integrators("accuracy").values()
+        for located in each.located
+    }

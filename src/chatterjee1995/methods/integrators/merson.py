@@ -1,0 +1,212 @@
+"""Runge-Kutta-Merson with step control, the method of the paper, with or without located contacts.
+
+The estimated error, which for linear equations is the leading term of the error, stays below the
+tolerance times 1 + |y| in each component y.
+"""
+
+import math
+
+import numpy as np
+
+from chatterjee1995.methods.equations import ahead, moved, rate, wall_at
+from chatterjee1995.methods.integrator import read_off, stopped
+from chatterjee1995.methods.integrators.fixed_steps import BEYOND, MERSON, FixedStep
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.single import side_of
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
+
+# Floating-point operations of a step: five evaluations of the rate, and their combinations.
+STEP_OPERATIONS = 366
+# A run fails if a step would have to be shorter than SHORTEST, or if one call of `advance_merson`
+# takes more than MOST_STEPS steps.
+SHORTEST = 1e-12
+MOST_STEPS = 10**6
+# Largest number of steps whose ends are kept, in a forcing cycle and in a flight. A run with more
+# fails.
+MOST_ENDS, MOST_FLIGHT_ENDS = 400_000, 10**5
+# Length of the first step, in forcing cycles.
+FIRST = 1e-3
+
+
+@kernel
+def estimated_step(p, side, by_position, t, h, y, tolerance):
+    """Return the state after one step, and the ratio of its estimated error to the allowed error.
+
+    With `by_position` each evaluation of the rate determines the wall in contact from Z2, and
+    `side` is ignored.
+    """
+    k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
+    m = moved(y, h / 3.0, k1)
+    k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
+    m = moved(moved(y, h / 6.0, k1), h / 6.0, k2)
+    k3 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
+    m = moved(moved(y, h / 8.0, k1), 0.375 * h, k3)
+    k4 = rate(p, wall_at(p, m[2]) if by_position else side, t + 0.5 * h, m)
+    m = moved(moved(moved(y, 0.5 * h, k1), -1.5 * h, k3), 2.0 * h, k4)
+    k5 = rate(p, wall_at(p, m[2]) if by_position else side, t + h, m)
+    after = moved(moved(moved(y, h / 6.0, k1), 2.0 * h / 3.0, k4), h / 6.0, k5)
+    ratio = 0.0
+    for i in range(4):
+        error = h / 30.0 * abs(2.0 * k1[i] - 9.0 * k3[i] + 8.0 * k4[i] - k5[i])
+        ratio = max(ratio, error / (tolerance * (1.0 + max(abs(y[i]), abs(after[i])))))
+    return after, ratio
+
+
+@kernel
+def located(p, side, t, h, y, tolerance):
+    """Return the length of the step that ends at an event, the state there, and the steps tried.
+
+    The event is the beginning or end of a contact within the step from t to t + h. The step is
+    halved until it ends before the event. Then the Illinois variant of regula falsi finds the
+    length with which it ends at the event.
+    """
+    low, high = 0.5 * h, h
+    state, _ = estimated_step(p, side, False, t, high, y, tolerance)
+    beyond = ahead(p, side, state[2])
+    state, _ = estimated_step(p, side, False, t, low, y, tolerance)
+    before = ahead(p, side, state[2])
+    tries = 2
+    while before <= 0.0 and low > SHORTEST:
+        high, beyond = low, before
+        low *= 0.5
+        state, _ = estimated_step(p, side, False, t, low, y, tolerance)
+        before = ahead(p, side, state[2])
+        tries += 1
+    length = low
+    for _ in range(60):
+        if before <= 0.0 or high - low <= 1e-15 * (1.0 + t):
+            break
+        length = (low * beyond - high * before) / (beyond - before)
+        state, _ = estimated_step(p, side, False, t, length, y, tolerance)
+        tries += 1
+        now = ahead(p, side, state[2])
+        if abs(now) <= 1e-15 * p[CLEARANCE]:
+            break
+        if now > 0.0:
+            low, before = length, now
+            beyond *= 0.5
+        else:
+            high, beyond = length, now
+            before *= 0.5
+    return length, state, tries
+
+
+@kernel
+def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
+    """Integrate from t to end.
+
+    Parameters
+    ----------
+    p, y : array
+        Packed parameters, and the state at t, which is replaced by the state at `end`.
+    side : int
+        Wall in contact at t: -1 or 1, or 0 for none. Unused without `locate`.
+    t, end, h, tolerance : float
+        Times of beginning and end, length of the first step, and tolerance.
+    locate : bool
+        Whether steps end where contacts begin and end.
+    ends : array, shape (m, 5)
+        Receives time and state at the ends of the first m steps; m may be 0.
+
+    Returns
+    -------
+    side : int
+        Wall in contact at the end.
+    h : float
+        Length for the next step.
+    steps : int
+        Number of accepted steps; -1 if the tolerance could not be met, if more than MOST_STEPS
+        steps were needed, or if the run diverged.
+    tries : int
+        Number of computed steps, including rejected steps and trials of `located`.
+    """
+    state = (y[0], y[1], y[2], y[3])
+    steps, tries = 0, 0
+    while t < end:
+        length = min(h, end - t)
+        after, ratio = estimated_step(p, side, not locate, t, length, state, tolerance)
+        tries += 1
+        factor = 0.9 * (ratio + 1e-10) ** -0.2
+        if not ratio <= 1.0:
+            h = length * max(factor, 0.1) if ratio < math.inf else 0.1 * length
+            if h < SHORTEST:
+                return side, h, -1, tries
+            continue
+        # A step that is shortened to end at `end` must not reduce the length of the next step.
+        h = max(h, length * min(factor, 5.0)) if length < h else length * min(factor, 5.0)
+        if locate and ahead(p, side, after[2]) < 0.0:
+            length, after, repeated = located(p, side, t, length, state, tolerance)
+            tries += repeated
+            on_wall = p[CLEARANCE] if after[2] > 0.0 else -p[CLEARANCE]
+            after = (after[0], after[1], on_wall, after[3])
+            side = (1 if after[2] > 0.0 else -1) if side == 0 else 0
+        state = after
+        t = end if length >= end - t else t + length
+        if steps < len(ends):
+            ends[steps, 0] = t
+            ends[steps, 1], ends[steps, 2], ends[steps, 3], ends[steps, 4] = state
+        steps += 1
+        if steps > MOST_STEPS or not abs(state[0]) + abs(state[1]) + abs(state[3]) < BEYOND:
+            return side, h, -1, tries
+    y[0], y[1], y[2], y[3] = state
+    return side, h, steps, tries
+
+
+class Merson(FixedStep):
+    """Runge-Kutta-Merson with step control; `largest_displacements` uses equal steps."""
+
+    fixed = False
+    tolerances = "merson"
+
+    def run(self, p, start, begin, periods, tolerance, locate, most_evaluations=None):
+        times, states = [np.array([begin])], [start[None]]
+        ends, period, work = np.empty((MOST_ENDS, 5)), 2 * math.pi / p[FREQUENCY], 0
+        cycles = _cycles(p, start.copy(), begin, periods, tolerance, locate, ends)
+        for k, (steps, tries) in enumerate(cycles):
+            work += tries * STEP_OPERATIONS
+            if not 0 <= steps <= MOST_ENDS:
+                return stopped("failed", work)
+            times.append(ends[:steps, 0] + k * period)
+            states.append(ends[:steps, 1:].copy())
+        return read_off(p, work, np.concatenate(times), np.concatenate(states))
+
+    def end(self, p, start, begin, periods, tolerance, locate):
+        y = start.copy()
+        for steps, _ in _cycles(p, y, begin, periods, tolerance, locate, np.empty((0, 5))):
+            if steps < 0:
+                return np.full(4, np.nan)
+        return y
+
+    def flight(self, p, state, end, resolution, time):
+        ends, y = np.empty((MOST_FLIGHT_ENDS, 5)), state.copy()
+        _, _, steps, _ = advance_merson(p, y, 0, 0.0, end, FIRST * end, resolution, False, ends)
+        if not 0 <= steps <= MOST_FLIGHT_ENDS:
+            return None
+        return self.seen(p, np.concatenate([[[0.0, *state]], ends[:steps]]), time)
+
+
+def _cycles(p, y, begin, periods, tolerance, locate, ends):
+    """Advance the state y in place, cycle by cycle; yield accepted and computed steps of each.
+
+    Each cycle is integrated from the same time, since rounding errors of a growing time would grow
+    too.
+    """
+    period = 2 * math.pi / p[FREQUENCY]
+    side, h = side_of(p, y), FIRST * period
+    for _ in range(periods):
+        side, h, steps, tries = advance_merson(
+            p, y, side, begin, begin + period, h, tolerance, locate, ends
+        )
+        yield steps, tries
+
+
+INTEGRATORS = (
+    Merson(
+        MERSON,
+        "merson",
+        "Merson",
+        3,
+        ("accuracy", "missed_contacts", "stable_steps"),
+        math.sqrt(12.0),
+    ),
+)

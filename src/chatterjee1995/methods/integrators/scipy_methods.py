@@ -1,0 +1,144 @@
+"""SciPy's integrators with a compiled rate; they step over contacts or locate them as events.
+
+To add one, write its entry in INTEGRATORS.
+"""
+
+import math
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from chatterjee1995.methods.equations import RATE_OPERATIONS, ahead, rate, wall_at
+from chatterjee1995.methods.integrator import Integrator, read_off, stopped
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.single import side_of
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
+
+# Value of the argument `side` with which the position Z2 determines the wall in contact.
+BY_POSITION = 2
+# Largest number of evaluations of the rate in a run of the benchmarks, and in a flight.
+MOST_TIMED, UNLIMITED = 200_000, 2**62
+
+
+@kernel
+def derivative(t, y, p, side, left):
+    """Return the rate of the state in contact with the wall `side`, or BY_POSITION.
+
+    `left`, shape (1,), is the number of evaluations that are still allowed. It falls by one, and
+    OverflowError is raised when it is used up.
+    """
+    left[0] -= 1
+    if left[0] < 0:
+        raise OverflowError("too many evaluations")
+    if side == BY_POSITION:
+        side = wall_at(p, y[2])
+    return np.array(rate(p, side, t, (y[0], y[1], y[2], y[3])))
+
+
+def _event(_, y, p, side, left):
+    return ahead(p, side, y[2])
+
+
+_event.terminal, _event.direction = True, -1
+
+
+def parts(method, p, start, t, end, tolerance, locate, left):
+    """Yield the results of `solve_ivp` for successive parts of a run.
+
+    With `locate` the beginning or end of a contact is an event, at which a part ends and the next
+    part begins. Without, the run is one part, and the position Z2 determines the wall in contact.
+    A method that begins at a wall with a large tolerance can step over the end of the contact and
+    use up all evaluations (OverflowError).
+    """
+    y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
+    status = 1
+    while status == 1:
+        with np.errstate(all="ignore"):
+            result = solve_ivp(
+                derivative,
+                (t, end),
+                y,
+                method,
+                events=_event if locate else None,
+                args=(p, side, left),
+                rtol=tolerance,
+                atol=tolerance,
+            )
+        status = result.status
+        yield result
+        if status == 1:
+            t, y = result.t_events[0][0], result.y_events[0][0].copy()
+            contact = 1 if y[2] > 0 else -1
+            y[2] = contact * p[CLEARANCE]
+            side = contact if side == 0 else 0
+
+
+class SciPy(Integrator):
+    """One of SciPy's methods.
+
+    `operations` are its floating-point operations for each evaluation of the rate, without those of
+    the rate itself, and `factorising` those of a factorisation.
+    """
+
+    tolerances = "scipy"
+    slow = True
+    compared = ("accuracy", "missed_contacts")
+
+    def __init__(self, name, place, operations, factorising=0):
+        self.name = self.title = name
+        self.place, self.operations, self.factorising = place, operations, factorising
+
+    def run(self, p, start, begin, periods, tolerance, locate, most_evaluations=UNLIMITED):
+        left, factorisations = np.array([most_evaluations]), 0
+        times, ends, status = [np.array([begin])], [start[None]], "failed"
+        end = begin + periods * 2 * math.pi / p[FREQUENCY]
+        try:
+            for part in parts(self.name, p, start, begin, end, tolerance, locate, left):
+                factorisations += part.nlu
+                status = "failed" if part.status < 0 else "ended"
+                later, states = part.t[1:].copy(), part.y.T[1:].copy()
+                if part.status == 1:
+                    states[-1, 2] = math.copysign(p[CLEARANCE], states[-1, 2])
+                times.append(later)
+                ends.append(states)
+        except OverflowError:
+            status = "capped"
+        evaluations = most_evaluations - int(left[0])
+        work = evaluations * (RATE_OPERATIONS + self.operations) + factorisations * self.factorising
+        if status != "ended":
+            return stopped(status, float(work))
+        return read_off(p, float(work), np.concatenate(times), np.concatenate(ends))
+
+    def end(self, p, start, begin, periods, tolerance, locate):
+        left, end = np.array([MOST_TIMED]), begin + periods * 2 * math.pi / p[FREQUENCY]
+        locate = locate and p[CLEARANCE] < math.inf
+        try:
+            *_, last = parts(self.name, p, start, begin, end, tolerance, locate, left)
+        except OverflowError:
+            return np.full(4, np.nan)
+        return last.y[:, -1] if last.status == 0 else np.full(4, np.nan)
+
+    def flight(self, p, state, end, resolution, time):
+        with np.errstate(all="ignore"):
+            result = solve_ivp(
+                derivative,
+                (0.0, end),
+                state,
+                self.name,
+                args=(p, 0, np.array([UNLIMITED])),
+                rtol=resolution,
+                atol=resolution,
+                dense_output=True,
+            )
+        return (np.abs(result.y[2]), abs(result.sol(time)[2])) if result.success else None
+
+
+# Operations for the four components of the state; a product with its sum counts as two.
+# DOP853: for each evaluation on average 6 products for the next state, and 4 for the final values
+#     and the two error estimates.
+# LSODA: an array of about 6 derivatives is predicted and corrected with 21 sums for each component,
+#     and a system of four equations is solved; its factorisation takes 2/3 4^3.
+INTEGRATORS = (
+    SciPy("DOP853", 4, operations=4 * 2 * (6 + 4)),
+    SciPy("LSODA", 5, operations=4 * 2 * 21 + 2 * 4**2, factorising=2 * 4**3 // 3),
+)

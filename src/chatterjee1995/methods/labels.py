@@ -1,0 +1,43 @@
+"""Names in the datasets of the methods compared, and their titles."""
+
+from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
+
+# Quantities whose errors the stage `accuracy` compares, of a chaotic motion the averages.
+ERRORS = ("amplitude", "state", "contact_time", "contacts")
+STATISTICS = ("contact_rate", "displacement", "exponent")
+
+# Titles of the models of a steady motion (`orbit_models`).
+MODELS = {
+    "rigid": "rigid impacts",
+    "rigid_mended": "rigid, corrected",
+    "rigid_balance": "one term, (14)",
+    "full_balance": "one term, (7)",
+    "many_harmonics": "many harmonics",
+    "shooting": "shooting",
+}
+# Highest harmonic of the balance from which Newton's method for an exact orbit starts.
+START_HARMONICS = 15
+
+# Keys of the section `comparison` of the configuration, lists of tolerances among which an
+# integrator chooses one (`Integrator.tolerances`).
+TOLERANCE_KEYS = ("taylor", "merson", "scipy")
+
+
+def method_in_words(label) -> str:
+    """Return the title of a model, an integrator or a run, or else the label itself."""
+    if label in MODELS:
+        return MODELS[label]
+    if label in integrators():
+        return integrators()[label].title
+    if label in runs_of_accuracy():
+        integrator, located = runs_of_accuracy()[label]
+        return f"{integrator.title}, {'located' if located else 'kink'}"
+    name, *orders = label.split("_")
+    if name == "taylor" and len(orders) == 2:
+        return "Taylor, orders {} and {}".format(*orders)
+    return label
+
+
+def colour_of(name) -> str:
+    """Return the colour of matplotlib's cycle for an integrator of the stage `accuracy`."""
+    return f"C{list(integrators('accuracy')).index(name)}"

@@ -1,0 +1,176 @@
+"""Integrators: what each must have, their orders, located contacts, stability in contact."""
+
+import math
+
+import numpy as np
+import pytest
+from helpers import configurations
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER
+from helpers.sampling import sample
+from numpy.testing import assert_allclose
+
+from chatterjee1995.methods.integrator import Integrator
+from chatterjee1995.methods.integrators import fixed_steps, integrators, runs_of_accuracy
+from chatterjee1995.methods.labels import TOLERANCE_KEYS, method_in_words
+from impact_damper.model.packed import CLEARANCE, pack
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.motions import strobe_map
+
+NUMBERS = {
+    "verlet": fixed_steps.VERLET,
+    "runge_kutta_4": fixed_steps.RUNGE_KUTTA_4,
+    "merson": fixed_steps.MERSON,
+}
+ORDERS = {"verlet": 2, "runge_kutta_4": 4, "merson": 4}
+START = np.array([0.7, -0.3, 0.5, 0.2])
+
+
+@pytest.mark.parametrize("name", integrators())
+def test_an_integrator_has_what_its_stages_call(name):
+    integrator = integrators()[name]
+    where = type(integrator).__module__
+    assert integrator.title, f"{where}: {name} has no title"
+    assert integrator.compared, f"{where}: no stage compares {name}"
+    places = [each.place for each in integrators().values()]
+    assert places.count(integrator.place) == 1, f"{where}: the place of {name} is taken"
+    for stage in integrator.compared:
+        assert stage in Integrator.REQUIRED, f"{where}: {name} names no stage {stage}"
+        needed = Integrator.REQUIRED[stage]
+        own = getattr(type(integrator), needed) is not getattr(Integrator, needed)
+        assert own, f"{where}: {stage} calls {needed}, which {name} lacks"
+    if "accuracy" in integrator.compared:
+        known = integrator.tolerances in TOLERANCE_KEYS
+        assert known, f"{where}: {name} has no tolerances, one of {', '.join(TOLERANCE_KEYS)}"
+        assert integrator.tolerances in configurations.read()["comparison"]
+
+
+def test_runs_are_named_by_what_is_done_at_contacts():
+    assert method_in_words("merson_kink") == "Merson, kink"
+    assert method_in_words("LSODA_located") == "LSODA, located"
+    assert method_in_words("taylor_12_15") == "Taylor, orders 12 and 15"
+    assert [runs_of_accuracy()[label][1] for label in ("taylor", "merson_kink")] == [True, False]
+
+
+def fixed(method, p, y, steps, periods, t=0.0):
+    strobes, largest = np.empty((periods, 4)), np.empty(periods)
+    start = np.array(y, float)
+    run = fixed_steps.run_fixed(NUMBERS[method], p, start, t, steps, strobes, largest)
+    return strobes, largest, run
+
+
+@pytest.fixture(scope="module")
+def free():
+    """Parameters without a damper, and the state after two cycles by the Taylor series."""
+    p = pack(PAPER, None, 2.0)
+    states, _ = sample(p, START, 0.0, [2 * 2 * math.pi / 2.0])
+    return p, states[-1]
+
+
+@pytest.mark.parametrize("method", NUMBERS)
+def test_order_of_fixed_steps(method, free):
+    p, end = free
+    errors = [
+        np.abs(fixed(method, p, START, steps, 2)[0][-1] - end).max() for steps in (200, 400, 800)
+    ]
+    assert_allclose(np.log2(np.divide(errors[:-1], errors[1:])), ORDERS[method], atol=0.15)
+
+
+@pytest.mark.parametrize("locate", [False, True])
+def test_merson_follows_its_tolerance(locate, free):
+    """The error is of order h^4, with the step h, and the estimate of the error of order h^5.
+
+    The error is therefore proportional to tolerance^(4/5).
+    """
+    p, end = free
+    merson = integrators()["merson"]
+    errors = [
+        np.abs(merson.end(p, START, 0.0, 2, tolerance, locate) - end).max()
+        for tolerance in (1e-6, 1e-8, 1e-10, 1e-12)
+    ]
+    slope = np.polyfit([-6, -8, -10, -12], np.log10(errors), 1)[0]
+    assert 0.7 < slope < 1.1
+
+
+@pytest.mark.parametrize("name", integrators("accuracy"))
+def test_run_and_end_on_smooth_motion(name, free):
+    p, end = free
+    integrator = integrators()[name]
+    for locate in integrator.located:
+        run = integrator.run(p, START, 0.0, 2, 1e-9, locate, 10**6)
+        assert run.status == "ended" and run.operations > 0
+        assert_allclose(run.state, end, atol=1e-5)
+        assert_allclose(integrator.end(p, START, 0.0, 2, 1e-9, locate), run.state, atol=1e-9)
+
+
+@pytest.mark.parametrize("method", NUMBERS)
+def test_linear_stability_limit_of_the_contact(method):
+    """With almost no clearance the two masses on the contact spring are a linear oscillator.
+
+    The springs of the primary mass are negligible compared with the contact spring.
+    """
+    stiffness, mass_ratio = 1e6, 0.25
+    p = pack(Oscillator(1e-9), Damper(mass_ratio, 1.0, contact_stiffness=stiffness), 2.0)
+    p[CLEARANCE] = 1e-12
+    contact = math.sqrt(stiffness * (1 + 1 / mass_ratio))
+    limit = integrators()[method].stability_limit
+
+    def growth(scaled):
+        """Return the largest |eigenvalue| of the matrix of a step of length `scaled`/frequency.
+
+        The common motion of both masses has the eigenvalue 1.
+        """
+        h = scaled / contact
+        drives = fixed_steps.forcing(p, 0.0, h)
+
+        def after(y):
+            state = tuple(map(float, y))
+            return np.array(fixed_steps.one_step(NUMBERS[method], p, drives, h, state))
+
+        matrix = [after(1e-6 * unit) - after(-1e-6 * unit) for unit in np.eye(4)]
+        return np.abs(np.linalg.eigvals(np.array(matrix).T / 2e-6)).max()
+
+    for scaled in (0.5, 1.0):
+        assert_allclose(growth(scaled), 1.0, atol=1e-2)
+    assert growth(0.98 * limit) < 1.01
+    assert growth(1.02 * limit) > 1.02
+
+
+@pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
+@pytest.mark.parametrize("name", ["merson", "DOP853"])
+def test_located_contacts_agree_with_the_taylor_series(name, damper):
+    p = pack(PAPER, damper, 2.0)
+    y = np.array([0.1, 0.2, 0.0, -2.4 * damper.clearance / 2])
+    begin = strobe_map.strobe_time(p)
+    expected, log = sample(p, y, begin, begin + math.pi * np.arange(1, 4))
+    run = integrators()[name].run(p, y, begin, 3, 1e-12, True, 10**6)
+    assert_allclose(run.state, expected[-1], atol=1e-8)
+    assert len(log) >= 4
+    assert_allclose(run.contact_times, log[:, 1], atol=1e-8)
+
+
+def test_the_kink_takes_the_order_away():
+    """With elastic contacts that are not located, a method of order 4 has only order 2."""
+    p = pack(PAPER, DESIGN, 2.0)
+    y = np.array([0.1, 0.2, 0.0, -2.4])
+    begin = strobe_map.strobe_time(p)
+    expected, _ = sample(p, y, begin, [begin + math.pi])
+    steps = np.unique(np.geomspace(2000, 40000, 24).astype(int))
+    errors = [
+        np.abs(fixed("runge_kutta_4", p, y, int(n), 1, begin)[0][-1] - expected[-1]).max()
+        for n in steps
+    ]
+    slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
+    assert -2.7 < slope < -1.3
+
+
+def test_a_diverging_run_has_nan_from_this_cycle_on():
+    p = pack(PAPER, DESIGN, 2.0)
+    strobes, largest, run = fixed("runge_kutta_4", p, [0.0, 0.0, 5.0, 0.0], 20, 3)
+    assert run < 3
+    assert np.isnan(strobes[run:]).all() and np.isnan(largest[run:]).all()
+
+
+def test_a_run_with_too_many_evaluations_is_given_up():
+    p = pack(PAPER, DESIGN, 2.0)
+    run = integrators()["DOP853"].run(p, START, 0.0, 2, 1e-9, True, 20)
+    assert run.status == "capped" and np.isnan(run.state).all()
