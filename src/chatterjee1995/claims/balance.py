@@ -1,65 +1,51 @@
-"""Claims 1 and 2, on solutions of harmonic balance (sections 2 and 3).
-
-Equation (7) of the paper is harmonic balance with elastic contacts, equation (14) its limit of
-rigid walls. a is the amplitude of the primary mass, rm the mass ratio, d0 the clearance and W the
-forcing frequency, with the value Wp at the peak of the response without the damper. Rule (19) is
-rm Wp^2 d0 = 1. A solution is called impacting if the loose mass touches the walls.
-
-A stage is a step of the workflow.
-"""
+"""Evidence for claims 1 to 3, on solutions of harmonic balance and the orbits near them."""
 
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import exact_orbits, extract
-from chatterjee1995.claims.claim import Claim, Measure, Missing
-from chatterjee1995.claims.findings import balance as balance_findings
-from impact_damper.data.datasets import flag
+from chatterjee1995.reading import bands, orbits
+from chatterjee1995.reading import datasets as reading
+from chatterjee1995.reading.datasets import Missing
+from impact_damper.data.datasets import flag, is_settled
 
-# An orbit agrees with a solution of (7) if their amplitudes differ relatively by at most NEAR.
-NEAR = 0.1
+NEAR = 0.1  # largest relative difference between a and an orbit's first harmonic that agree
+AROUND = 0.1  # a frequency is around Wp if |W/Wp - 1| is at most this
+BELOW = 0.75  # least W/Wp at which violent motions below the band are looked for
+ALL_DESIGNS = (*reading.CAPTIONS, *reading.RULES)  # the designs of figure 3
 
 
 def small_motion(datasets):
-    """Return the measures of claim 1: at rm W^2 d0 = 1, (14) and (7) have a small stable solution.
-
-    They are computed by harmonic balance for dampers whose clearance follows rule (19), and from
-    the exact periodic orbits for the dampers of figures 5 and 8.
-    """
-    designs = extract.select(datasets, "harmonic_balance", extract.RULES)
+    """Return the numbers of claim 1: near rm W^2 d0 = 1 a small stable motion exists."""
+    designs = reading.select(datasets, "harmonic_balance", reading.RULES)
     vanishing = []
     for design in designs:
         peak = float(design.peak_frequency)
-        roots = extract.within(design, 0.9 * peak, 1.1 * peak).rigid_amplitude
+        roots = reading.within(design, 0.9 * peak, 1.1 * peak).rigid_amplitude
         smallest = roots.isel(root=np.abs(roots).fillna(np.inf).argmin("root"))
-        frequency = extract.crossing(smallest.frequency.values, smallest.values, 0.0)
-        inertia = extract.parameter(design, "mass_ratio") * frequency**2
-        vanishing.append(abs(inertia * extract.parameter(design, "clearance") - 1))
+        frequency = reading.crossing(smallest.frequency.values, smallest.values, 0.0)
+        mass_ratio, clearance = reading.parameters(design, "mass_ratio", "clearance")
+        vanishing.append(abs(mass_ratio * frequency**2 * clearance - 1))
     sizes = [float(design.quiet_amplitude / design.peak_amplitude) for design in designs]
-    orbits = []
-    for name in extract.ELASTIC:
-        branches, free = exact_orbits.of_curve(datasets, name)
-        peak = float(extract.get(datasets, "harmonic_balance", name).peak_frequency)
-        small = exact_orbits.smallest(exact_orbits.quiet(branches, free), peak)["size"]
-        orbits.append(small.min() / exact_orbits.resonance_fold(free)[1])
+    ratios = []
+    for name in reading.ELASTIC:
+        branches, free = orbits.of_curve(datasets, name)
+        peak = float(reading.get(datasets, "harmonic_balance", name).peak_frequency)
+        small = orbits.smallest(orbits.quiet(branches, free), peak)["size"]
+        ratios.append(small.min() / orbits.resonance_fold(free)[1])
     return {
         "vanishing": np.max(vanishing),
         "size": np.nanmax([*sizes, 0.0]),
         "stable": np.mean(np.isfinite(sizes)),
-        "orbits": np.mean(np.isfinite(orbits)),
-        "orbit_size": np.nanmax([*orbits, 0.0]),
+        "orbits": np.mean(np.isfinite(ratios)),
+        "orbit_size": np.nanmax([*ratios, 0.0]),
         "designs": len(designs),
-        "dampers": len(orbits),
+        "dampers": len(ratios),
     }
 
 
 def rigid_against_elastic(datasets):
-    """Return the measures of claim 2: the larger solutions of (14) and (7) agree.
-
-    The smallest solution at each frequency is left out. Exact periodic orbits are compared with (7)
-    as well.
-    """
-    designs = extract.damped(datasets, "harmonic_balance").values()
+    """Return the numbers of claim 2: the larger solutions of (14), (7) and exact orbits agree."""
+    designs = reading.damped(datasets, "harmonic_balance").values()
     if not designs:
         raise Missing("There is no dataset of the stage harmonic_balance with a damper")
     errors, alike, pulling = [], [], []
@@ -76,13 +62,10 @@ def rigid_against_elastic(datasets):
                 larger = np.arange(len(a)) != np.argmin(np.abs(a))
                 errors.append(np.max(np.abs(limit - a)[larger] / np.abs(a)[larger]))
     pairs = pd.concat(
-        [
-            exact_orbits.counterparts(
-                extract.get(datasets, "harmonic_balance", name),
-                exact_orbits.of_curve(datasets, name)[0],
-            )
-            for name in extract.ELASTIC
-        ]
+        orbits.counterparts(
+            reading.get(datasets, "harmonic_balance", name), orbits.of_curve(datasets, name)[0]
+        )
+        for name in reading.ELASTIC
     )
     larger = pairs[~pairs.least]
     near = larger[larger.difference <= NEAR]
@@ -96,88 +79,82 @@ def rigid_against_elastic(datasets):
     }
 
 
-CLAIMS = (
-    Claim(
-        number="1",
-        text="With rm W^2 d0 = 1 one root of (14) has zero amplitude; (7) gives a small amplitude, "
-        "stable by appendix A.",
-        source="section 3",
-        interpretation="Near the peak frequency, for the designs with the clearance of (19), and "
-        "for the exact orbits of the dampers of figures 5 and 8, whose rm Wp^2 d0 is within 4 % "
-        "of 1. A small motion is a quiet one, of period 1 and below half of the free resonance.",
-        measures=(
-            Measure(
-                "vanishing",
-                "|rm W^2 d0 - 1| at the frequency where a root of (14) has a = 0",
-                most=0.005,
-                decisive=True,
-            ),
-            Measure(
-                "stable",
-                "share of designs by (19) with a stable small solution of (7) at Wp",
-                least=1,
-                decisive=True,
-            ),
-            Measure(
-                "size",
-                "largest ratio of the amplitude of this solution to the free resonance amplitude",
-                most=0.05,
-                decisive=True,
-            ),
-            Measure(
-                "orbits",
-                "share of the dampers of figures 5 and 8 with a stable small orbit at Wp",
-                least=1,
-                decisive=True,
-            ),
-            Measure(
-                "orbit_size",
-                "largest ratio of max |Z1| of this orbit to the free resonance",
-                most=0.05,
-                decisive=True,
-            ),
-        ),
-        evidence=small_motion,
-        finding=balance_findings.small_motion,
-        figures=("figure_03c",),
-    ),
-    Claim(
-        number="2",
-        text="All impacting solutions of (14) and (7) but the smallest agree very closely.",
-        source="section 3",
-        interpretation="Roots of (14) with walls that push are compared with the solutions of (7) "
-        "at the same W, for all designs of figures 3, 5 and 8. A wall pushes if its force, "
-        "rm W^2 (d0 - a), is positive, as (10) supposes with eps > 0. The smallest |a| at each W "
-        "is left out. Very closely means within 5 %. In addition these solutions of (7) are "
-        "compared with the first harmonic of the nearest exact orbit with two symmetric contacts, "
-        "stable or not, for the dampers of figures 5 and 8. Orbits on "
-        "branches without any stable part are not known.",
-        measures=(
-            Measure(
-                "alike",
-                "share of W at which (7) has as many solutions as (14) has roots with walls that "
-                "push",
-                least=0.9,
-                decisive=True,
-            ),
-            Measure(
-                "error", "largest relative difference of the amplitudes", most=0.05, decisive=True
-            ),
-            Measure("pulling", "share of W at which (14) also has roots with walls that pull"),
-            Measure(
-                "orbits",
-                "share of these solutions of (7) with an orbit whose first harmonic is within 10 % "
-                "of a",
-            ),
-            Measure(
-                "orbits_stable", "share of the solutions with such an orbit whose orbit is stable"
-            ),
-            Measure(
-                "orbit_error",
-                "median relative difference between the first harmonic of these orbits and a",
-            ),
-        ),
-        evidence=rigid_against_elastic,
-        finding=balance_findings.rigid_against_elastic,
-    ),
-)
+def quiet_and_high(datasets):
+    """Return the numbers of claim 3: quiet motions around Wp, violent ones outside the band."""
+    around, beside, found = [], [], []
+    designs = reading.select(datasets, "harmonic_balance", ALL_DESIGNS)
+    for design in designs:
+        peak = float(design.peak_frequency)
+        half = orbits.HALF * float(design.peak_amplitude)
+        size = np.abs(reading.stable_impacting(design))
+        near = reading.within(size, (1 - AROUND) * peak, (1 + AROUND) * peak)
+        around.append(float((near < half).any("solution").mean()))
+        found.append(int(design.band_status) == flag("band_status", "found"))
+        lower = float(design.edge_frequency[0]) if found[-1] else peak
+        below = (design.frequency > BELOW * peak) & (design.frequency < lower)
+        free = design.free_amplitude.max("free_solution").where(design.frequency <= peak)
+        beside.append(np.mean((size > orbits.HALF * free).any("solution").values[below.values]))
+    return (
+        {
+            "around": np.min(around),
+            "bands": np.mean(found),
+            "beside": np.min(beside),
+            "designs": len(designs),
+        }
+        | _elastic_orbits(datasets)
+        | _design_orbits(datasets)
+    )
+
+
+def _elastic_orbits(datasets):
+    """Return the numbers of claim 3 for omega_l = 0, from the ranges of W in which orbits exist."""
+    around, beside, pairs, single = [], [], [], []
+    for name in reading.ELASTIC:
+        branches, free = orbits.of_curve(datasets, name)
+        design = reading.get(datasets, "harmonic_balance", name)
+        peak = float(design.peak_frequency)
+        ends = (1 - AROUND) * peak, (1 + AROUND) * peak
+        around.append(orbits.covered(orbits.quiet(branches, free), *ends) / (ends[1] - ends[0]))
+        ends = BELOW * peak, bands.suppression_band(datasets, name).lower
+        beside.append(orbits.covered(orbits.high(branches, free), *ends) / (ends[1] - ends[0]))
+        pairs.append(orbits.high_counterparts(design, branches, free))
+        response = reading.get(datasets, "response", name)
+        in_band = reading.within(response, *reading.band_edges(design))
+        shares = reading.share_of_starts(in_band, bands.quiet_motions(in_band, free))
+        single.append(float(shares.min()))
+    pairs = pd.concat(pairs)
+    return {
+        "orbit_around": np.min(around),
+        "orbits_beside": np.min(beside),
+        "single": np.min(single),
+        "truly_stable": pairs.stable.mean(),
+        "multiplier": pairs.multiplier.median(),
+    }
+
+
+def design_multipliers(datasets):
+    """Return the largest multiplier modulus of each exact quiet orbit of figure 3 at Wp."""
+    followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
+    return np.array([reading.largest_multiplier(reading.design_point(each)) for each in followed])
+
+
+def _design_orbits(datasets):
+    """Return the numbers of claim 3 from the exact quiet orbits of figure 3 at Wp."""
+    followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
+    multipliers = design_multipliers(datasets)
+    unstable = [each for each, size in zip(followed, multipliers, strict=True) if not size < 1]
+    settled = [np.mean(is_settled({"outcome": each.design_run_outcome})) for each in unstable]
+    sizes = [
+        each.design_run_displacement / orbits.resonance_fold(orbits.free_of(datasets, each))[1]
+        for each in unstable
+    ]
+    stiffness = [reading.parameter(each, "linear_frequency") for each in unstable]
+    return {
+        "designs_stable": np.mean(multipliers < 1),
+        "design_multiplier": np.max(multipliers),
+        "design_damping": max(map(reading.stable_from, followed)),
+        "design_settled": np.max(settled, initial=0.0),
+        "unstable_from": min(stiffness, default=np.nan),
+        "least_size": min((float(size.min()) for size in sizes), default=np.nan),
+        "most_size": max((float(size.max()) for size in sizes), default=np.nan),
+    }

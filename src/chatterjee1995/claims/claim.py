@@ -1,186 +1,174 @@
-"""A claim of the paper: the measures that decide it, their required values, and the verdict.
+"""A claim of the paper as `claims.yaml` states it, and its verdict from the numbers of the data.
 
-A measure is a number computed from datasets, with the bounds that the claim requires. Misprints and
-omissions of the paper are treated as claims that the print is correct.
-
-A stage is a step of the workflow.
+Misprints and omissions of the paper, S1 to S6, are claims that the print is correct.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from jinja2 import Environment, StrictUndefined
+
+from chatterjee1995.reading.datasets import Missing
+from impact_damper.data.table_files import in_words
+from impact_damper.model.text import number, percent
 
 REPRODUCED = "reproduced"
 DIFFERENT = "reproduced with a difference"
 NOT_REPRODUCED = "not reproduced"
 NOT_DECIDABLE = "not decidable"
-# How tables print each verdict.
-# PLAIN: on a claim.
-# SLIP: on a misprint.
-# PART: on initial conditions of which too few numbers are printed.
-# GAP: on values that had to be chosen because none are printed.
-PLAIN = {word: word for word in (REPRODUCED, DIFFERENT, NOT_REPRODUCED, NOT_DECIDABLE)}
-SLIP = PLAIN | {
-    REPRODUCED: "the print is consistent",
-    DIFFERENT: "the print is nearly right",
-    NOT_REPRODUCED: "a printed value is wrong",
+
+
+def part(share, digits=2) -> str:
+    """Return a share for a sentence that goes on with "of the": "all", "none" or a percentage."""
+    return {1.0: "all", 0.0: "none"}.get(float(share)) or percent(share, digits)
+
+
+def rounding(distance) -> str:
+    """Return words for a printed number and its distance in half units of its last digit."""
+    return "a right rounding" if distance <= 1 else "not a rounding"
+
+
+SENTENCES = Environment(undefined=StrictUndefined)
+SENTENCES.filters |= {
+    "number": number,
+    "percent": percent,
+    "part": part,
+    "rounding": rounding,
+    "entry": in_words,
 }
-PART = SLIP | {NOT_REPRODUCED: "the print is incomplete"}
-GAP = PLAIN | {
-    REPRODUCED: "the values chosen are consistent",
-    DIFFERENT: "the values chosen are nearly consistent",
-    NOT_REPRODUCED: "the values chosen are not consistent",
-}
+SENTENCES.tests["known"] = lambda value: not math.isnan(value)
 
 
-class Missing(LookupError):
-    """A dataset that a claim needs does not exist, or lacks a number that the claim needs."""
-
-
-def readable(value) -> str:
-    """Return a number with four significant digits; "none" for NaN."""
-    return "none" if math.isnan(value) else f"{value:.4g}"
-
-
-@dataclass(frozen=True)
-class Measure:
-    """One number of the evidence for a claim.
-
-    Attributes
-    ----------
-    name : str
-        Key of the number in the dictionary that `Claim.evidence` returns.
-    description : str
-        What the number measures.
-    least, most : float
-        Bounds that the claim requires. A measure without bounds does not affect the verdict.
-    decisive : bool
-        True: a value outside the bounds refutes the claim. False: such a value makes the verdict
-        "reproduced with a difference".
-    """
+class Bound(NamedTuple):
+    """The values that a claim requires of one of its numbers."""
 
     name: str
-    description: str
-    least: float = -math.inf
-    most: float = math.inf
-    decisive: bool = False
+    least: float
+    most: float
 
-    @property
-    def requirement(self) -> str:
-        """The bounds as text; "" without bounds."""
-        if math.isfinite(self.least) and math.isfinite(self.most):
-            return f"from {self.least:g} to {self.most:g}"
-        bounds = [("at least", self.least), ("at most", self.most)]
-        return "".join(f"{word} {bound:g}" for word, bound in bounds if math.isfinite(bound))
+    @classmethod
+    def read(cls, text):
+        """Return the bound of a text such as "size <= 0.05", "1 <= stable" or "0.9 <= x <= 1.1"."""
+        parts = text.split(" <= ")
+        (name,) = (each for each in parts if each.isidentifier())
+        least, most = parts[: parts.index(name)], parts[parts.index(name) + 1 :]
+        return cls(name, *map(float, least or [-math.inf]), *map(float, most or [math.inf]))
 
     def holds(self, value) -> bool:
-        """Return whether a value is within the bounds; False for NaN."""
+        """Return whether a value is within the bound; False for NaN."""
         return self.least <= value <= self.most
+
+    def __str__(self):
+        if math.isinf(self.least):
+            return f"at most {self.most:g}"
+        if math.isinf(self.most):
+            return f"at least {self.least:g}"
+        return f"from {self.least:g} to {self.most:g}"
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper, or a misprint taken as the statement that the print is correct.
+    """A statement of the paper.
 
     Attributes
     ----------
     number : str
-        "1" to "19", or "S1" to "S6" for misprints and omissions.
-    text : str
-        The statement of the paper, shortened.
-    source : str
-        Section and figure of the paper.
-    interpretation : str
-        Meaning given to vague words of the statement.
-    measures : tuple of Measure
-        The numbers that decide the claim. A name may occur twice, with a decisive bound and a
-        sharper one.
+        "1" to "19", or "S1" to "S6".
     evidence : callable
-        Takes all datasets, a dict keyed by stage of dicts keyed by name, and returns a dict with
-        the value of each measure; NaN if the datasets do not determine it. May raise `Missing`.
-    finding : callable
-        Takes the values of the measures as keyword arguments, and returns sentences that say what
-        the data show. Values of measures with bounds must not be NaN. The sentences must be true
-        for every verdict.
-    figures : tuple of str
-        Names of the figures that show the claim, the most important one first; empty if no figure
-        shows it.
-    words : dict of str
-        How tables print each verdict.
+        Takes all datasets, keyed by stage and name, and returns the values of `numbers`, NaN if the
+        data do not determine them, and other values for the finding. May raise `Missing`.
+    claim, source, reading : str
+        The statement, shortened; section and figure of the paper; our meaning of vague words.
+    finding : str
+        Template of the sentences that say what the data show, true for every verdict.
+    numbers : dict of str
+        What each number measures.
+    required, full_agreement : sequence of str
+        Bounds without which the claim is refuted, or reproduced with a difference only.
+    figures : sequence of str
+        Names of the figures that show the claim, the most important one first.
+    verdicts : dict of str
+        Words for verdicts in place of the usual ones.
     """
 
     number: str
-    text: str
-    source: str
-    interpretation: str
-    measures: tuple[Measure, ...]
     evidence: Callable[[dict], dict]
-    finding: Callable[..., str]
-    figures: tuple[str, ...] = ()
-    words: Mapping[str, str] = field(default_factory=PLAIN.copy)
+    claim: str
+    source: str
+    reading: str
+    finding: str
+    numbers: Mapping[str, str]
+    required: Sequence[str]
+    full_agreement: Sequence[str] = ()
+    figures: Sequence[str] = ()
+    verdicts: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def bounds(self) -> list:
+        """Pairs of a bound and whether it is required, first the required ones."""
+        return [(Bound.read(text), True) for text in self.required] + [
+            (Bound.read(text), False) for text in self.full_agreement
+        ]
 
     def verdict(self, values) -> str:
-        """Return the verdict for a dict with the values of the measures.
+        """Return the verdict for the values of the numbers.
 
-        A decisive measure out of bounds refutes the claim. Otherwise, if the value of a measure
-        with bounds is NaN, the claim is not decidable. Otherwise a measure out of bounds that is
-        not decisive makes the verdict "reproduced with a difference".
+        An unknown number leaves the claim open, unless another number refutes it.
         """
-        bounded = [measure for measure in self.measures if measure.requirement]
-        known = [measure for measure in bounded if not math.isnan(values[measure.name])]
-        failed = [measure for measure in known if not measure.holds(values[measure.name])]
-        if any(measure.decisive for measure in failed):
+        unknown = any(math.isnan(values[bound.name]) for bound, _ in self.bounds)
+        failed = [
+            required
+            for bound, required in self.bounds
+            if not math.isnan(values[bound.name]) and not bound.holds(values[bound.name])
+        ]
+        if any(failed):
             return NOT_REPRODUCED
-        if len(known) < len(bounded):
+        if unknown:
             return NOT_DECIDABLE
         return DIFFERENT if failed else REPRODUCED
 
     def criterion(self) -> str:
-        """Return the requirements as text, first the decisive ones."""
+        """Return all bounds as text."""
         parts = []
-        for lead, decisive in (("Required", True), ("For full agreement", False)):
-            required = [
-                f"{measure.description}, {measure.requirement}"
-                for measure in self.measures
-                if measure.requirement and measure.decisive == decisive
+        for lead, chosen in (("Required", True), ("For full agreement", False)):
+            texts = [
+                f"{self.numbers[bound.name]}, {bound}"
+                for bound, required in self.bounds
+                if required == chosen
             ]
-            if required:
-                parts.append(f"{lead}: {'; '.join(required)}.")
+            if texts:
+                parts.append(f"{lead}: {'; '.join(texts)}.")
         return " ".join(parts)
 
-    def sentence(self, values) -> str:
+    def sentences(self, values) -> str:
         """Return what the data show; if the claim is not decidable, which numbers are unknown."""
         if self.verdict(values) != NOT_DECIDABLE:
-            return self.finding(**values)
+            return " ".join(SENTENCES.from_string(self.finding).render(values).split())
         unknown = [
-            measure.description
-            for measure in self.measures
-            if measure.requirement and math.isnan(values[measure.name])
+            self.numbers[bound.name] for bound, _ in self.bounds if math.isnan(values[bound.name])
         ]
         return f"The data do not determine: {'; '.join(dict.fromkeys(unknown))}."
 
     def judge(self, datasets) -> dict:
-        """Return the row of the claim in the table of claims, a dict keyed by column.
-
-        `datasets` is the argument of `evidence`.
-        """
-        descriptions = {measure.name: measure.description for measure in self.measures}
+        """Return the row of the claim in the table of claims."""
         try:
             values = self.evidence(datasets)
-            verdict, finding = self.verdict(values), self.sentence(values)
+            verdict, finding = self.verdict(values), self.sentences(values)
             evidence = "; ".join(
-                f"{text}: {readable(values[name])}" for name, text in descriptions.items()
+                f"{text}: {number(values[name], 4)}" for name, text in self.numbers.items()
             )
         except Missing as missing:
             verdict, finding, evidence = NOT_DECIDABLE, f"{missing}.", ""
         return {
             "number": self.number,
-            "claim": self.text,
-            "verdict": self.words[verdict],
+            "claim": self.claim,
+            "verdict": self.verdicts.get(verdict, verdict),
             "finding": finding,
             "figures": " ".join(self.figures),
             "source": self.source,
-            "interpretation": self.interpretation,
+            "interpretation": self.reading,
             "criterion": self.criterion(),
             "evidence": evidence,
         }

@@ -1,108 +1,145 @@
-"""Claims 5, 6 and 8, on the motions with the damper (section 3, figures 4, 5 and 8).
+"""Evidence for claims 5 to 8 and 15, on contacts, chaos and phases of the motions with damper."""
 
-A motion is violent (of high amplitude) if its largest displacement |Z1| exceeds half of that on the
-resonance branch without the damper, at the same forcing frequency W. A quiet motion (of low
-amplitude) has the period of the forcing and is not violent. A start is a random initial state.
-Equation (7) of the paper is harmonic balance with elastic contacts.
-
-A stage is a step of the workflow.
-"""
+import math
 
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import exact_orbits, extract
-from chatterjee1995.claims.claim import Claim, Measure, Missing
-from chatterjee1995.claims.findings import motions as motions_findings
-from chatterjee1995.claims.suppression import chaotic_high, high_motions
+from chatterjee1995.reading import datasets as reading
+from chatterjee1995.reading import orbits
+from chatterjee1995.reading.bands import high_motions
+from chatterjee1995.reading.datasets import BY_MASS, ELASTIC, INELASTIC, Missing
+from impact_damper.data.sweeps import runs_of_true
+from impact_damper.theory.contact_law import damping_ratio
+
+NEAR = 0.3  # phase in radians up to which two motions are almost in phase, or almost in antiphase
+LOW = 0.3  # example of a low restitution in claim 15
 
 
 def quiet_contacts(datasets):
-    """Return the measures of claim 5: the quiet motion has two symmetric impacts in a cycle."""
+    """Return the numbers of claim 5: the quiet motion has two symmetric impacts in a cycle."""
     shares, skew, multipliers = [], [], []
-    for name in extract.ELASTIC:
-        lower, upper = extract.band_edges(extract.get(datasets, "harmonic_balance", name))
-        quiet = exact_orbits.quiet(*exact_orbits.of_curve(datasets, name))
+    for name in ELASTIC:
+        lower, upper = reading.band_edges(reading.get(datasets, "harmonic_balance", name))
+        quiet = orbits.quiet(*orbits.of_curve(datasets, name))
         in_band = quiet[(quiet.upper > lower) & (quiet.lower < upper)]
-        not_two = in_band[(in_band.fewest != 2) | (in_band.contacts != 2)]
-        width = exact_orbits.covered(in_band, lower, upper)
-        width -= exact_orbits.covered(not_two, lower, upper)
+        others = in_band[(in_band.fewest != 2) | (in_band.contacts != 2)]
+        width = orbits.covered(in_band, lower, upper) - orbits.covered(others, lower, upper)
         shares.append(width / (upper - lower))
         skew.append(in_band.asymmetry.max())
         multipliers.append(in_band.multiplier.max())
-    return {
-        "two": np.min(shares),
-        "skew": np.max(skew),
-        "multiplier": np.max(multipliers),
-    }
+    return {"two": np.min(shares), "skew": np.max(skew), "multiplier": np.max(multipliers)}
 
 
 def high_and_chaotic(datasets):
-    """Return the measures of claim 6: a violent motion has more than two impacts, or is chaotic."""
-    contacts, fewest, orbits, twins, widest, total, lives = [], [], [], [], [], [], []
-    starts, beside = [], []
-    for name in extract.ELASTIC:
-        response = extract.get(datasets, "response", name)
-        branches, free = exact_orbits.of_curve(datasets, name)
-        contacts.append(response.contacts.values[high_motions(response, free).values])
-        high = exact_orbits.high(branches, free)
-        fewest.append(high.fewest.min())
-        beside.append(exact_orbits.coexisting(high, "contacts"))
-        design = extract.get(datasets, "harmonic_balance", name)
-        level = exact_orbits.HALF * exact_orbits.resonance(free, design.frequency)
-        estimate = np.abs(extract.stable_impacting(design)).max("solution").to_series()
-        crossings = exact_orbits.crossings(high, design.frequency)
-        orbits.append(crossings.assign(a=crossings.frequency.map(estimate[estimate > level])))
-        twins.append(exact_orbits.high_counterparts(design, branches, free))
-        chaotic = chaotic_high(response, free).values
-        widest.append(extract.longest_run(chaotic) * extract.spacing(response))
-        lives.append(_lasting(response, free))
-        violent = high_motions(response, free)
-        chaos = violent & extract.is_outcome(response, "chaotic")
-        starts.append(extract.share_of_starts(response, chaos).max())
-        total.append(np.sum(chaotic) * extract.spacing(response))
-    contacts, orbits, twins = np.concatenate(contacts), pd.concat(orbits), pd.concat(twins)
-    if len(contacts) == 0 or not orbits.a.notna().any():
+    """Return the numbers of claim 6: a violent motion has more than two impacts, or is chaotic."""
+    of = pd.DataFrame([_violent(datasets, name) for name in ELASTIC], index=ELASTIC)
+    contacts, lives = (np.concatenate(of[name].tolist()) for name in ("contacts", "lives"))
+    compared, twins = (pd.concat(of[name].tolist()) for name in ("compared", "twins"))
+    if len(contacts) == 0 or not compared.a.notna().any():
         raise Missing(
             "There is no violent motion, or no stable violent orbit at a W at which (7) has a "
             "stable violent solution"
         )
     return {
         "more": np.mean(contacts > 2 + 1e-6),
-        "fewest": np.nanmin(fewest),
-        "fewest_in": extract.ELASTIC[np.nanargmin(fewest)],
-        "harmonic": np.abs(orbits.a / orbits.amplitude.abs() - 1).median(),
-        "size": np.abs(orbits.a / orbits["size"] - 1).median(),
-        "coexisting": max(beside),
-        "coexisting_in": extract.ELASTIC[np.argmax(beside)],
+        "fewest": of.fewest.min(),
+        "fewest_in": of.fewest.idxmin(),
+        "harmonic": np.abs(compared.a / compared.amplitude.abs() - 1).median(),
+        "size": np.abs(compared.a / compared["size"] - 1).median(),
+        "coexisting": of.coexisting.max(),
+        "coexisting_in": of.coexisting.idxmax(),
         "twin": twins.difference.median(),
-        "widest": max(widest),
-        "widest_in": extract.ELASTIC[np.argmax(widest)],
-        "widest_first": widest[0],
-        "total": max(total),
-        "starts": max(starts),
-        "lasting": np.mean(lives) if (lives := np.concatenate(lives)).size else np.nan,
+        "widest": of.widest.max(),
+        "widest_in": of.widest.idxmax(),
+        "widest_first": of.widest.iloc[0],
+        "total": of.total.max(),
+        "starts": of.starts.max(),
+        "lasting": np.mean(lives) if lives.size else np.nan,
     }
 
 
-def _lasting(response, free):
-    """Return whether each violent chaotic motion lasted, shape (n,) of bool.
+def _violent(datasets, name):
+    """Return what the response and the branches of a curve tell about its violent motions."""
+    response = reading.get(datasets, "response", name)
+    design = reading.get(datasets, "harmonic_balance", name)
+    branches, free = orbits.of_curve(datasets, name)
+    violent, high = high_motions(response, free), orbits.high(branches, free)
+    chaos = violent & reading.is_outcome(response, "chaotic")
+    runs = runs_of_true(chaos.any("motion").values)
+    step = float(response.frequency[1] - response.frequency[0])
+    level = orbits.HALF * orbits.resonance(free, design.frequency)
+    estimate = np.abs(reading.stable_impacting(design)).max("solution").to_series()
+    crossings = orbits.crossings(high, design.frequency)
+    ends = response.life_ends.transpose(*chaos.dims).values[chaos.values]
+    return {
+        "contacts": response.contacts.values[violent.values],
+        "fewest": high.fewest.min(),
+        "coexisting": orbits.coexisting(high, "contacts"),
+        "compared": crossings.assign(a=crossings.frequency.map(estimate[estimate > level])),
+        "twins": orbits.high_counterparts(design, branches, free),
+        "widest": np.ptp(runs, axis=1).max(initial=0) * step,
+        "total": np.ptp(runs, axis=1).sum() * step,
+        "starts": float(reading.share_of_starts(response, chaos).max()),
+        "lives": ends[ends >= 0] == 0,
+    }
 
-    Several runs follow each such motion. It lasted if it ended in none of them. Motions without
-    such runs are left out.
+
+def phases(datasets):
+    """Return the numbers of claim 7: the masses move in antiphase below Wp, in phase above.
+
+    The phase of Z1 is taken relative to Z2, as in the paper, and relative to x2 = Z1 - Z2.
     """
-    chaotic = high_motions(response, free) & extract.is_outcome(response, "chaotic")
-    ends = response.life_ends.transpose(*chaotic.dims).values[chaotic.values]
-    return ends[ends >= 0] == 0
+    of = pd.DataFrame([_phases(datasets, name) for name in BY_MASS])
+
+    def farthest(ratios):
+        return ratios[(ratios - 1).abs().idxmax()]
+
+    return {
+        "below": of.below.max(),
+        "above": of.above.max(),
+        "highest": of.highest.min(),
+        "in_phase": of.in_phase.max(skipna=False),
+        "turn_balance": farthest(of.turn_balance),
+        "turn": farthest(of.turn),
+        "loose_below": of.loose_below.max(),
+        "loose_above": of.loose_above.max(),
+        "loose_turn": farthest(of.loose_turn),
+    }
+
+
+def _phases(datasets, name):
+    """Return the phases of one damper, from 0.75 Wp to the highest W of harmonic balance."""
+    design = reading.get(datasets, "harmonic_balance", name)
+    peak = float(design.peak_frequency)
+    balance = reading.quiet_balance(design).sel(frequency=slice(0.75 * peak, None))
+    quiet = orbits.quiet(*orbits.of_curve(datasets, name))
+    near = orbits.smallest(quiet, balance.frequency)
+    frequency = near.frequency.to_numpy()
+    relative, loose = (np.abs(np.angle(near[key])) for key in ("amplitude", "loose"))
+    under = frequency < peak
+    if not under.any() or under.all():
+        raise Missing(f"There is no quiet orbit on both sides of Wp, branches/{name}")
+    apart = np.max(frequency[relative > NEAR], initial=-np.inf)
+    return {
+        "below": np.max(np.pi - relative[under]),
+        "above": relative[-1],
+        "highest": frequency[-1],
+        "in_phase": min(frequency[frequency > apart], default=np.nan) / peak,
+        "turn_balance": reading.crossing(balance.frequency.values, balance.values, 0.0) / peak,
+        "turn": reading.crossing(frequency, relative, np.pi / 2) / peak,
+        "loose_below": np.max(loose[under]),
+        "loose_above": np.pi - loose[-1],
+        "loose_turn": reading.crossing(frequency, loose, np.pi / 2) / peak,
+    }
 
 
 def first_collisions(datasets):
-    """Return the measures of claim 8: random starts in a ball of radius 2 lead to collisions."""
+    """Return the numbers of claim 8: random starts in a ball of radius 2 lead to collisions."""
     data = list(datasets.get("collisions", {}).values())
     if not data:
         raise Missing("There is no dataset of the stage collisions")
-
-    data = sorted(data, key=lambda each: -extract.parameter(each, "clearance"))
+    data = sorted(data, key=lambda each: -reading.parameter(each, "clearance"))
 
     def numbers(name, ball):
         return [float(each[name].sel(ball=ball)) for each in data]
@@ -112,143 +149,45 @@ def first_collisions(datasets):
         "within_gap": min(numbers("colliding", "within_gap")),
         "beyond_wall": max(numbers("beyond_wall", "literal")),
         "wait": max(numbers("longest_wait", "within_gap")),
-        "clearances": [extract.parameter(each, "clearance") for each in data],
+        "clearances": [reading.parameter(each, "clearance") for each in data],
         "beyond_walls": numbers("beyond_wall", "literal"),
         "waits": numbers("longest_wait", "within_gap"),
-        "starts": max(extract.parameter(each, "starts") for each in data),
+        "starts": max(reading.parameter(each, "starts") for each in data),
     }
 
 
-CLAIMS = (
-    Claim(
-        number="5",
-        text="The low-amplitude motion has two symmetric impacts per cycle.",
-        source="section 3, figure 4",
-        interpretation="All stable quiet orbits in the suppression band by (7) count, for the "
-        "elastic dampers of figures 5 and 8, of which omega_l is 0. Coexisting motions of other "
-        "periods do not count.",
-        measures=(
-            Measure(
-                "two",
-                "least share of the band by (7) in which such orbits exist, all with two contacts "
-                "a cycle",
-                least=1,
-                decisive=True,
-            ),
-            Measure(
-                "skew",
-                "largest difference of Z1, Z1', Z2 or Z2' of such an orbit from the mirror image "
-                "half a cycle later",
-                most=1e-6,
-                decisive=True,
-            ),
-            Measure("multiplier", "largest Floquet multiplier modulus of such an orbit"),
-        ),
-        evidence=quiet_contacts,
-        finding=motions_findings.quiet_contacts,
-        figures=("figure_04",),
-    ),
-    Claim(
-        number="6",
-        text="The high-amplitude motion has more than two impacts per cycle and agrees with "
-        "harmonic balance; regions of different impact number are separated by narrow chaotic "
-        "regimes.",
-        source="section 3, figure 5",
-        interpretation="High amplitude is read as a violent motion, above half of the free "
-        "resonance. Contacts are counted for all violent motions at the frequencies of the "
-        "responses, chaotic ones included. The amplitude |a| of harmonic balance is compared with "
-        "the first harmonic of the stable violent orbits of any period. Regions of different "
-        "impact number are ranges of W with stable violent orbits that have this number; regions "
-        "are separated if they overlap by 0.005 at most. A narrow chaotic range is at most 0.1 "
-        "wide in W.",
-        measures=(
-            Measure(
-                "more",
-                "share of violent motions with more than two contacts a cycle",
-                least=0.5,
-                decisive=True,
-            ),
-            Measure(
-                "harmonic",
-                "median relative difference between |a| and the first harmonic of stable violent "
-                "orbits",
-                most=0.1,
-                decisive=True,
-            ),
-            Measure(
-                "size",
-                "median relative difference between |a| and max |Z1| of stable violent orbits",
-            ),
-            Measure(
-                "twin",
-                "median relative difference between |a| and the first harmonic of the nearest "
-                "symmetric orbit with two contacts, stable or unstable",
-            ),
-            Measure(
-                "fewest",
-                "least number of contacts a cycle of a stable violent orbit",
-                least=2.01,
-            ),
-            Measure(
-                "coexisting",
-                "width in W over which stable violent orbits with different numbers of contacts "
-                "coexist, largest value of a damper",
-                most=0.005,
-            ),
-            Measure(
-                "widest", "width in W of the widest range with a chaotic violent motion", most=0.1
-            ),
-            Measure(
-                "total", "total width in W with a chaotic violent motion, largest value of a damper"
-            ),
-            Measure(
-                "starts",
-                "largest share of random starts at one W that lead to violent chaos",
-            ),
-            Measure(
-                "lasting",
-                "share of the chaotic violent motions none of whose runs ended, all others being "
-                "transients",
-            ),
-        ),
-        evidence=high_and_chaotic,
-        finding=motions_findings.high_and_chaotic,
-        figures=("figure_05a",),
-    ),
-    Claim(
-        number="8",
-        text="Random initial conditions in a ball of radius 2 all lead to collisions; special "
-        "ones may not.",
-        source="section 3 (iii)",
-        interpretation="The ball is read literally, so that it extends beyond the walls, where a "
-        "start counts as a collision, and also restricted to the gap. At the design frequency, "
-        "for each damper of figure 5, at least 99 % of the random starts must lead to a collision "
-        "within 2000 cycles, for full agreement all. Special initial conditions do exist: started "
-        "on the non-resonance branch without the damper, where max |Z1| is below d0, with the "
-        "loose mass at rest in the middle, the masses never collide.",
-        measures=(
-            Measure(
-                "literal",
-                "least share of starts that collide, literal ball",
-                least=0.99,
-                decisive=True,
-            ),
-            Measure(
-                "within_gap",
-                "least share of starts that collide, ball within the gap",
-                least=0.99,
-                decisive=True,
-            ),
-            Measure("literal", "least share of starts that collide, literal ball", least=1),
-            Measure(
-                "within_gap", "least share of starts that collide, ball within the gap", least=1
-            ),
-            Measure("beyond_wall", "largest share of starts in the literal ball beyond a wall"),
-            Measure(
-                "wait", "longest time to the first collision from a start within the gap, in cycles"
-            ),
-        ),
-        evidence=first_collisions,
-        finding=motions_findings.first_collisions,
-    ),
-)
+def contact_model(datasets):
+    """Return the numbers of claim 15: the model is good for high e and fails for low e."""
+    used = [
+        reading.parameter(data, "restitution")
+        for stage in ("response", "optimum")
+        for data in reading.damped(datasets, stage).values()
+    ]
+    used = [value for value in used if value < 1]
+    if not used:
+        raise Missing("There is no dataset with inelastic contact")
+    branches, free = orbits.of_curve(datasets, INELASTIC)
+    given = reading.parameter(branches, "restitution")
+    return {
+        "realised": (orbits.quiet(branches, free).restitution / given - 1).abs().max(),
+        "high": max(map(_pull_free_error, used)),
+        "low": _pull_free_error(LOW),
+        "pulling": 2 * math.asin(damping_ratio(LOW)) / math.pi,
+        "duration": _duration(LOW),
+    }
+
+
+def _duration(restitution):
+    """Return the time in contact over the time for e = 1."""
+    return 1 / math.sqrt(1 - damping_ratio(restitution) ** 2)
+
+
+def _pull_free_error(restitution):
+    """Return the relative excess of the restitution over e if the wall cannot pull.
+
+    The loose mass then leaves the wall when the force, proportional to -y'', vanishes. With the
+    damping ratio z and damped frequency wd of the contact this is at wd t = pi - 2 asin(z), while
+    the penetration y is still positive.
+    """
+    damping = damping_ratio(restitution)
+    return math.exp(2 * math.asin(damping) * damping * _duration(restitution)) - 1

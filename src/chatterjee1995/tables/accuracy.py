@@ -9,10 +9,9 @@ is harmonic balance with one harmonic, (18) its rule for the clearance d0.
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import extract
 from chatterjee1995.methods.integrators import runs_of_accuracy
 from chatterjee1995.methods.labels import MODELS, method_in_words
-from chatterjee1995.tables import clearance, responses
+from chatterjee1995.reading import datasets as extract
 from impact_damper.data.datasets import flag, parameters_of
 
 # Text of a required accuracy for each quantity; `{:g}` takes the largest error allowed.
@@ -39,15 +38,6 @@ SHOWN = {
         "choice": "choice",
         "of max |Z1|": "error of max |Z1|",
         "contacts a period": "contacts a cycle",
-    },
-    "readings": {
-        "data": "data",
-        "quantity": "quantity",
-        "model": "model",
-        "by the model": "value by the model",
-        "by the motions": "value by the exact motions",
-        "or up to": "upper end, if only a range is known",
-        "relative error": "relative error",
     },
 }
 # Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
@@ -147,37 +137,6 @@ def _averages(data, of):
         row[f"{words}, standard error"] = float(of.average_error.sel(statistic=key))
         row[f"{words}, reference"] = float(data.reference_average.sel(statistic=key))
     return row
-
-
-def readings(datasets) -> pd.DataFrame:
-    """Return optimum clearances and edges of suppression bands, by models and by the exact motions.
-
-    A suppression band is the range of frequencies in which the damper works. The motions are
-    simulated on a grid of frequencies, so that they only bracket the lower edge of a band. The
-    error of a model is its distance from this bracket.
-    """
-    rows = []
-    for sweep in clearance.optimum(datasets).to_dict("records"):
-        true = sweep["optimum d0"]
-        found = {
-            "rule (18)": sweep["d0 of (18) at W"],
-            "full balance (7)": sweep["optimum d0 of (7)"],
-            "straight flight": sweep["rm W^2 d0 of straight flight"] / sweep["rm W^2 d0"] * true,
-        }
-        rows += [
-            _reading(sweep["sweep"], "optimum d0", model, value, true, true)
-            for model, value in found.items()
-        ]
-    for band in responses.bands(datasets).to_dict("records"):
-        if not {"lower edge, balance", "lower edge, motions"} <= band.keys():
-            continue
-        for edge in ("lower", "upper"):
-            least = band[f"{edge} edge, motions"]
-            most = band["lower edge at most"] if edge == "lower" else least
-            value = band[f"{edge} edge, balance"]
-            words = f"{edge} edge of the band"
-            rows.append(_reading(band["curve"], words, "full balance (7)", value, least, most))
-    return pd.DataFrame(rows).dropna(subset=["by the model", "by the motions"])
 
 
 def _reading(name, quantity, model, value, least, most):

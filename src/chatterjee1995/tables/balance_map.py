@@ -8,7 +8,7 @@ harmonic balance. Wp is the peak frequency of the oscillator without damper.
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import extract
+from chatterjee1995.reading import datasets as extract
 from chatterjee1995.stages.map_cells import NEAR
 from chatterjee1995.variables.balance_map import BALANCE_VERDICT
 from impact_damper.data.datasets import flag, parameters_of

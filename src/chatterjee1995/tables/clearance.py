@@ -7,7 +7,7 @@ paper: harmonic balance, and its rules for d0 at the frequency W and at the peak
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import extract
+from chatterjee1995.reading import datasets as extract
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import damper_of, flag, oscillator_of, parameters_of
 from impact_damper.theory.optimum_clearance import RULES, rule_ratios

@@ -12,7 +12,7 @@ the walls are corrected for the penetration at finite r1.
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import extract
+from chatterjee1995.reading import datasets as extract
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.variables import VARIABLES
 
@@ -28,17 +28,6 @@ SHOWN = {
         "close": "cells within 1 % of e",
         "fair": "cells within 1 % to 5 %",
         "off": "cells beyond 5 %",
-    },
-    "contact_motions": {
-        "case": "case",
-        "e": "restitution e",
-        "W": "forcing frequency Ω",
-        "motion": "motion",
-        "outcome": "outcome",
-        "max |Z1|": "displacement max |Z1|",
-        "change without pull": "change of max |Z1| without pull",
-        "least e": "least e realised",
-        "largest e": "largest e realised",
     },
     "rigid_limit": {
         "case": "case",
@@ -105,40 +94,6 @@ def _unloaded(data, pulls):
             "largest pull over push": float(data.unloaded_pull_peak),
         }
     return row
-
-
-def contact_motions(datasets) -> pd.DataFrame:
-    """Return the contacts of simulated motions, and max |Z1| with either exit rule."""
-    rows = []
-    for name, data in datasets.get("contact_model", {}).items():
-        for place in np.ndindex(*(data.sizes[dim] for dim in data.scene_outcome.dims)):
-            motion = data.isel(dict(zip(data.scene_outcome.dims, place, strict=True)))
-            size = float(motion.scene_displacement)
-            rows.append(
-                {"case": name}
-                | parameter_columns(data, "mass_ratio", "clearance")
-                | {
-                    "e": float(motion.used),
-                    "W": float(motion.frequency),
-                    "motion": str(motion["size"].values),
-                    "outcome": extract.meaning("scene_outcome", int(motion.scene_outcome)),
-                    "max |Z1|": size,
-                    "change without pull": float(motion.scene_without_pull) / size - 1,
-                    "without pull": extract.meaning(
-                        "scene_without_pull_status", int(motion.scene_without_pull_status)
-                    ),
-                    "contacts": int(motion.scene_contacts),
-                    "99 % of |load| below": float(motion.scene_load),
-                    "within 1 % of e": float(motion.scene_close),
-                    "within 5 % of e": float(motion.scene_fair),
-                    "least e": float(motion.scene_restitution_low),
-                    "largest e": float(motion.scene_restitution_high),
-                    "error of closed-form e": float(motion.scene_restitution_error),
-                    "error of closed-form duration": float(motion.scene_duration_error),
-                    "not released by closed form": int(motion.scene_unreleased),
-                }
-            )
-    return pd.DataFrame(rows)
 
 
 def rigid_limit(datasets) -> pd.DataFrame:

@@ -8,8 +8,8 @@ initial state.
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import extract
-from chatterjee1995.claims.claim import Missing
+from chatterjee1995.reading import datasets as extract
+from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.columns import SYMBOLS, parameter_columns
 from impact_damper.data.datasets import flag, is_settled
 

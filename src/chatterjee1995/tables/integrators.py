@@ -6,9 +6,9 @@ The contact frequency omega_c is the natural frequency of the two masses on the 
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import extract
 from chatterjee1995.methods.integrators import integrators
 from chatterjee1995.methods.labels import method_in_words
+from chatterjee1995.reading import datasets as extract
 
 # Columns of the Markdown tables with their heads; the CSV files have all columns.
 SHOWN = {

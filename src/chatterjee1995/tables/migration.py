@@ -9,7 +9,7 @@ damper until the free oscillator arrives at the small motion. A damped motion is
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import extract
+from chatterjee1995.reading import datasets as extract
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true

@@ -8,12 +8,12 @@ it. The life of chaos is the time until a chaotic motion settles, as transient c
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import exact_orbits, extract
-from chatterjee1995.claims.claim import Missing
-from chatterjee1995.claims.suppression import high_motions
+from chatterjee1995.reading import datasets as extract
+from chatterjee1995.reading import orbits as exact_orbits
+from chatterjee1995.reading.bands import high_motions
+from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import flag
-from impact_damper.data.sweeps import families
 from impact_damper.data.variables import OUTCOME
 
 DAMPER = ("mass_ratio", "clearance", "restitution")
@@ -65,17 +65,6 @@ SHOWN = {
         "mean life, periods": "mean life [cycles]",
         "at least": "lower end of its 95 % interval",
         "at most": "upper end of its 95 % interval",
-    },
-    "shares": {
-        "data": "data",
-        "motion": "motion",
-        "from": "from Ω or d0",
-        "to": "to",
-        "at": "largest share at Ω or d0",
-        "share": "share of starts there",
-        "at least": "lower end of its 95 % interval",
-        "at most": "upper end of its 95 % interval",
-        "not seen, at most": "bound on the share of a motion not seen",
     },
 }
 # Texts shown in Markdown for cells of the column `stage`.
@@ -200,38 +189,6 @@ def chaos(datasets) -> pd.DataFrame:
                     "at most": float(motion.mean_life_upper),
                 }
             )
-    return pd.DataFrame(rows)
-
-
-def shares(datasets) -> pd.DataFrame:
-    """Return the motions whose share of the starts is at least LISTED at some parameter value."""
-    rows = []
-    for stage in MATCHED:
-        for name, data in extract.damped(datasets, stage).items():
-            dimension = data.run_outcome.dims[0]
-            values, share = data[dimension].values, data.motion_starts.values / data.sizes["start"]
-            for motion in families(data):
-                row, column = np.nonzero(motion.places)
-                most = np.argmax(share[motion.places])
-                if share[row[most], column[most]] >= LISTED:
-                    rows.append(
-                        {"stage": stage, "data": name}
-                        | parameter_columns(data, "damping", "mass_ratio", "restitution")
-                        | {
-                            "motion": _in_words(motion),
-                            "over": dimension,
-                            "from": values[row[0]],
-                            "to": values[row[-1]],
-                            "values": len(row),
-                            "starts": motion.starts,
-                            "of starts at each": data.sizes["start"],
-                            "at": values[row[most]],
-                            "share": share[row[most], column[most]],
-                            "at least": data.share_lower.values[row[most], column[most]],
-                            "at most": data.share_upper.values[row[most], column[most]],
-                            "not seen, at most": float(data.missed_share),
-                        }
-                    )
     return pd.DataFrame(rows)
 
 

@@ -6,12 +6,11 @@ frequencies in which the damper works. A high or violent motion is at least half
 free resonance.
 """
 
-import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import exact_orbits, extract
-from chatterjee1995.claims.claim import Missing
-from chatterjee1995.claims.suppression import chaotic_high, high_motions, suppression_band
+from chatterjee1995.reading import datasets as extract
+from chatterjee1995.reading import orbits as exact_orbits
+from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.columns import parameter_columns
 
 DAMPER = ("mass_ratio", "clearance", "restitution")
@@ -19,17 +18,6 @@ DAMPER = ("mass_ratio", "clearance", "restitution")
 
 # Columns of the Markdown tables with their heads; the CSV files have all columns.
 SHOWN = {
-    "bands": {
-        "curve": "curve",
-        "h": "damping h",
-        "rm": "mass ratio rm",
-        "d0": "clearance d0",
-        "e": "restitution e",
-        "lower edge, balance": "lower edge Ω by harmonic balance",
-        "upper edge, balance": "upper edge Ω by harmonic balance",
-        "lower edge, motions": "lower edge Ω by the motions found",
-        "upper edge, motions": "upper edge Ω by the motions found",
-    },
     "subharmonic": {
         "data": "curve",
         "damper": "damper",
@@ -42,73 +30,6 @@ SHOWN = {
         "largest max |Z1|": "largest displacement max |Z1|",
     },
 }
-
-
-def bands(datasets) -> pd.DataFrame:
-    """Return the suppression band of each curve by harmonic balance and by the motions found."""
-    designs = extract.damped(datasets, "harmonic_balance")
-    responses = extract.damped(datasets, "response")
-    rows = []
-    for name in dict.fromkeys([*designs, *responses]):
-        row = {"curve": name} | parameter_columns(
-            designs.get(name, responses.get(name)), "damping", "linear_frequency", *DAMPER
-        )
-        if name in designs:
-            row |= _balance_band(designs[name])
-        if name in responses:
-            row |= _existing_band(datasets, name)
-        rows.append(row)
-    return pd.DataFrame(rows)
-
-
-def _balance_band(data):
-    """Return columns on the suppression band by harmonic balance."""
-    lower, upper = data.edge_frequency.values
-    lower_event, upper_event = (
-        extract.meaning("edge_event", value) for value in data.edge_event.values
-    )
-    return {
-        "lower edge, balance": float(lower),
-        "event at lower edge": lower_event,
-        "upper edge, balance": float(upper),
-        "event at upper edge": upper_event,
-        "width, balance": float(data.band_width),
-        "least reduction in band": float(data.edge_reduction.min()),
-        "no reduction above W": float(data.break_even_frequency),
-    }
-
-
-def _existing_band(datasets, name):
-    """Return columns on the band by the motions found, and on chaotic violent motions."""
-    response = datasets["response"][name]
-    try:
-        free = exact_orbits.free_of(datasets, response)
-        band = suppression_band(datasets, name)
-    except Missing:
-        return {}
-    frequency, step = response.frequency.values, extract.spacing(response)
-    motions = extract.touching(response).sum("motion")
-    inside = frequency[(frequency > band.lower + band.resolution) & (frequency <= band.upper)]
-    chaotic = chaotic_high(response, free).values
-    high = high_motions(response, free) & extract.is_outcome(response, "chaotic")
-    share = (
-        response.motion_starts.where(high, 0).sum("motion").values[chaotic]
-        / response.sizes["start"]
-    )
-    return {
-        "lower edge, motions": band.lower,
-        "lower edge at most": band.lower + band.resolution,
-        "upper edge, motions": band.upper,
-        "width, motions": band.width,
-        "share of band with one motion": float((motions.sel(frequency=inside) == 1).mean())
-        if len(inside)
-        else np.nan,
-        "high chaos from W": frequency[chaotic].min() if chaotic.any() else np.nan,
-        "high chaos to W": frequency[chaotic].max() if chaotic.any() else np.nan,
-        "width of high chaos": chaotic.sum() * step,
-        "widest range of high chaos": extract.longest_run(chaotic) * step,
-        "share of starts in high chaos": np.mean(share) if chaotic.any() else np.nan,
-    }
 
 
 def subharmonic(datasets) -> pd.DataFrame:

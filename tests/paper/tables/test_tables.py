@@ -3,12 +3,11 @@
 import numpy as np
 import pandas as pd
 import pytest
-from helpers.made_up import matched_sweep, world
+from helpers.made_up import world
 from helpers.made_up_orbits import branch, branches
 
-from chatterjee1995.claims import extract
 from chatterjee1995.tables import branches as table_branches
-from chatterjee1995.tables import clearance, design, migration, motions, responses
+from chatterjee1995.tables import clearance, design, migration, responses
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.table_files import save_table
 
@@ -23,25 +22,6 @@ def test_harmonic_balance(data):
     assert len(table) == len(data["harmonic_balance"])
     assert table.loc["figure_05a", "rm Wp^2 d0"] == pytest.approx(1)
     assert table.loc["figure_03b", "d0 of (19)"] == pytest.approx(1 / (0.12 * 2.1**2))
-
-
-def test_bands(data):
-    table = responses.bands(data).set_index("curve")
-    assert set(table.index) == set(data["harmonic_balance"]) | set(data["response"])
-    row = table.loc["figure_05b"]
-    assert row["width, balance"] == pytest.approx(row["width, motions"])
-    assert row["event at lower edge"] == "other motion appears"
-    assert row["widest range of high chaos"] == pytest.approx(3 * 0.01)
-    assert row["share of band with one motion"] == 1
-    assert np.isnan(table.loc["figure_03a", "width, motions"])
-    assert np.isnan(table.loc["figure_10", "width, balance"])
-
-
-def test_no_band_is_read_off_without_the_resonance_branch(data):
-    damped = extract.damped(data, "branches")
-    table = responses.bands(data | {"branches": damped}).set_index("curve")
-    assert table.loc["figure_05b", "width, balance"] > 0
-    assert "width, motions" not in table
 
 
 def test_optimum(data):
@@ -133,15 +113,6 @@ def test_release_scan(data):
     assert set(table.index.get_level_values("released from")) == {"unsettled", "quiet"}
     shares = table[[name for name in table if name.startswith("to ")]]
     assert shares.sum(axis=1).to_list() == pytest.approx([1] * len(table))
-
-
-def test_shares_of_motions():
-    table = motions.shares({"response": {"figure_05a": matched_sweep()}})
-    assert list(table.motion) == ["chaotic", "period 1"]
-    assert list(table["share"]) == [1.0, 0.9] and list(table["at"]) == [2.0, 1.5]
-    assert list(table["at least"]) == [0.5, 0.45] and list(table["at most"]) == [1.0, 0.95]
-    assert list(table["starts"]) == [16, 14]
-    assert np.all(table["not seen, at most"] == 0.3)
 
 
 def test_files(tmp_path):

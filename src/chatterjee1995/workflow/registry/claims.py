@@ -10,12 +10,6 @@ STAGES = ()
 KINDS = ()
 TABLES = (
     Table(
-        "readings",
-        "chatterjee1995.tables.accuracy",
-        ("harmonic_balance", "branches", "response", "optimum"),
-        "Optimum clearances and edges of suppression bands by each model and by the exact motions.",
-    ),
-    Table(
         "claims",
         "chatterjee1995.claims.verdicts",
         (

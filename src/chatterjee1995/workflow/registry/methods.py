@@ -119,12 +119,6 @@ TABLES = (
         "rules for the end of a contact.",
     ),
     Table(
-        "contact_motions",
-        "chatterjee1995.tables.contact",
-        ("contact_model",),
-        "Contacts of simulated motions: load, restitution, and effect of the rule for their end.",
-    ),
-    Table(
         "rigid_limit",
         "chatterjee1995.tables.contact",
         ("rigid_limit",),

@@ -67,12 +67,6 @@ KINDS = (
 )
 TABLES = (
     Table(
-        "bands",
-        "chatterjee1995.tables.responses",
-        ("harmonic_balance", "branches", "response"),
-        "Suppression bands by harmonic balance and by the motions found.",
-    ),
-    Table(
         "outcomes",
         "chatterjee1995.tables.motions",
         ("response", "subharmonic", "optimum", "studies", "balance_map"),
@@ -86,14 +80,6 @@ TABLES = (
         "chatterjee1995.tables.motions",
         ("response",),
         "Quasi-periodic motions of the responses and their two frequencies, from rotation numbers.",
-    ),
-    Table(
-        "shares",
-        "chatterjee1995.tables.motions",
-        ("response", "optimum"),
-        "Motions to which at least 5 % of random starts lead at some Ω or d0: the largest share of "
-        "starts with its 95 % interval, and the bound on the share of a motion to which no start "
-        "led.",
     ),
     Table(
         "chaos",

@@ -1,35 +1,25 @@
-"""Numbers that the claims and the tables need from the branches of exact periodic orbits.
+"""Branches of exact periodic orbits, cut into pieces and evaluated at any frequency.
 
-A branch is a sequence of orbits along the forcing frequency W. It is cut into pieces, each from one
-orbit to the next. Within a piece all quantities are interpolated linearly, so that branches can be
-evaluated at any frequency. Free means without the damper. The free resonance branch consists of the
-large motions of period 1 without the damper; it ends at a fold, where it turns back in W. An orbit
-is high (violent) if its largest displacement exceeds half of that on this branch at the same W. A
-quiet orbit has period 1 and is not high. `branches` and `free` are datasets of the stage
-`branches`, with and without the damper. The one-third subharmonic is a motion of period 3.
-
-Z1 is the displacement of the primary mass.
+`branches` and `free` are datasets of the stage `branches` with and without the damper. An orbit is
+high (violent) if its max |Z1| exceeds half of that on the free resonance branch at the same W.
 """
 
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.claims import extract
-from chatterjee1995.claims.claim import Missing
+from chatterjee1995.reading import datasets as reading
+from chatterjee1995.reading.datasets import Missing
 from impact_damper.data.datasets import flag, oscillator_of
 
-# Half a period later the state of a symmetric orbit has changed its sign, up to this difference.
-SYMMETRIC = 1e-6
-# An orbit is high if its max |Z1| exceeds this share of max |Z1| on the free resonance branch.
-HALF = 0.5
-# Columns of `pieces` that are interpolated within a piece.
-INTERPOLATED = ("frequency", "size", "amplitude", "loose")
+SYMMETRIC = 1e-6  # largest `orbit_asymmetry` of a symmetric orbit
+HALF = 0.5  # share of the free resonance above which an orbit is high
+INTERPOLATED = ("frequency", "size", "amplitude", "loose")  # columns interpolated within a piece
 
 
 def free_of(datasets, data):
     """Return the branches without damper for the oscillator of `data`, or raise Missing."""
     wanted = oscillator_of(data)
-    for free in extract.free(datasets, "branches").values():
+    for free in reading.free(datasets, "branches").values():
         if oscillator_of(free) == wanted:
             return free
     raise Missing(f"There is no dataset of branches without a damper for h = {wanted.damping:g}")
@@ -37,7 +27,7 @@ def free_of(datasets, data):
 
 def of_curve(datasets, name):
     """Return the branches of dataset `name` and of its free oscillator, or raise Missing."""
-    branches = extract.get(datasets, "branches", name)
+    branches = reading.get(datasets, "branches", name)
     return branches, free_of(datasets, branches)
 
 
@@ -51,12 +41,9 @@ def pieces(branches) -> pd.DataFrame:
 
         - branch, period (in forcing cycles);
         - lower, upper: ends in W;
-        - frequency: W in the middle of the piece, like the next three columns; four more columns,
-          whose names end in `_change`, hold the differences between the ends of the piece;
-        - size: max |Z1|;
-        - amplitude: first harmonic of Z1 as a complex number; its phase is relative to Z2, the
-          displacement of the primary mass relative to the loose mass;
-        - loose: the same number with the phase relative to the displacement x2 of the loose mass;
+        - frequency, size (max |Z1|), amplitude, loose: W, max |Z1| and the complex first harmonic
+          of Z1 in the middle of the piece, with its phase relative to Z2 (amplitude) and to x2
+          (loose); the same names with `_change` hold the differences between the ends;
         - multiplier: largest modulus of a Floquet multiplier, averaged over both ends;
         - stable: whether `multiplier` is below 1;
         - fewest, contacts: least and largest number of contacts per period at the ends;
@@ -73,8 +60,7 @@ def pieces(branches) -> pd.DataFrame:
         "amplitude": size * np.exp(1j * branches.orbit_phase_relative.values),
         "loose": size * np.exp(1j * branches.orbit_phase_loose.values),
     }
-    modulus = np.hypot(branches.orbit_multiplier_real, branches.orbit_multiplier_imaginary)
-    multiplier = modulus.max("multiplier").values[ends].mean(axis=0)
+    multiplier = reading.largest_multiplier(branches)[ends].mean(axis=0)
     frequency, contacts = along["frequency"][ends], branches.orbit_contacts.values[ends]
     table = {
         "branch": number[first],
@@ -95,10 +81,7 @@ def pieces(branches) -> pd.DataFrame:
 
 
 def ranges(part):
-    """Return a list of the ascending ranges [lower, upper] of W that pieces cover.
-
-    `part` are rows of `pieces`. Ranges that touch are merged.
-    """
+    """Return the ranges [lower, upper] of W that pieces cover, merged and in ascending order."""
     merged = []
     for lower, upper in part[["lower", "upper"]].sort_values("lower").to_numpy():
         if merged and lower <= merged[-1][1]:
@@ -116,20 +99,21 @@ def covered(part, lower=-np.inf, upper=np.inf):
 def coexisting(part, column):
     """Return the total width in W in which pieces with different values in a column overlap."""
     values = [ranges(same) for _, same in part.groupby(column)]
+    if not values:
+        return 0.0
     ends = np.unique([end for each in values for end in np.ravel(each)])
     middle = (ends[1:] + ends[:-1]) / 2
     count = sum(
         np.any([(lower < middle) & (middle < upper) for lower, upper in each], axis=0)
         for each in values
     )
-    return float(np.sum(np.diff(ends)[count > 1])) if values else 0.0
+    return float(np.sum(np.diff(ends)[count > 1]))
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Interpolate pieces at frequencies.
+    """Return a row of `pieces` for each frequency and each piece that contains it.
 
-    The result has the columns of `pieces`, and a row for each frequency and each piece that
-    contains it. The columns INTERPOLATED hold the interpolated values.
+    The columns INTERPOLATED hold the values at the frequency.
     """
     frequency = np.atleast_1d(np.asarray(frequency, float))
     inside = frequency[:, None] >= part.lower.to_numpy()
@@ -145,10 +129,7 @@ def crossings(part, frequency) -> pd.DataFrame:
 
 
 def smallest(part, frequency) -> pd.DataFrame:
-    """Return the row of `crossings` with the smallest size at each frequency.
-
-    A frequency that lies in no piece has no row.
-    """
+    """Return the row of `crossings` with the smallest size at each frequency inside a piece."""
     rows = crossings(part, frequency)
     return rows.loc[rows.groupby("frequency")["size"].idxmin()]
 
@@ -159,13 +140,7 @@ def largest_sizes(part, frequency):
 
 
 def resonance_fold(free):
-    """Return frequency and size (max |Z1|) at the fold of the free resonance branch.
-
-    Raises
-    ------
-    Missing
-        If there is no fold.
-    """
+    """Return frequency and max |Z1| at the fold of the free resonance branch, or raise Missing."""
     fold = free.event_kind.values == flag("event_kind", "fold")
     fold &= free.branch_period.values[free.event_branch.values] == 1
     if not fold.any():
@@ -182,39 +157,42 @@ def resonance(free, frequency):
     return np.where(np.asarray(frequency) <= end, sizes, np.nan)
 
 
-def above_half(part, free):
-    """Return the mask of the pieces that are high (see HALF)."""
-    return part["size"] > HALF * resonance(free, part.frequency)
-
-
 def high(branches, free):
     """Return the pieces of stable orbits of any period that are high."""
     part = pieces(branches)
     part = part[part.stable]
-    return part[above_half(part, free)]
+    return part[part["size"] > HALF * resonance(free, part.frequency)]
 
 
 def quiet(branches, free):
-    """Return the pieces of stable quiet orbits."""
+    """Return the pieces of stable orbits of period 1 that are not high."""
     part = pieces(branches)
     part = part[part.stable & (part.period == 1)]
-    return part[~above_half(part, free)]
+    return part[~(part["size"] > HALF * resonance(free, part.frequency))]
+
+
+def smallest_quiet(branches, free, frequency):
+    """Return the smallest stable quiet orbit at each frequency as `crossings`, or raise Missing."""
+    orbits = smallest(quiet(branches, free), frequency)
+    missing = np.setdiff1d(frequency, orbits.frequency)
+    if len(missing):
+        raise Missing(f"There is no stable quiet orbit at W = {missing[0]:.4g}")
+    return orbits
 
 
 def counterparts(design, branches) -> pd.DataFrame:
-    """Pair solutions of harmonic balance (7) with the nearest exact orbit at the same frequency.
+    """Pair solutions of (7) with contact with the nearest exact orbit at the same frequency.
 
-    Only solutions with contact are paired (impacting solutions). Only orbits are considered that
-    one harmonic can approximate: symmetric orbits of period 1 with two contacts, stable or not.
-    `design` is a dataset of the stage `harmonic_balance`.
+    Only orbits that one harmonic can approximate are considered: symmetric orbits of period 1 with
+    two contacts, stable or not.
 
     Returns
     -------
     pandas.DataFrame
-        One row for each solution with such an orbit. Columns: `frequency`; `a`, the amplitude of
-        the solution; `balance_stable`, whether the solution is stable; `least`, whether |a| is the
-        smallest at this frequency; the columns of `crossings` for the orbit; `difference`, the
-        relative difference between `a` and the first harmonic of the orbit.
+        One row for each solution with such an orbit: the columns of `crossings` for the orbit; `a`,
+        the amplitude of the solution; `balance_stable`, whether the solution is stable; `least`,
+        whether |a| is the smallest at this frequency; `difference`, the relative difference between
+        `a` and the first harmonic of the orbit.
     """
     part = pieces(branches)
     alike = part[
@@ -239,7 +217,7 @@ def counterparts(design, branches) -> pd.DataFrame:
 
 
 def high_counterparts(design, branches, free):
-    """Return the rows of `counterparts` for stable solutions whose |a| is high (see HALF)."""
+    """Return the rows of `counterparts` for stable solutions whose |a| is high."""
     pairs = counterparts(design, branches)
     limit = HALF * resonance(free, pairs.frequency)
     return pairs[pairs.balance_stable & (np.abs(pairs.a) > limit)]
@@ -248,8 +226,7 @@ def high_counterparts(design, branches, free):
 def subharmonic(free):
     """Return the pieces of the one-third subharmonic without damper, or raise Missing.
 
-    If there are several branches of symmetric orbits of period 3, the one with the widest range of
-    W is taken.
+    Of several branches of symmetric orbits of period 3, the one with the widest range is taken.
     """
     part = pieces(free)
     third = part[(part.period == 3) & (part.asymmetry < SYMMETRIC)]

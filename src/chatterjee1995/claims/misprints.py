@@ -1,0 +1,135 @@
+"""Evidence for S1 to S6, misprints and omissions of the paper."""
+
+import math
+
+import numpy as np
+
+from chatterjee1995.reading import datasets as reading
+from chatterjee1995.reading import orbits
+from chatterjee1995.reading.bands import quiet_motions
+from chatterjee1995.reading.datasets import CAPTIONS, RULES, Missing
+from impact_damper.data.datasets import flag, oscillator_of
+from impact_damper.model.parameters import Oscillator
+from impact_damper.theory.design_rule import peak_frequency
+
+STATE = ("displacement", "velocity", "relative_displacement", "relative_velocity")
+PRINTED_STATE = 3  # components of the initial state that the paper prints
+PRINTED_PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}  # by damping h
+SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansion of S1 is tested
+
+
+def misrounding(printed, computed):
+    """Return the distance of a printed number to a computed one in half units of its last digit.
+
+    It is at most 1 if the computed number, rounded to the printed digits, is the printed one.
+    """
+    decimals = len(f"{printed:g}".partition(".")[2])
+    return abs(printed - computed) * 2 * 10**decimals
+
+
+def penetration(datasets):
+    """Return the numbers of S1: expansion of the contact force B for a small penetration b - d0."""
+    design = reading.get(datasets, "harmonic_balance", CAPTIONS[0])
+    mass_ratio, clearance, stiffness = reading.parameters(
+        design, "mass_ratio", "clearance", "contact_stiffness"
+    )
+    depth = (design.relative_amplitude - clearance).values
+    difference = design.relative_amplitude - design.amplitude
+    force = (mass_ratio / stiffness * design.frequency**2 * difference).values
+    impacting = (design.kind == flag("kind", "impacting")).values
+    keep = impacting & (depth > 0) & (depth < SHALLOW * clearance) & (force > 0)
+    if keep.sum() < 3:
+        raise Missing("There are no solutions of (7) with a small penetration")
+    depth, force = depth[keep], force[keep]
+    corrected = 8 * math.sqrt(2) / (3 * math.pi) * depth**1.5 / math.sqrt(clearance)
+    printed = 2 / math.pi * np.sqrt(2 * clearance * depth)
+    return {
+        "power": np.polyfit(np.log(depth), np.log(force), 1)[0],
+        "printed": np.median(printed / force),
+        "corrected": np.median(corrected / force),
+    }
+
+
+def captions(datasets):
+    """Return the numbers of S2: clearances in the captions of figure 3, compared with (19)."""
+    numbers = {}
+    for panel, *names in zip("ba", CAPTIONS[1:], RULES[1:], strict=True):
+        printed, ruled = (
+            reading.parameter(each, "clearance")
+            for each in reading.select(datasets, "harmonic_balance", names)
+        )
+        numbers |= {panel: misrounding(printed, ruled)}
+        numbers |= {f"printed_{panel}": printed, f"rule_{panel}": ruled}
+    return numbers
+
+
+def state_size(datasets):
+    """Return the numbers of S3: number of components of the initial state of figure 4."""
+    motion = reading.get(datasets, "motion", "figure_04")
+    _, free = orbits.of_curve(datasets, CAPTIONS[0])
+    response = reading.get(datasets, "response", CAPTIONS[0])
+    here = response.sel(frequency=[reading.parameter(motion, "frequency")], method="nearest")
+    return {
+        "components": float(sum(name in motion for name in STATE)),
+        "printed": float(PRINTED_STATE),
+        "quiet": float(reading.share_of_starts(here, quiet_motions(here, free)).item()),
+    }
+
+
+def design_point(datasets):
+    """Return the numbers of S4: d0 of figure 5 (a), compared with rm W^2 d0 = 1 at W = 2."""
+    design = reading.get(datasets, "harmonic_balance", CAPTIONS[0])
+    mass_ratio, clearance = reading.parameters(design, "mass_ratio", "clearance")
+    inertia = mass_ratio * PRINTED_PEAKS[0.215] ** 2
+    return {
+        "rounding": misrounding(clearance, 1 / inertia),
+        "printed": clearance,
+        "ruled": 1 / inertia,
+        "inertia": inertia * clearance,
+    }
+
+
+def peaks(datasets):
+    """Return the numbers of S5: peak frequencies by harmonic balance and by exact orbits."""
+    free = {oscillator_of(each): each for each in reading.free(datasets, "branches").values()}
+    found = []
+    for damping, printed in PRINTED_PEAKS.items():
+        if Oscillator(damping) not in free:
+            raise Missing(f"There is no dataset of branches without a damper for h = {damping:g}")
+        formula = peak_frequency(Oscillator(damping))
+        found.append(
+            {
+                "damping": damping,
+                "printed": printed,
+                "formula": formula,
+                "off": misrounding(printed, formula),
+                "end": orbits.resonance_fold(free[Oscillator(damping)])[0],
+            }
+        )
+    return {"peaks": found} | {
+        f"{name}_{1000 * each['damping']:.0f}": each[name]
+        for each in found
+        for name in ("off", "formula", "end")
+    }
+
+
+def unprinted(datasets):
+    """Return the numbers of S6: the parameters chosen where the paper prints none."""
+    design = reading.get(datasets, "harmonic_balance", "figure_08")
+    mass_ratio, clearance = reading.parameters(design, "mass_ratio", "clearance")
+    sweeps = [
+        sweep
+        for sweep in datasets.get("optimum", {}).values()
+        if reading.parameter(sweep, "restitution") < 1
+    ]
+    if not sweeps:
+        raise Missing("There is no inelastic sweep of the stage optimum")
+    return {
+        "clearance": misrounding(clearance, 1 / (mass_ratio * PRINTED_PEAKS[0.107] ** 2)),
+        "frequency": max(
+            misrounding(reading.parameter(sweep, "frequency"), peak_frequency(oscillator_of(sweep)))
+            for sweep in sweeps
+        ),
+        "inertia": mass_ratio * float(design.peak_frequency) ** 2 * clearance,
+        "chosen": clearance,
+    }

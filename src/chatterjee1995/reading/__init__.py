@@ -1,0 +1,1 @@
+"""Numbers that claims and tables read from datasets."""

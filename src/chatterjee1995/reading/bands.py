@@ -1,0 +1,69 @@
+"""The suppression band by the motions that exist: exact orbits and simulated motions."""
+
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from chatterjee1995.reading import datasets as reading
+from chatterjee1995.reading import orbits
+
+
+class Band(NamedTuple):
+    """Edges of a suppression band in W.
+
+    The lower edge lies between `lower` and `lower + resolution`. The resolution is 0 if a branch of
+    orbits ends the band, and one step of the simulations if a motion that did not settle ends it.
+    """
+
+    lower: float
+    upper: float
+    resolution: float
+
+    @property
+    def width(self):
+        """Largest width compatible with the data."""
+        return self.upper - self.lower
+
+    @property
+    def least_width(self):
+        """Smallest width compatible with the data."""
+        return self.width - self.resolution
+
+
+def high_motions(response, free):
+    """Return the mask of the violent motions in a response; `free` are the branches without damper.
+
+    Above the end of the free resonance branch no motion is violent.
+    """
+    frequency = response.frequency
+    size = xr.DataArray(orbits.resonance(free, frequency), {"frequency": frequency})
+    return reading.touching(response) & (response.maximum_displacement > orbits.HALF * size)
+
+
+def quiet_motions(response, free):
+    """Return the mask of the settled motions of period 1 that touch the walls and are not violent."""
+    settled = reading.touching(response) & reading.is_outcome(response, "settled")
+    return settled & (response.period == 1) & ~high_motions(response, free)
+
+
+def suppression_band(datasets, name):
+    """Return the `Band` of a curve without a violent motion, up to the end of the free resonance.
+
+    Its lower edge is the upper end of the branches of stable violent orbits, or the last frequency
+    of the response with a violent motion that did not settle, whichever is higher.
+    """
+    branches, free = orbits.of_curve(datasets, name)
+    response = reading.get(datasets, "response", name)
+    upper, _ = orbits.resonance_fold(free)
+    ends = [top for _, top in orbits.ranges(orbits.high(branches, free))]
+    unsettled = high_motions(response, free) & reading.is_outcome(
+        response, "quasi_periodic", "chaotic", "unresolved"
+    )
+    last = response.frequency.values[unsettled.any("motion").values]
+    if not ends and not len(last):
+        return Band(np.nan, upper, np.nan)
+    lower = min(max([*ends, *last]), upper)
+    following = response.frequency.values[response.frequency.values > max(last, default=np.inf)]
+    resolution = max(min([*following[:1], upper]) - lower, 0.0) if len(last) else 0.0
+    return Band(lower, upper, resolution)

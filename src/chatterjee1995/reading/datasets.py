@@ -1,0 +1,146 @@
+"""Choose datasets, and read parameters, flags and solutions of harmonic balance from them.
+
+`datasets` maps stages to datasets, and these are keyed by their entry of the configuration. `design`
+is a dataset of the stage `harmonic_balance`, `response` one of the stage `response`.
+"""
+
+import numpy as np
+
+from impact_damper.data.datasets import flag, has_damper, parameters_of
+from impact_damper.data.variables import VARIABLES
+
+# Entries of the configuration. CAPTIONS: dampers with d0 of the captions of figure 3, by increasing
+# omega_l. RULES: the same with d0 by rule (19). BY_MASS: dampers of figure 5, by increasing rm.
+# ELASTIC: all simulated responses with elastic contact. INELASTIC: BY_MASS[1] with e < 1.
+CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")
+RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")
+BY_MASS = ("figure_05a", "figure_05b", "figure_05c")
+ELASTIC = (*BY_MASS, "figure_08")
+INELASTIC = "figure_10"
+
+
+class Missing(LookupError):
+    """A dataset does not exist, or lacks a number that is needed."""
+
+
+def get(datasets, stage, name):
+    """Return the dataset of a stage by its name, or raise Missing."""
+    try:
+        return datasets[stage][name]
+    except KeyError:
+        raise Missing(f"There is no dataset {stage}/{name}") from None
+
+
+def select(datasets, stage, names):
+    """Return several datasets of a stage by their names, or raise Missing."""
+    return [get(datasets, stage, name) for name in names]
+
+
+def damped(datasets, stage) -> dict:
+    """Return the datasets of a stage that have a damper, keyed by name."""
+    return {name: data for name, data in datasets.get(stage, {}).items() if has_damper(data)}
+
+
+def free(datasets, stage) -> dict:
+    """Return the datasets of a stage without a damper, keyed by name."""
+    return {name: data for name, data in datasets.get(stage, {}).items() if not has_damper(data)}
+
+
+def parameter(data, name):
+    """Return the value of a parameter from which a dataset was computed."""
+    return parameters_of(data)[name]
+
+
+def parameters(data, *names):
+    """Return the values of several parameters from which a dataset was computed."""
+    return tuple(parameters_of(data)[name] for name in names)
+
+
+def meaning(name, value):
+    """Return the meaning of a value of the flag `name` in words: "settled" for an outcome of 1."""
+    flags = VARIABLES[name].flags
+    return next(key for key, known in flags.items() if known == value).replace("_", " ")
+
+
+def is_outcome(data, *meanings):
+    """Return the mask of the motions with one of the given outcomes."""
+    return data.outcome.isin([flag("outcome", meaning) for meaning in meanings])
+
+
+def touching(response):
+    """Return the mask of the motions, settled or not, in which the loose mass touches the walls."""
+    steady = is_outcome(response, "settled", "quasi_periodic", "chaotic", "unresolved")
+    return steady & (response.contacts > 0)
+
+
+def share_of_starts(response, motions):
+    """Return the share of the random starts at each frequency that lead to motions in a mask."""
+    total = response.motion_starts.sum("motion")
+    led = response.motion_starts.where(motions, 0).sum("motion")
+    return (led / total.where(total > 0)).fillna(0)
+
+
+def within(data, lower, upper):
+    """Return the part of a dataset with frequencies from lower to upper; raise Missing if empty."""
+    part = data.sel(frequency=slice(lower, upper))
+    if part.sizes["frequency"] == 0:
+        raise Missing(f"There is no frequency from {lower:.4g} to {upper:.4g}")
+    return part
+
+
+def crossing(x, y, level):
+    """Return the first x at which y crosses a level, interpolated; NaN without a crossing."""
+    side = np.sign(np.asarray(y) - level)
+    changes = np.flatnonzero(side[:-1] * side[1:] < 0)
+    if len(changes) == 0:
+        return np.nan
+    k = changes[0]
+    return float(x[k] + (level - y[k]) * (x[k + 1] - x[k]) / (y[k + 1] - y[k]))
+
+
+def band_edges(design):
+    """Return the edges of the suppression band by harmonic balance, or raise Missing.
+
+    Between them (7) has only one stable solution with contact, the quiet one.
+    """
+    lower, upper = design.edge_frequency.values
+    if not upper > lower:
+        raise Missing("There is no suppression band by harmonic balance")
+    return lower, upper
+
+
+def stable_impacting(design):
+    """Return the signed amplitudes a of the stable solutions of (7); NaN for other solutions."""
+    stable = design.stability == flag("stability", "stable")
+    return design.amplitude.where(stable & (design.kind == flag("kind", "impacting")))
+
+
+def quiet_balance(design):
+    """Return the signed amplitude a of the smallest stable solution of (7) at each frequency."""
+    amplitude = stable_impacting(design)
+    return amplitude.isel(solution=np.abs(amplitude).fillna(np.inf).argmin("solution"))
+
+
+def design_point(orbit):
+    """Return the exact quiet orbit at Wp of a dataset of the stage `design_orbit`, or raise Missing.
+
+    The dataset follows the orbit from a larger damping down to the damping of the oscillator.
+    """
+    if int(orbit.design_orbit_status) != flag("design_orbit_status", "found"):
+        raise Missing("There is no quiet orbit at a design point: the continuation ended before")
+    return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))
+
+
+def largest_multiplier(orbit):
+    """Return the largest modulus of the Floquet multipliers of each orbit."""
+    modulus = np.hypot(orbit.orbit_multiplier_real, orbit.orbit_multiplier_imaginary)
+    return modulus.max("multiplier").values
+
+
+def stable_from(orbit):
+    """Return the damping h above which the orbit of a dataset of `design_orbit` is stable."""
+    value, events = orbit.followed_value.values, orbit.event_value.values
+    last = np.max(value[largest_multiplier(orbit) >= 1], initial=value.min())
+    if last == value.min():
+        return float(last)
+    return float(np.min(events[events >= last], initial=value.max()))
