@@ -30,6 +30,7 @@ FLOORS = (
     "chatterjee1995",
     "chatterjee1995.methods",
     "chatterjee1995.stages",
+    "chatterjee1995.reading",
     "chatterjee1995.claims",
     "chatterjee1995.tables",
     "chatterjee1995.figures",

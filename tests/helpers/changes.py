@@ -1,12 +1,11 @@
 """Changes of the invented datasets of `made_up.world`, each of which makes a claim fail.
 
-Most functions return a change: a function that takes the datasets, keyed by stage and name, and
-changes them. `power` and `fourth` are changes themselves.
+The functions return a change: a function that takes the datasets, keyed by stage and name, and
+changes them. `power` is a change itself.
 """
 
 import json
 
-from chatterjee1995.claims import extract
 from impact_damper.data.datasets import parameters_of
 
 
@@ -42,14 +41,6 @@ def each(names, change):
 
     return changes
 
-
-def copy(stage, name, source):
-    """Return the change that replaces the dataset `name` by the dataset `source`."""
-
-    def change(data):
-        data[stage][name] = data[stage][source]
-
-    return change
 
 
 def put(stage, name, dataset):
@@ -94,38 +85,16 @@ def share(name, kind, subharmonic):
     return change
 
 
-def early(subharmonic):
-    """Return the change that sets where 10 releases from an unsettled motion lead.
-
-    `subharmonic` of them lead to the subharmonic, the others to the non-resonance motion.
-    """
-
-    def change(data):
-        case = data["migration"]["figure_16"].copy(deep=True)
-        case.destination_count.loc[{"damped_motion": "unsettled"}] = 0
-        for motion, count in (("subharmonic", subharmonic), ("non_resonance", 10 - subharmonic)):
-            case.destination_count.loc[{"damped_motion": "unsettled", "free_motion": motion}] = (
-                count
-            )
-        data["migration"]["figure_16"] = case
-
-    return change
-
 
 def power(data):
     """Set the penetration to the value by the expansion of equation (6e) as printed."""
     old = data["harmonic_balance"]["figure_05a"]
-    clearance = extract.parameter(old, "clearance")
+    clearance = parameters_of(old)["clearance"]
     depth = old.relative_amplitude - clearance
     data["harmonic_balance"]["figure_05a"] = old.assign(
         relative_amplitude=clearance + depth ** (1 / 3) / 100
     )
 
-
-def fourth(data):
-    """Add the fourth component to the state of a motion, of which the paper gives three."""
-    old = data["motion"]["figure_04"]
-    data["motion"]["figure_04"] = old.assign(relative_velocity=old.velocity)
 
 
 def renamed(stage, name, **values):

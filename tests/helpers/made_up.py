@@ -5,9 +5,11 @@ the name of a stage return a dataset of this stage. Wp is the peak frequency wit
 With damper there are a small motion (quiet), and below the suppression band a large one (high).
 """
 
+import json
 from functools import cache
 
 import numpy as np
+import xarray as xr
 
 from helpers.made_up_orbits import branch, branches
 from impact_damper.data.datasets import dataset, flag
@@ -387,6 +389,31 @@ def release_scan(frequency, subharmonic_share):
         "free_motion": destinations,
     }
     return dataset(data, coordinates, parameters(**damper(0.12, 2.0)), "made up")
+
+
+def policies(case, frequency):
+    """Return releases by state, hold and phase, with shares of success 0.1, 0.2 and 0.3."""
+    shares = np.array([0.1, 0.2, 0.3])[:, None] + [0, -0.05, 0.05]
+    dims = ("case", "frequency", "policy", "bound")
+    given = json.loads(case.attrs["parameters"])
+    return xr.Dataset(
+        {
+            "policy_success": (dims, shares[None, None]),
+            "policy_cycles": ((*dims[:3], "quantile", "bound"), 100 * shares[None, None, :, None]),
+            "realised_share": (("case", "frequency", "bound"), np.full((1, 1, 3), 0.7)),
+        }
+        | {
+            f"case_{name}": ("case", [given[name]])
+            for name in ("mass_ratio", "clearance", "restitution")
+        },
+        {
+            "policy": ["state", "hold", "phase"],
+            "frequency": [frequency],
+            "quantile": [0.5],
+            "bound": ["share", "lower", "upper"],
+        },
+        case.attrs,
+    )
 
 
 # Linear frequency by number of the figure.

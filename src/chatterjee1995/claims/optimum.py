@@ -43,7 +43,7 @@ def excess(datasets):
 
 
 def _sweeps(datasets, *keys, **fixed):
-    """Return clearance sweeps in groups with equal values of the parameters `keys`, or raise Missing.
+    """Return clearance sweeps grouped by the values of the parameters `keys`, or raise Missing.
 
     Only sweeps with the parameter values `fixed` are taken, and only groups of two or more sweeps.
     """
@@ -70,7 +70,7 @@ def _rise(sweep):
 
 
 def restitution(datasets):
-    """Return the numbers of claim 11: lower e widens the band, and lowers and flattens the optimum."""
+    """Return the numbers of claim 11: lower e widens the band and lowers the optimum d0."""
     names = (reading.BY_MASS[1], reading.INELASTIC)
     bands = [suppression_band(datasets, name) for name in names]
     design = reading.get(datasets, "harmonic_balance", reading.BY_MASS[1])

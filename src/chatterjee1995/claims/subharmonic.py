@@ -52,7 +52,7 @@ def _remaining(datasets, name) -> Remaining:
 
 
 def reappearance(datasets):
-    """Return the numbers of claim 10: light dampers remove the subharmonic, a heavy one does not."""
+    """Return the numbers of claim 10: light dampers remove the subharmonic, heavy ones do not."""
     light = [_remaining(datasets, name) for name in LIGHT]
     heavy, low = _remaining(datasets, HEAVY), _remaining(datasets, LOW_DAMPING)
     narrow = max(light, key=lambda each: np.nan_to_num(each.narrow_ratio))

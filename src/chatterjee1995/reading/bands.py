@@ -42,7 +42,7 @@ def high_motions(response, free):
 
 
 def quiet_motions(response, free):
-    """Return the mask of the settled motions of period 1 that touch the walls and are not violent."""
+    """Return the mask of the settled motions of period 1 with contact that are not violent."""
     settled = reading.touching(response) & reading.is_outcome(response, "settled")
     return settled & (response.period == 1) & ~high_motions(response, free)
 

@@ -1,7 +1,7 @@
 """Choose datasets, and read parameters, flags and solutions of harmonic balance from them.
 
-`datasets` maps stages to datasets, and these are keyed by their entry of the configuration. `design`
-is a dataset of the stage `harmonic_balance`, `response` one of the stage `response`.
+`datasets` maps stages to datasets, keyed by their entry of the configuration. `design` is a dataset
+of the stage `harmonic_balance`, `response` one of the stage `response`.
 """
 
 import numpy as np
@@ -122,7 +122,7 @@ def quiet_balance(design):
 
 
 def design_point(orbit):
-    """Return the exact quiet orbit at Wp of a dataset of the stage `design_orbit`, or raise Missing.
+    """Return the exact quiet orbit at Wp of a dataset of `design_orbit`, or raise Missing.
 
     The dataset follows the orbit from a larger damping down to the damping of the oscillator.
     """

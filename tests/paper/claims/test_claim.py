@@ -1,0 +1,137 @@
+"""Texts and bounds of the claims, the rules of verdicts, and the page."""
+
+import math
+import re
+
+import pytest
+from helpers import configurations
+from helpers.made_up import world
+
+from chatterjee1995.claims.claim import (
+    DIFFERENT,
+    NOT_DECIDABLE,
+    NOT_REPRODUCED,
+    REPRODUCED,
+    Bound,
+    Claim,
+)
+from chatterjee1995.claims.misprints import misrounding
+from chatterjee1995.claims.verdicts import CLAIMS, EVIDENCE, claims, document, title, typeset
+
+each_claim = pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.number)
+
+
+@pytest.mark.parametrize(
+    ("text", "bound", "words"),
+    [
+        ("size <= 0.05", ("size", -math.inf, 0.05), "at most 0.05"),
+        ("1 <= stable", ("stable", 1, math.inf), "at least 1"),
+        ("0.95 <= turn <= 1.05", ("turn", 0.95, 1.05), "from 0.95 to 1.05"),
+    ],
+)
+def test_a_bound_is_read_and_worded(text, bound, words):
+    assert Bound.read(text) == bound and str(Bound.read(text)) == words
+    assert Bound.read(text).holds(bound[1] if math.isfinite(bound[1]) else bound[2])
+    assert not Bound.read(text).holds(math.nan)
+
+
+def made_up(sharp, full, note=0.0):
+    """Return a claim with three numbers of given values."""
+    return Claim(
+        "1",
+        lambda datasets: {"sharp": sharp, "full": full, "note": note},
+        claim="",
+        source="",
+        reading="",
+        finding="The number is\n{{ sharp|number }}, {{ full|part }}.",
+        numbers={"sharp": "the sharp number", "full": "the full number", "note": "the note"},
+        required=["sharp <= 1"],
+        full_agreement=["0 <= full <= 2"],
+    )
+
+
+@pytest.mark.parametrize(
+    ("values", "verdict"),
+    [
+        ((1.0, 2.0, math.nan), REPRODUCED),
+        ((1.0, 2.1), DIFFERENT),
+        ((1.1, 1.0), NOT_REPRODUCED),
+        ((1.1, math.nan), NOT_REPRODUCED),
+        ((math.nan, 1.0), NOT_DECIDABLE),
+        ((1.0, math.nan), NOT_DECIDABLE),
+    ],
+)
+def test_verdict(values, verdict):
+    assert made_up(*values).judge({})["verdict"] == verdict
+
+
+def test_words():
+    row = made_up(0.123456, 0.5, math.nan).judge({})
+    assert row["criterion"] == (
+        "Required: the sharp number, at most 1. For full agreement: the full number, from 0 to 2."
+    )
+    assert row["evidence"] == "the sharp number: 0.1235; the full number: 0.5; the note: none"
+    assert row["finding"] == "The number is 0.123, 50 %."
+    assert made_up(1.0, 0.0).judge({})["finding"] == "The number is 1, none."
+    row = made_up(1.0, math.nan).judge({})
+    assert row["finding"] == "The data do not determine: the full number."
+
+
+def test_every_claim_misprint_and_gap_is_there_in_order():
+    numbers = [str(k) for k in range(1, 20)] + [f"S{k}" for k in range(1, 7)]
+    assert [claim.number for claim in CLAIMS] == numbers == list(EVIDENCE)
+    figures = configurations.read()["figures"]
+    assert {name for claim in CLAIMS for name in claim.figures} <= figures.keys()
+
+
+@each_claim
+def test_texts_name_numbers_that_the_evidence_has(claim):
+    """A number beyond its bounds changes the verdict and the sentences of the finding."""
+    values = claim.evidence(world())
+    assert claim.numbers.keys() <= values.keys()
+    assert {bound.name for bound, _ in claim.bounds} <= claim.numbers.keys()
+    inside = values | {
+        bound.name: min(max(values[bound.name], bound.least), bound.most)
+        for bound, _ in claim.bounds
+    }
+    usual = claim.sentences(inside)
+    assert usual.endswith(".") and set(re.findall(r"[A-Za-z]+_\w+", usual)) <= {"omega_l"}
+    for bound, _ in claim.bounds:
+        if f"peak.{bound.name.partition('_')[0]}" in claim.finding:
+            continue  # S5 tells these numbers from a list
+        beyond = bound.least - 0.5 if math.isfinite(bound.least) else bound.most + 0.5
+        changed = inside | {bound.name: beyond}
+        assert claim.verdict(changed) not in (REPRODUCED, NOT_DECIDABLE)
+        assert claim.sentences(changed) != usual, bound.name
+
+
+@each_claim
+def test_missing_data_leave_it_open(claim):
+    row = claim.judge({})
+    assert row["verdict"] == NOT_DECIDABLE and row["finding"].startswith("There ")
+
+
+def test_page_has_verdict_sentence_figure_and_folded_numbers_of_each_claim():
+    table = claims(world())
+    page = document(table)
+    for row in table.map(typeset).to_dict("records"):
+        _, _, section = page.partition(f"\n## {title(row['number'])}\n")
+        section = section.partition("\n## ")[0]
+        top, _, folded = section.partition("<details>")
+        assert row["claim"] in top and row["finding"] in top and row["interpretation"] in top
+        assert row["verdict"].capitalize() in top
+        assert all(f"figures/{name}.png" in top for name in row["figures"].split())
+        assert row["criterion"] in folded and row["evidence"].split("; ")[-1] in folded
+    assert page.count("<details>") == len(table)
+    assert page.count("*Figure 6*") == page.count("figures/figure_06.png") > 0
+    few = document(table, drawn=["figure_06"])
+    assert set(re.findall(r"figures/(\w+)\.png", few)) == {"figure_06"}
+    assert typeset("rm W^2 d0 = pi^2/8, omega_l >= sqrt(2)") == "rm W² d0 = π²/8, ωl ≥ √(2)"
+
+
+@pytest.mark.parametrize(
+    ("printed", "computed", "right"),
+    [(2.0, 1.501, True), (2.0, 2.501, False), (2.37, 2.3651, True), (2.37, 2.3649, False)],
+)
+def test_a_right_rounding_is_within_half_a_unit_of_the_last_digit(printed, computed, right):
+    assert (misrounding(printed, computed) <= 1) == right

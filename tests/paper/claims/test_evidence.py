@@ -1,0 +1,293 @@
+"""Verdicts follow from the data: changes of invented data flip them at the borders of the claims.
+
+In the invented world all claims are reproduced, except claim 15 and S5, which closed forms decide.
+"""
+
+import numpy as np
+import pandas as pd
+import pytest
+from helpers.changes import assign, each, power, put, renamed, scale, share, unstable
+from helpers.made_up import (
+    LINEAR,
+    PEAKS,
+    damped_branches,
+    damper,
+    parameters,
+    policies,
+    quiet_size,
+    release_scan,
+    subharmonic,
+    sweep,
+    world,
+)
+from helpers.made_up_orbits import branch, branches
+
+from chatterjee1995.claims.bands import largest_difference
+from chatterjee1995.claims.claim import DIFFERENT, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from chatterjee1995.claims.verdicts import CLAIMS, claims
+from chatterjee1995.reading import orbits
+from chatterjee1995.reading.bands import Band
+from chatterjee1995.reading.datasets import ELASTIC
+from impact_damper.data.datasets import flag
+
+BY_NUMBER = {claim.number: claim for claim in CLAIMS}
+PEAK = PEAKS[0.215]
+
+
+@pytest.fixture
+def data():
+    return world()
+
+
+def test_all_are_reproduced_in_a_world_made_so():
+    table = claims(world()).set_index("number")
+    expected = dict.fromkeys(BY_NUMBER, REPRODUCED) | {"15": DIFFERENT}
+    expected |= {f"S{k}": "the print is consistent" for k in range(1, 4)}
+    expected["S4"] = "the printed value is a right rounding"
+    expected["S5"] = "a printed value is wrong"
+    expected["S6"] = "the values chosen are consistent"
+    assert table.verdict.to_dict() == expected
+
+
+def unstable_balance(ratio):
+    """Return the change that makes (7) unstable near the frequency `ratio` Wp."""
+
+    def change(data):
+        old = data["harmonic_balance"]["figure_03b"]
+        kept = np.abs(old.frequency / LINEAR[1.0] - ratio) > 0.01
+        stability = old.stability.where(kept, flag("stability", "unstable"))
+        data["harmonic_balance"]["figure_03b"] = old.assign(stability=stability)
+
+    return change
+
+
+def orbits_times(factor, names=ELASTIC, variable="orbit_displacement"):
+    """Return the change that multiplies a variable of exact orbits by a factor."""
+    return each(names, lambda name: scale("branches", name, **{variable: factor}))
+
+
+def optima_times(factor):
+    """Return the change of the optimum by (7); the invented optimum is 5 % above it."""
+    return each(world()["optimum"], lambda name: scale("optimum", name, analytical_optimum=factor))
+
+
+def copied(name, source):
+    """Return the change that gives a curve the branches of another one."""
+    return put("branches", name, world()["branches"][source])
+
+
+FEW = each(ELASTIC, lambda name: scale("response", name, contacts=0.5))
+WIDE = each(ELASTIC, lambda name: scale("harmonic_balance", name, edge_frequency=[0.2, 1]))
+RISE = scale("optimum", "0.215_0.12_1.0", quiet_displacement=1.5, optimum_displacement=1.5)
+THIRD = put("branches", "figure_08", damped_branches("figure_08", 0.107, third=0.8))
+# Number of a claim, a change of the data, and the verdict with it.
+CHANGES = [
+    ("1", scale("harmonic_balance", "figure_03a_rule", quiet_amplitude=1000), NOT_REPRODUCED),
+    ("2", scale("harmonic_balance", "figure_05a", rigid_amplitude=1.1), NOT_REPRODUCED),
+    ("3", unstable_balance(1.12), REPRODUCED),
+    ("3", unstable_balance(1.08), NOT_REPRODUCED),
+    ("3", unstable("figure_05a", 1.11, 1.2), REPRODUCED),
+    ("3", unstable("figure_05a", 1.08, 1.2), DIFFERENT),
+    ("3", unstable("figure_05a", 0.8, 0.85), DIFFERENT),
+    ("4", scale("harmonic_balance", "figure_03b", band_width=0.85), REPRODUCED),
+    ("4", scale("harmonic_balance", "figure_03b", band_width=0.78), NOT_REPRODUCED),
+    ("4", assign("design_orbit", "figure_03b", orbit_multiplier_real=1.01), DIFFERENT),
+    ("4", scale("harmonic_balance", "figure_03b", reduction=0.89), NOT_REPRODUCED),
+    ("4", scale("design_orbit", "figure_03b", orbit_displacement=6.0), DIFFERENT),
+    ("5", assign("branches", "figure_05b", orbit_contacts=3.0), NOT_REPRODUCED),
+    ("6", FEW, NOT_REPRODUCED),
+    ("6", assign("response", "figure_05b", outcome=flag("outcome", "chaotic")), DIFFERENT),
+    ("6", orbits_times(0.92, variable="orbit_amplitude"), REPRODUCED),
+    ("6", orbits_times(0.9, variable="orbit_amplitude"), NOT_REPRODUCED),
+    ("7", scale("branches", "figure_05a", orbit_phase_relative=0.5), NOT_REPRODUCED),
+    ("8", scale("collisions", "figure_05a", colliding=0.995), DIFFERENT),
+    ("8", scale("collisions", "figure_05a", colliding=0.5), NOT_REPRODUCED),
+    ("9", scale("optimum", "0.215_0.12_1.0", optimum_clearance=0.9), NOT_REPRODUCED),
+    ("9", RISE, DIFFERENT),
+    ("9", optima_times(0.87), DIFFERENT),
+    ("9", optima_times(1.06), NOT_REPRODUCED),
+    ("10", copied("figure_05b", "figure_05c"), NOT_REPRODUCED),
+    ("11", copied("figure_10", "figure_05c"), NOT_REPRODUCED),
+    ("11", scale("optimum", "0.215_0.12_0.75", quiet_displacement=1.5), DIFFERENT),
+    ("12", share("figure_13", "quiet", 0.001), NOT_REPRODUCED),
+    ("12", share("figure_13", "unsettled", 0.5), REPRODUCED),
+    ("13", share("figure_15", "quiet", 0.0), NOT_REPRODUCED),
+    ("14", scale("migration", "figure_13", within_share=0.4), DIFFERENT),
+    ("15", renamed("response", "figure_10", restitution=0.2), NOT_REPRODUCED),
+    ("16", orbits_times(1.2), REPRODUCED),
+    ("16", orbits_times(1.3, ["figure_08"]), DIFFERENT),
+    ("16", orbits_times(0.75), DIFFERENT),
+    ("16", WIDE, NOT_REPRODUCED),
+    ("17", scale("optimum", "0.215_0.18_1.0", quiet_displacement=1.08), DIFFERENT),
+    ("17", scale("branches", "figure_05c", orbit_displacement=10), NOT_REPRODUCED),
+    ("18", THIRD, DIFFERENT),
+    ("19", scale("migration", "figure_16", reached_share=0.9), DIFFERENT),
+    ("S1", power, NOT_REPRODUCED),
+    ("S2", renamed("harmonic_balance", "figure_03a", clearance=1.58), REPRODUCED),
+    ("S2", renamed("harmonic_balance", "figure_03a", clearance=1.57), NOT_REPRODUCED),
+    ("S4", renamed("harmonic_balance", "figure_05a", clearance=2.1), REPRODUCED),
+    ("S4", renamed("harmonic_balance", "figure_05a", clearance=2.2), NOT_REPRODUCED),
+    ("S6", renamed("harmonic_balance", "figure_08", clearance=1.07), NOT_REPRODUCED),
+    ("S6", renamed("optimum", "0.215_0.12_0.75", frequency=1.0), NOT_REPRODUCED),
+]
+
+
+@pytest.mark.parametrize(("number", "change", "verdict"), CHANGES)
+def test_verdict_changes_at_the_border(number, change, verdict, data):
+    change(data)
+    row = BY_NUMBER[number].judge(data)
+    assert row["verdict"] == BY_NUMBER[number].verdicts.get(verdict, verdict), row["evidence"]
+
+
+def test_a_fourth_component_of_the_state_is_counted(data):
+    motion = data["motion"]["figure_04"]
+    data["motion"]["figure_04"] = motion.assign(relative_velocity=motion.velocity)
+    assert BY_NUMBER["S3"].judge(data)["verdict"] == "the print is incomplete"
+
+
+def test_peaks_of_exact_orbits_are_read_from_their_folds(data):
+    scale("branches", "free_h150", event_value=1.02)(data)
+    assert BY_NUMBER["S5"].evidence(data)["end_150"] == pytest.approx(1.02 * PEAKS[0.15])
+
+
+def test_the_width_that_agrees_least_counts():
+    band = Band(1.8, 2.0, 0.05)
+    assert largest_difference(0.2, band) == pytest.approx(1 / 3)
+    assert largest_difference(0.15, band) == pytest.approx(1 / 4)
+
+
+def damped(*parts, mass_ratio):
+    """Return branches with a damper: quiet orbits at all frequencies, and `parts`."""
+    frequency = np.linspace(0.5, 1.5, 201) * PEAK
+    size, phase = quiet_size(frequency, PEAK, mass_ratio), np.where(frequency < PEAK, np.pi, 0.0)
+    made = parameters(**damper(mass_ratio, PEAK))
+    return branches(branch(frequency, size, phase=phase), *parts, parameters=made)
+
+
+def test_width_in_which_different_values_coexist():
+    columns = {"lower": [1.0, 1.5, 1.8, 3.0], "upper": [1.5, 2.0, 2.2, 3.1]}
+    part = pd.DataFrame(columns | {"contacts": [2.0, 2.0, 4.0, 4.0]})
+    assert orbits.coexisting(part, "contacts") == pytest.approx(0.2)
+    assert orbits.coexisting(part[:2], "contacts") == 0
+    assert orbits.coexisting(part[:0], "contacts") == 0
+
+
+@pytest.mark.parametrize(("overlap", "expected"), [(0.004, REPRODUCED), (0.006, DIFFERENT)])
+def test_regions_of_contact_number_overlap(overlap, expected, data):
+    """Violent orbits with four contacts end at W = 1.9, those with six begin shortly below."""
+    below, above = np.array([1.0, 1.5, 1.9]), np.array([1.9 - overlap, 1.93, 1.95])
+    high = [
+        branch(frequency, 0.9 * frequency / (0.215 * PEAK**2), contacts=contacts)
+        for frequency, contacts in ((below, 4.0), (above, 6.0))
+    ]
+    unstable = branch(below, 0.9 * below / (0.215 * PEAK**2), phase=0.0, stable=False)
+    data["branches"]["figure_05a"] = damped(*high, unstable, mass_ratio=0.12)
+    values = BY_NUMBER["6"].evidence(data)
+    assert values["coexisting"] == pytest.approx(overlap)
+    assert BY_NUMBER["6"].verdict(values) == expected
+
+
+@pytest.mark.parametrize("factor", [0.99, 1.01])
+def test_step_that_raises_the_optimum_is_named(factor, data):
+    """From e = 1 to 0.9 the optimum changes by `factor`, and at lower e it falls."""
+    middle = sweep(0.215, 0.18, 0.9)
+    hard = data["optimum"]["0.215_0.18_1.0"]
+    stretch = factor * float(hard.optimum_clearance / middle.optimum_clearance)
+    data["optimum"]["middle"] = middle.assign_coords(clearance=stretch * middle.clearance).assign(
+        optimum_clearance=stretch * middle.optimum_clearance
+    )
+    values = BY_NUMBER["11"].evidence(data)
+    assert values["step"] == pytest.approx(factor)
+    assert (values["step_mass_ratio"], values["step_from"], values["step_to"]) == (0.18, 1, 0.9)
+    assert values["rising"] == (factor > 1)
+
+
+@pytest.mark.parametrize(("width", "narrow"), [(0.0009, True), (0.0011, False)])
+def test_narrow_branches_are_reported_by_themselves(width, narrow, data):
+    """A branch of period 3 below the band has 1.2 times the free amplitude, over `width` in W."""
+    third = branch(np.array([1.7, 1.7 + width]), 0.96, period=3)
+    high = branch(np.array([1.0, 1.84]), np.array([1.0, 1.9]), contacts=4.0)
+    data["branches"]["figure_05b"] = damped(high, third, mass_ratio=0.25)
+    values = BY_NUMBER["10"].evidence(data)
+    assert values["light_anywhere"] == pytest.approx(width)
+    told, other = ("narrow_ratio", "light_ratio") if narrow else ("light_ratio", "narrow_ratio")
+    assert values[told] == pytest.approx(1.2) and np.isnan(values[other])
+    assert values["narrow_width"] == pytest.approx(width if narrow else 0)
+
+
+@pytest.mark.parametrize(("fall", "expected"), [(1.06, REPRODUCED), (1.04, NOT_REPRODUCED)])
+def test_fall_of_the_subharmonic_at_lower_damping(fall, expected, data):
+    """At h = 0.107 no start leads to a subharmonic; at h = 0.215 half do, to a smaller one."""
+    size = float(data["subharmonic"]["figure_05a"].free_subharmonic[0])
+    remaining = 2 * (1 - 1 / fall) * size
+    data["subharmonic"]["figure_05a"] = subharmonic("figure_05a", damped=remaining)
+    values = BY_NUMBER["18"].evidence(data)
+    assert values["relative"] == pytest.approx(fall)
+    assert values["starts"] == 0 and values["starts_high"] == 0.5
+    assert BY_NUMBER["18"].verdict(values) == expected
+
+
+def test_release_phase_decides_in_the_nearest_range_of_all_scans(data):
+    values = BY_NUMBER["13"].evidence(data)
+    assert (values["quiet_first"], values["quiet_last"]) == (1.65, 1.8)
+    assert (values["unsettled_first"], values["unsettled_last"]) == (1.5, 1.8)
+    assert values["quiet_most"] == pytest.approx(0.8)
+    for name in ("wide", "close"):
+        renamed("release_scan", name, clearance=1.0)(data)
+    assert np.isnan(BY_NUMBER["13"].evidence(data)["quiet_first"])
+
+
+@pytest.mark.parametrize(("share", "decides"), [(0.009, False), (0.011, True), (0.991, False)])
+def test_phase_of_a_motion_of_longer_period_decides(share, decides, data):
+    scan = release_scan([1.8, 1.9], [share, 0.0])
+    longer = scan.damped_kind.copy(data=np.full_like(scan.damped_kind.values, 3))
+    data["release_scan"] = {"wide": scan.assign(damped_kind=longer)}
+    values = BY_NUMBER["13"].evidence(data)
+    told = [values[f"longer_{end}"] for end in ("first", "last", "least", "most")]
+    np.testing.assert_allclose(told, [1.8, 1.8, share, share] if decides else np.full(4, np.nan))
+
+
+@pytest.mark.parametrize(
+    ("within", "by_hold", "expected"),
+    [(0.49, None, DIFFERENT), (0, None, NOT_REPRODUCED), (0, 0.011, DIFFERENT)],
+)
+def test_runs_that_could_arrive_by_the_better_way(within, by_hold, expected, data):
+    scale("migration", "figure_15", within_share=within)(data)
+    if by_hold is not None:
+        found = policies(data["migration"]["figure_15"], 1.7)
+        found.policy_success.loc[{"policy": "hold", "bound": "share"}] = by_hold
+        data["release_policies"] = {"paper": found}
+    values = BY_NUMBER["14"].evidence(data)
+    assert values["worst"] == 1.7 and values["best"] == pytest.approx(max(within, by_hold or 0))
+    assert BY_NUMBER["14"].verdict(values) == expected
+
+
+def test_policies_count_for_their_damper_and_frequency(data):
+    case = data["migration"]["figure_15"]
+    data["release_policies"] = {"paper": policies(case, 1.7)}
+    values = BY_NUMBER["13"].evidence(data)
+    assert (values["by_hold"], values["by_phase"]) == pytest.approx((0.2, 0.3))
+    assert "30 % of the runs arrive" in BY_NUMBER["13"].judge(data)["finding"]
+    data["release_policies"] = {"paper": policies(case, 1.8)}
+    assert np.isnan(BY_NUMBER["13"].evidence(data)["by_phase"])
+
+
+@pytest.mark.parametrize(("third", "expected"), [(11, REPRODUCED), (9, NOT_REPRODUCED)])
+def test_early_releases_reach_period_3(third, expected, data):
+    """Of 1000 early releases `third` lead to period 3 and 500 back to resonance."""
+    case = data["migration"]["figure_16"].copy(deep=True)
+    counts = {"subharmonic": third, "resonance": 500, "non_resonance": 500 - third}
+    for motion, count in counts.items():
+        case.destination_count.loc[{"damped_motion": "unsettled", "free_motion": motion}] = count
+    data["migration"]["figure_16"] = case
+    values = BY_NUMBER["19"].evidence(data)
+    assert values["early"] == pytest.approx(third / 1000)
+    assert values["of_others"] == pytest.approx(third / 500)
+    assert BY_NUMBER["19"].verdict(values) == expected
+
+
+def test_without_any_optimum_the_claims_are_open(data):
+    for name in data["optimum"]:
+        scale("optimum", name, optimum_clearance=np.nan)(data)
+    for number in ("9", "11"):
+        assert BY_NUMBER[number].judge(data)["verdict"] == NOT_DECIDABLE
