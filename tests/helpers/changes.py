@@ -42,7 +42,6 @@ def each(names, change):
     return changes
 
 
-
 def put(stage, name, dataset):
     """Return the change that replaces the dataset `name` by a given one."""
 
@@ -85,7 +84,6 @@ def share(name, kind, subharmonic):
     return change
 
 
-
 def power(data):
     """Set the penetration to the value by the expansion of equation (6e) as printed."""
     old = data["harmonic_balance"]["figure_05a"]
@@ -94,7 +92,6 @@ def power(data):
     data["harmonic_balance"]["figure_05a"] = old.assign(
         relative_amplitude=clearance + depth ** (1 / 3) / 100
     )
-
 
 
 def renamed(stage, name, **values):

@@ -12,7 +12,6 @@ from chatterjee1995.stages.contact_model import contact_map, contact_model, spre
 from chatterjee1995.stages.logged_contacts import extreme_motions, logged_contacts, without_pull
 from chatterjee1995.tables.contact import SHOWN
 from chatterjee1995.tables.contact import contact_model as model_table
-from chatterjee1995.tables.contact import contact_motions as motion_table
 from impact_damper.data.datasets import flag
 from impact_damper.data.variables import VARIABLES
 from impact_damper.model.settling import Settling
@@ -111,9 +110,6 @@ def test_tables_and_figure(model):
     counts = model_table(data).dropna(subset="cells")
     verdicts = ["close", "fair", "off", "falls back", "no release"]
     assert (counts[verdicts].sum(axis=1) == 9).all()
-    motions = motion_table(data)
-    assert len(motions) == 4
-    assert SHOWN["contact_motions"].keys() <= set(motions)
     assert SHOWN["contact_model"].keys() <= set(model_table(data))
     # A map for each exit rule, and the colour scale.
     assert len(draw_contact_model(contact_model=[model]).axes) == 3
