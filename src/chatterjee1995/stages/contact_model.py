@@ -1,28 +1,19 @@
-"""Map of the contact model over restitution and load, and contacts of simulated motions.
+"""Map of the contact model over restitution and load, and the loads of simulated motions.
 
-Equation (25) of the paper gives the dashpot for which a contact has the restitution e if no other
-force acts and the contact ends at zero penetration. Other forces cause an acceleration g of the
-primary mass towards the wall. The load is G = g/(wn v0), with the natural frequency wn of the
-contact and the speed of approach v0. At the end of a contact the dashpot pulls the loose mass. With
-walls that cannot pull the contact ends sooner. The map gives the restitution that a contact has
-under load, for both rules for its end (exit rules). Contacts of simulated motions show which loads
-occur.
+Equation (25) of the paper gives the dashpot with which a contact has the restitution e if no other
+force acts and the contact ends at zero penetration. Other forces cause an acceleration g towards
+the wall, the load G = g/(wn v0) with the natural frequency wn of the contact and the approach speed
+v0. At the end of a contact the dashpot pulls the loose mass; with walls that cannot pull the
+contact ends sooner. The map gives the restitution under load for both rules for the end (exit
+rules). The contacts of simulated motions show which loads occur.
 """
 
 from dataclasses import replace
 
 import numpy as np
 
-from chatterjee1995.stages.logged_contacts import (
-    CLOSE,
-    FAIR,
-    SIZES,
-    compare_contacts,
-    extreme_motions,
-)
-from chatterjee1995.variables.contact import SCENE
-from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.variables import VARIABLES
+from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.kernel.equation import acceleration
 from impact_damper.model.bounds import (
     LOAD_RANGE,
     PERIODS_RANGE,
@@ -32,24 +23,28 @@ from impact_damper.model.bounds import (
     check_number,
 )
 from impact_damper.model.checks import check_frequencies, check_increasing
+from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import check_damper, describe
 from impact_damper.model.settling import check_settling
-from impact_damper.theory.contact_law import EXIT_RULES, contact, damping_ratio, tension
+from impact_damper.motions import ensemble, strobe_map, traces
+from impact_damper.motions.simulate import random_states
+from impact_damper.theory.contact_law import (
+    EXIT_RULES,
+    contact,
+    damping_ratio,
+    natural_frequency,
+    tension,
+)
 
 # The loads of the map are evenly spaced up to |G| of about LINEAR, and logarithmically above it.
 LINEAR = 1e-3
-# Variables with one value for each logged contact.
-# LOG: indices of its motion: of the restitution, the frequency and the size.
-# LOGGED: names under which the quantities of `logged_contacts` are stored.
-LOG = ("contact_used", "contact_row", "contact_size")
-LOGGED = {
-    "load": "contact_load",
-    "restitution": "contact_restitution",
-    "duration": "contact_time",
-}
-
-# Variables of motions that are integers.
-COUNTED = ("scene_outcome", "scene_without_pull_status", "scene_contacts", "scene_unreleased")
+# The restitution of a contact is "close" to the intended e if its relative error is at most CLOSE,
+# and "fair" if it is at most FAIR.
+CLOSE, FAIR = 0.01, 0.05
+# Simulated motions at each restitution and frequency.
+SIZES = ("smallest", "largest")
+# Largest number of contacts of a motion.
+LARGEST_LOG = 10**5
 
 
 def contact_model(
@@ -65,7 +60,7 @@ def contact_model(
     seed=1995,
     settling=None,
 ):
-    """Compute the contact for each restitution and load, and log contacts of simulated motions.
+    """Compute the contact for each restitution and load, and the loads of simulated motions.
 
     Parameters
     ----------
@@ -73,15 +68,15 @@ def contact_model(
     damper : Damper
         Its restitution is replaced by the values in `used`.
     frequencies : sequence of float
-        Increasing forcing frequencies W of the motions, dimensionless.
+        Increasing forcing frequencies W of the motions.
     restitutions, loads : sequence of float
-        Increasing e and G = g/(wn v0) of the map, dimensionless.
+        Increasing e and G of the map.
     used : sequence of float
         Increasing restitutions of the motions.
     starts : int
         Number of random starts of the search for motions at each restitution and frequency.
     periods : int
-        Forcing cycles over which the contacts of a motion are logged.
+        Forcing cycles over which the contacts of a motion are recorded.
     seed : int
     settling : Settling, optional
 
@@ -89,8 +84,8 @@ def contact_model(
     -------
     xarray.Dataset
         For each (exit_rule, load, restitution) the contact in closed form; for each restitution
-        `used` the same without load; for each (used, frequency, size) a simulated motion, the
-        smallest or the largest one; and for each `contact` its load, restitution and duration.
+        `used` the same without load; and the load of each `contact` of the smallest and of the
+        largest motion found at each restitution `used` and each frequency.
 
     Raises
     ------
@@ -106,21 +101,26 @@ def contact_model(
         check_increasing(name, values, "two")
         for name, values in (("restitutions", restitutions), ("loads", loads), ("used", used))
     )
-    dampers = [replace(damper, restitution=float(e)) for e in used]
-    data = (
-        contact_map(restitutions, loads)
-        | unloaded_table(used)
-        | _motions(oscillator, dampers, frequencies, starts, periods, seed, settling)
-    )
+    data = contact_map(restitutions, loads) | unloaded_table(used)
+    rows = [[np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0)]]
+    for i, e in enumerate(used):
+        each = replace(damper, restitution=float(e))
+        for j, frequency in enumerate(frequencies):
+            found = extreme_motions(oscillator, each, frequency, starts, [seed, i, j], settling)
+            for size, motion in enumerate(found):
+                if motion is not None:
+                    log = contacts_of(oscillator, each, frequency, motion["state"], periods)["load"]
+                    rows.append([np.full(len(log), i), np.full(len(log), size), log])
+    names = "contact_used", "contact_size", "contact_load"
+    data |= dict(zip(names, map(np.concatenate, zip(*rows, strict=True)), strict=True))
     made = describe(oscillator, damper, settling)
-    made |= {"starts": starts, "periods": periods, "seed": seed}
+    made |= {"starts": starts, "periods": periods, "seed": seed, "frequencies": list(frequencies)}
     del made["restitution"]
     coordinates = {
         "exit_rule": list(EXIT_RULES),
         "load": loads,
         "restitution": restitutions,
         "used": used,
-        "frequency": frequencies,
         "size": list(SIZES),
     }
     return dataset(data, coordinates, made, "The contact model over restitution and load")
@@ -134,43 +134,21 @@ def spread_loads(largest, count):
 
 
 def contact_map(restitutions, loads):
-    """Return the contact in closed form for each exit rule, load and restitution.
+    """Return the variables of the map: realised restitution and verdict, by rule, load and e.
 
-    Parameters
-    ----------
-    restitutions, loads : array
-        e and G = g/(wn v0), dimensionless.
-
-    Returns
-    -------
-    dict
-        Variables of the dataset: realised restitution (NaN if the loose mass does not leave the
-        wall), time in contact divided by that of an elastic contact (NaN if the contact does not
-        end), the verdict on each cell (`_verdict`), and impulse and largest force of the wall's
-        pull, divided by those of its push.
+    The restitution is NaN if the loose mass does not leave the wall.
     """
     shape = len(EXIT_RULES), len(loads), len(restitutions)
-    realised, duration = np.empty(shape), np.empty(shape)
-    verdict = np.empty(shape, np.int8)
-    impulse, peak = np.empty(shape[1:]), np.empty(shape[1:])
-    for j, load in enumerate(loads):
-        for k, restitution in enumerate(restitutions):
-            for i, rule in enumerate(EXIT_RULES):
-                found = contact(restitution, load, rule)
-                realised[i, j, k], duration[i, j, k] = found.departure, found.duration / np.pi
-                verdict[i, j, k] = flag("contact_verdict", _verdict(found, restitution))
-            _, impulse[j, k], peak[j, k] = tension(restitution, load)
-    return {
-        "realised_restitution": realised,
-        "contact_duration": np.where(np.isfinite(duration), duration, np.nan),
-        "contact_verdict": verdict,
-        "pull_impulse": impulse,
-        "pull_peak": peak,
-    }
+    realised, verdict = np.empty(shape), np.empty(shape, np.int8)
+    for i, j, k in np.ndindex(shape):
+        found = contact(restitutions[k], loads[j], EXIT_RULES[i])
+        realised[i, j, k] = found.departure
+        verdict[i, j, k] = flag("contact_verdict", _verdict(found, restitutions[k]))
+    return {"realised_restitution": realised, "contact_verdict": verdict}
 
 
 def _verdict(found, restitution):
-    """Return the flag `contact_verdict`: the size of the error, or why the loose mass stays."""
+    """Return the name of a verdict: the size of the error, or why the loose mass stays."""
     if found.outcome != "released":
         return found.outcome
     error = abs(found.departure / restitution - 1)
@@ -191,28 +169,62 @@ def unloaded_table(restitutions):
     }
 
 
-def _motions(oscillator, dampers, frequencies, starts, periods, seed, settling):
-    """Return the variables of the simulated motions and of all their contacts."""
-    shape = len(dampers), len(frequencies), len(SIZES)
-    table = {
-        name: np.zeros(shape, np.int64) if name in COUNTED else np.full(shape, np.nan)
-        for name, entry in VARIABLES.items()
-        if entry.dims == SCENE
+def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
+    """Return the smallest settled motion with contacts, and the largest motion with contacts.
+
+    Each is the record of a motion to which a random start within the gap leads, or None.
+    """
+    p = pack(oscillator, damper, frequency)
+    states = random_states(starts, damper.clearance, damper, seed)
+    motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)
+    touching = motions[(motions["contacts"] > 0) & np.isfinite(motions["maximum_displacement"])]
+    settled = touching[is_settled(touching)]
+    return (
+        settled[np.argmin(settled["maximum_displacement"])] if len(settled) else None,
+        touching[np.argmax(touching["maximum_displacement"])] if len(touching) else None,
+    )
+
+
+def contacts_of(oscillator, damper, frequency, state, periods):
+    """Return load and restitution of the contacts of a motion within forcing cycles.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+    damper : Damper
+    frequency : float
+        W.
+    state : array, shape (4,)
+        Z1, Z1', Z2, Z2' at W T = pi/2.
+    periods : int
+
+    Returns
+    -------
+    dict of numpy.ndarray
+        `load` at the beginning of each contact, and `restitution`, speed of departure divided by
+        speed of approach. Contacts that do not both begin and end within the time are omitted.
+
+    Raises
+    ------
+    ValueError
+        If there are more than LARGEST_LOG contacts.
+    """
+    p = pack(oscillator, damper, frequency)
+    begin = strobe_map.strobe_time(p)
+    times = np.array([begin + periods * 2 * np.pi / p[FREQUENCY]])
+    log, states = np.empty((LARGEST_LOG, 5)), np.empty((1, 4))
+    tolerance = strobe_map.POLISH_TOLERANCE
+    count = traces.trace(p, np.array(state), begin, times, tolerance, states, log)
+    if count > LARGEST_LOG:
+        raise ValueError(f"periods = {periods}: more than {LARGEST_LOG} contacts in this time")
+    # The same integration is repeated to store the states at which contacts begin.
+    times = np.append(log[:count, 1], times)
+    states = np.empty((len(times), 4))
+    traces.trace(p, np.array(state), begin, times, tolerance, states, log)
+    side, start, end, approach, departure = log[:count].T
+    load = side * [acceleration(p, y, t) for y, t in zip(states[:-1], start, strict=True)]
+    whole = np.isfinite(end) & (start > begin)
+    return {
+        "load": (load / (natural_frequency(damper) * np.abs(approach)))[whole],
+        "restitution": (-departure / approach)[whole],
     }
-    log = {name: [np.empty(0, np.int64)] for name in LOG} | {
-        name: [np.empty(0)] for name in LOGGED.values()
-    }
-    for i, damper in enumerate(dampers):
-        for j, frequency in enumerate(frequencies):
-            found = extreme_motions(oscillator, damper, frequency, starts, [seed, i, j], settling)
-            for k, motion in enumerate(found):
-                row, logged = compare_contacts(oscillator, damper, frequency, motion, periods)
-                for name, value in row.items():
-                    table[name][i, j, k] = value
-                if logged is None:
-                    continue
-                for name, place in zip(LOG, (i, j, k), strict=True):
-                    log[name].append(np.full(len(logged["load"]), place))
-                for name, column in LOGGED.items():
-                    log[column].append(logged[name])
-    return table | {name: np.concatenate(parts) for name, parts in log.items()}

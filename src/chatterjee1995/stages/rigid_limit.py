@@ -1,12 +1,9 @@
 """Errors of the rigid-impact model as functions of contact stiffness r1 and frequency.
 
-The rigid-impact model has rigid walls and impacts that take no time. The exact system has compliant
-contacts of stiffness r1. The quiet orbits of both, periodic motions of one cycle with two symmetric
-contacts, are compared, stable or unstable. The compliant orbit is followed through a grid of
-frequencies and r1. The rigid orbit does not depend on r1 and is followed in frequency. It is also
-computed with corrected walls (`mended`), which account for the penetration at finite r1.
-
-Z1 is the displacement of the primary mass. Multipliers are Floquet multipliers.
+The quiet orbits, stable or unstable, of the rigid model (`rigid_impacts`) and of the exact system
+with compliant contacts are compared. The compliant orbit is followed through a grid of frequencies
+and r1, the rigid orbit, which does not depend on r1, in frequency. It is also computed with
+corrected walls ("mended").
 """
 
 from dataclasses import replace
@@ -14,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from chatterjee1995.methods.rigid_impacts import mended_orbit, rigid_orbit
-from chatterjee1995.stages.logged_contacts import extreme_motions
+from chatterjee1995.stages.contact_model import extreme_motions
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.model.bounds import RUNS_RANGE, check_count
 from impact_damper.model.checks import check_frequencies, check_frequency, check_increasing
@@ -44,7 +41,7 @@ def rigid_limit(
     frequency : float
         Frequency W at which the quiet motion is searched for, with the damper's own r1.
     frequencies, stiffnesses : sequence of float
-        Increasing W and r1 of the grid, dimensionless; at least two each.
+        Increasing W and r1 of the grid; at least two each.
     starts : int
         Number of random initial states from which the quiet motion is searched for.
     seed : int
@@ -53,9 +50,8 @@ def rigid_limit(
     Returns
     -------
     xarray.Dataset
-        For each (frequency, stiffness) the compliant orbit, the rigid orbit with corrected walls
-        (`mended`), errors and verdict (whether both orbits exist and are stable); for each
-        `frequency` the rigid orbit, the exponents n with which errors decrease as r1^-n, and the
+        For each (frequency, stiffness) errors and verdict (whether both orbits exist and are
+        stable); for each `frequency` the exponents n with which errors decrease as r1^-n, and the
         stiffness above which the error of max |Z1| is below each of THRESHOLDS; errors at the
         damper's own r1 as scalars.
 
@@ -74,13 +70,9 @@ def rigid_limit(
     settling = check_settling(settling)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
     compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)
-    mended = _mended(oscillator, damper, frequencies, stiffnesses, rigid.orbits)
-    data = (
-        _columns("compliant", compliant.orbits, compliant.flags("compliant_status"))
-        | _columns("rigid", rigid.orbits, rigid.flags("rigid_status"))
-        | _columns("mended", *mended)
-    )
-    data |= _errors(data)
+    data = _errors(oscillator, damper, frequencies, stiffnesses, compliant.orbits, rigid.orbits)
+    for name, grid in (("compliant", compliant), ("rigid", rigid)):
+        data[f"{name}_status"] = grid.flags(f"{name}_status")
     data |= _needed(stiffnesses, data["rigid_error"])
     for name in ("rigid", "mended"):
         data[f"{name}_order"] = _orders(stiffnesses, data[f"{name}_error"])
@@ -172,66 +164,33 @@ def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
     return compliant, _spread(rigid_at, frequencies[:, None], (row,), own_point[:1], own), own
 
 
-def _mended(oscillator, damper, frequencies, stiffnesses, rigid):
-    """Return the rigid orbits with corrected walls, keyed by cell, and the status of each cell.
+def _errors(oscillator, damper, frequencies, stiffnesses, compliant, rigid):
+    """Return relative errors of max |Z1| with rigid and corrected walls, and verdicts.
 
-    `rigid` are the rigid orbits, keyed by cell.
+    `compliant` and `rigid` are orbits, keyed by cell.
     """
-    orbits = {}
-    flags = np.full((len(frequencies), len(stiffnesses)), flag("mended_status", "not_attempted"))
-    for (i,), orbit in rigid.items():
-        for j, stiffness in enumerate(stiffnesses):
-            each = replace(damper, contact_stiffness=float(stiffness))
-            mended, status = mended_orbit(oscillator, each, frequencies[i], orbit, np.inf)
-            flags[i, j] = flag("mended_status", status)
-            if mended is not None:
-                orbits[i, j] = mended
-    return orbits, flags
+    shape = len(frequencies), len(stiffnesses)
+    plain, mended = np.full(shape, np.nan), np.full(shape, np.nan)
+    verdict = np.full(shape, flag("rigid_verdict", "neither"))
+    for i, j in np.ndindex(shape):
+        soft, hard = compliant.get((i, j)), rigid.get((i,))
+        verdict[i, j] = flag("rigid_verdict", _verdict(soft, hard))
+        if soft is None or hard is None:
+            continue
+        plain[i, j] = hard.displacement / soft.displacement - 1
+        each = replace(damper, contact_stiffness=float(stiffnesses[j]))
+        better, _ = mended_orbit(oscillator, each, frequencies[i], hard, np.inf)
+        if better is not None:
+            mended[i, j] = better.displacement / soft.displacement - 1
+    return {"rigid_error": plain, "mended_error": mended, "rigid_verdict": verdict}
 
 
-def _columns(name, found, status):
-    """Return the variables of a model: status, largest displacement and multiplier of each cell.
-
-    `found` maps cells of the grid to orbits.
-    """
-    displacement, multiplier = np.full(status.shape, np.nan), np.full(status.shape, np.nan + 0j)
-    for cell, orbit in found.items():
-        displacement[cell], multiplier[cell] = orbit.displacement, orbit.multiplier
-    return {
-        f"{name}_status": status,
-        f"{name}_displacement": displacement,
-        f"{name}_multiplier_real": multiplier.real,
-        f"{name}_multiplier_imaginary": multiplier.imag,
-    }
-
-
-def _errors(data):
-    """Return relative errors of max |Z1|, errors of the modulus of the multiplier, and verdicts."""
-    size = {
-        name: np.hypot(data[f"{name}_multiplier_real"], data[f"{name}_multiplier_imaginary"])
-        for name in ("compliant", "rigid")
-    }
-    rigid = size["rigid"][:, None]
-    stable = size["compliant"] < 1, np.broadcast_to(rigid < 1, size["compliant"].shape)
-    exists = np.isfinite(size["compliant"]), np.isfinite(rigid)
-    chosen = {
-        "both_stable": stable[0] & stable[1],
-        "stability_differs": exists[0] & exists[1] & (stable[0] != stable[1]),
-        "both_unstable": exists[0] & exists[1],
-        "rigid_only": exists[1],
-        "compliant_only": exists[0],
-    }
-    soft = data["compliant_displacement"]
-    return {
-        "rigid_error": data["rigid_displacement"][:, None] / soft - 1,
-        "mended_error": data["mended_displacement"] / soft - 1,
-        "decay_error": rigid - size["compliant"],
-        "rigid_verdict": np.select(
-            [np.broadcast_to(where, soft.shape) for where in chosen.values()],
-            [flag("rigid_verdict", name) for name in chosen],
-            flag("rigid_verdict", "neither"),
-        ),
-    }
+def _verdict(soft, hard):
+    """Return the name of the verdict on a compliant and a rigid orbit, None where not found."""
+    if soft is None or hard is None:
+        return "neither" if soft is hard else "rigid_only" if soft is None else "compliant_only"
+    stable = [abs(orbit.multiplier) < 1 for orbit in (soft, hard)]
+    return "both_stable" if all(stable) else "stability_differs" if any(stable) else "both_unstable"
 
 
 def _needed(stiffnesses, errors):
