@@ -32,10 +32,6 @@ class ComparisonScene(NamedTuple):
 
     Attributes
     ----------
-    name : str
-    oscillator : Oscillator
-    damper : Damper or None
-    frequency : float
     state : sequence of float
         Z1, Z1', Z2, Z2' at W T = pi/2.
     periods : int
@@ -84,13 +80,7 @@ class Reference(NamedTuple):
 
 
 def reference_of(scene, stored):
-    """Return the reference of a scene from its entry in `workflow/resources/references.json`.
-
-    Raises
-    ------
-    ValueError
-        If the entry belongs to another scene.
-    """
+    """Return the reference of a scene from its entry in `workflow/resources/references.json`."""
     p, begin = scene.p, strobe_time(scene.p)
     end = begin + scene.periods * 2 * np.pi / p[FREQUENCY]
     values = stored["parameters"]
@@ -188,23 +178,26 @@ def _errors(scene, settings, reference):
         (method, setting, model, _times(scene, model, reference))
         for method, setting, model in orbits
     ]
-    data = {name: [] for name in ("state", "contact_time", "contacts", "amplitude", "status")}
+    status, errors = [], []
     for _, _, found, times in rows:
         wrong = len(times) - len(reference.contact_times)
-        ended = found.status == "ended"
         away = np.abs(times - reference.contact_times) if wrong == 0 else np.full(1, np.nan)
-        data["state"].append(np.max(np.abs(found.state - reference.state)))
-        data["contact_time"].append(np.max(away, initial=0.0))
-        data["contacts"].append(wrong if ended else np.nan)
-        data["amplitude"].append(abs(found.displacement / reference.displacement - 1))
-        data["status"].append(_status(found.status, wrong))
-    errors = {name: np.array(data[name]) for name in data}
-    met = _met(scene.accuracy, errors) & ~np.isnan(errors["state"])
-    return _named(rows, errors["status"], met) | {
-        "state_error": errors["state"],
-        "contact_time_error": np.where(np.isnan(errors["state"]), np.nan, errors["contact_time"]),
-        "contact_excess": errors["contacts"],
+        ended = found.status == "ended"
+        status.append(_status(found.status, wrong))
+        errors.append(
+            (
+                abs(found.displacement / reference.displacement - 1),
+                np.max(np.abs(found.state - reference.state)),
+                np.max(away, initial=0.0) if ended else np.nan,
+                wrong if ended else np.nan,
+            )
+        )
+    errors = dict(zip(ERRORS, np.array(errors, float).T, strict=True))
+    return _named(scene, rows, status, errors) | {
         "amplitude_error": errors["amplitude"],
+        "state_error": errors["state"],
+        "contact_time_error": errors["contact_time"],
+        "contact_excess": errors["contacts"],
     }
 
 
@@ -217,20 +210,16 @@ def _status(ended, wrong):
     return flag("run_status", "missed_contacts" if wrong < 0 else "invented_contacts")
 
 
-def _named(rows, status, met):
+def _named(scene, rows, status, errors):
     """Return the variables of the dataset that all kinds of test cases have."""
+    met = np.abs(errors[scene.accuracy["quantity"]]) <= scene.accuracy["within"]
     return {
         "method": np.array([row[0] for row in rows]),
         "setting": np.array([row[1] for row in rows], float),
-        "run_status": status,
+        "run_status": np.array(status),
         "operations": np.array([row[2].operations for row in rows], float),
         "meets_accuracy": met.astype(int),
     }
-
-
-def _met(accuracy, errors):
-    """Return whether each error is within the required accuracy; False for NaN."""
-    return np.abs(errors[accuracy["quantity"]]) <= accuracy["within"]
 
 
 def _orbits(scene, settings):
@@ -252,11 +241,9 @@ def _orbits(scene, settings):
 def _times(scene, model, reference):
     """Return the times at which contacts begin by a model, for all cycles of the reference run.
 
-    A model computes one cycle only, while the reference approaches the periodic motion. Each
-    contact in the last cycle of the reference is matched to the nearest contact of the model. The
-    difference of their times is added to the corresponding contacts of the reference in all cycles.
-    The times are NaN if two contacts of the reference have the same match. If the model has another
-    number of contacts per cycle, only the length of the result has a meaning.
+    Each contact in the last cycle of the reference is matched to the nearest contact of the model,
+    and the difference of their times is added in all cycles. The times are NaN if two contacts have
+    the same match. With another number of contacts per cycle only the length has a meaning.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods
@@ -273,16 +260,6 @@ def _times(scene, model, reference):
     return reference.contact_times + np.tile(shift, scene.periods)
 
 
-def _exponent(scene, method, tolerance, batch):
-    """Return the Lyapunov exponent in each batch, or {} without variational equations."""
-    given = scene.p, np.array(scene.state, float), tolerance, scene.periods, batch
-    if method == "taylor":
-        return {"exponent": averages.exponents(*given)}
-    if method == "rigid":
-        return {"exponent": averages.rigid_exponents(scene.damper.restitution, *given)}
-    return {}
-
-
 def _averages(scene, settings):
     """Return the variables of the dataset for a test case with a chaotic motion."""
     p, start = scene.p, np.array(scene.state, float)
@@ -293,7 +270,10 @@ def _averages(scene, settings):
         measured = {}
         if run.status == "ended":
             measured = averages.of_run(p, run, begin, periods, batch)
-            measured |= _exponent(scene, label, setting, batch)
+            if label in ("taylor", "rigid"):  # the methods with variational equations
+                restitution = scene.damper.restitution if label == "rigid" else None
+                given = p, start, setting, scene.periods, batch, restitution
+                measured["exponent"] = averages.exponents(*given)
         run = run._replace(operations=run.operations * scene.periods / periods)
         rows.append((label, setting, run))
         found.append(averages.estimates(measured))
@@ -307,7 +287,7 @@ def _averages(scene, settings):
     allowed = CONTACTS_OFF + SURE * error[:, 0] / truth[0]
     excess = np.where(np.abs(relative["contact_rate"]) > allowed, relative["contact_rate"], 0)
     status = [_status(row[2].status, wrong) for row, wrong in zip(rows, excess, strict=True)]
-    return _named(rows, status, _met(scene.accuracy, relative)) | {
+    return _named(scene, rows, status, relative) | {
         "average": average,
         "average_error": error,
         "reference_average": truth,

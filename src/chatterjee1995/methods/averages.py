@@ -9,10 +9,10 @@ import math
 import numpy as np
 
 from chatterjee1995.methods.labels import STATISTICS
-from chatterjee1995.methods.rigid_impacts import rigid_map
+from chatterjee1995.methods.rigid_impacts import rigid_map, without_dashpot
 from impact_damper.kernel.single import side_of, workspace
 from impact_damper.kernel.tangents import advance
-from impact_damper.model.packed import DASHPOT, FREQUENCY
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import strobe_time
 
 
@@ -35,38 +35,24 @@ def of_run(p, run, begin, periods, batch):
     }
 
 
-def exponents(p, start, tolerance, periods, batch):
-    """Return the largest Lyapunov exponent per unit of T in each batch, by the Taylor series.
+def exponents(p, start, tolerance, periods, batch, restitution=None):
+    """Return the largest Lyapunov exponent per unit of T in each batch.
 
-    `start` is the state at W T = pi/2.
+    `start` is the state at W T = pi/2. With `restitution` the walls are rigid.
     """
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)
     for k in range(periods):
-        side, _, _ = advance(p, y, tangent, side, begin, begin + period, tolerance, work)
-        tangent[0], growth = _renormalised(tangent[0])
-        rows[k] = growth / period
+        if restitution is None:
+            side, _, _ = advance(p, y, tangent, side, begin, begin + period, tolerance, work)
+        else:
+            y, matrix, *_ = rigid_map(without_dashpot(p), restitution, y, tolerance)
+            tangent[0] = matrix @ tangent[0]
+        size = np.linalg.norm(tangent)
+        tangent /= size
+        rows[k] = math.log(size) / period
     return rows[: periods // batch * batch].reshape(-1, batch).mean(axis=1)
-
-
-def rigid_exponents(restitution, p, start, tolerance, periods, batch):
-    """Return the same as `exponents` for rigid walls with a given restitution."""
-    p = p.copy()
-    p[DASHPOT] = 0.0
-    y, tangent, period = start.copy(), np.full(4, 0.5), 2 * math.pi / p[FREQUENCY]
-    rows = np.empty(periods)
-    for k in range(periods):
-        y, matrix, _, _, _, _ = rigid_map(p, restitution, y, tolerance)
-        tangent, growth = _renormalised(matrix @ tangent)
-        rows[k] = growth / period
-    return rows[: periods // batch * batch].reshape(-1, batch).mean(axis=1)
-
-
-def _renormalised(tangent):
-    """Return a tangent vector scaled to length 1, and the logarithm of its former length."""
-    size = np.linalg.norm(tangent)
-    return tangent / size, math.log(size)
 
 
 def estimates(batches):

@@ -17,20 +17,10 @@ HALVINGS = 54
 class Run(NamedTuple):
     """A motion computed by an integrator.
 
-    Attributes
-    ----------
-    status : str
-        "ended", "failed", or "capped" after too many evaluations of the rate.
-    operations : float
-        Work, in floating-point operations.
-    state : numpy.ndarray, shape (4,)
-        State at the end.
-    contact_times : numpy.ndarray
-        Times at which contacts begin.
-    peak_times, peaks : numpy.ndarray
-        Times of the local maxima of |Z1|, and the maxima; both ends of the run are included.
-    displacement : float
-        Largest |Z1|.
+    `status` is "ended", "failed", or "capped" after too many evaluations of the rate; `operations`
+    the work in floating-point operations; `state` the state at the end; `contact_times` the times
+    at which contacts begin; `peaks` the local maxima of |Z1| and |Z1| at both ends of the run, at
+    `peak_times`; `displacement` the largest |Z1|.
     """
 
     status: str

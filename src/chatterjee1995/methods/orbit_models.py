@@ -40,9 +40,10 @@ from chatterjee1995.methods.rigid_impacts import (
     rebound,
     rigid_map,
     rigid_orbit,
+    without_dashpot,
 )
 from impact_damper.kernel.single import step, workspace
-from impact_damper.model.packed import CLEARANCE, DASHPOT, FREQUENCY, pack
+from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import SPRING_POWER
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.orbits.shooting import find_orbit
@@ -60,18 +61,9 @@ REACH = 10.0
 class Model(NamedTuple):
     """A steady motion computed by a model.
 
-    Attributes
-    ----------
-    status : str
-        "ended", "failed" or "not_applicable".
-    operations : float
-        Work.
-    state : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' at W T = pi/2.
-    contact_phases : numpy.ndarray
-        W T in [0, 2 pi) at which contacts begin.
-    displacement : float
-        max |Z1|.
+    `status` is "ended", "failed" or "not_applicable"; `operations` the work; `state` the state at
+    W T = pi/2; `contact_phases` the phases W T in [0, 2 pi) at which contacts begin; `displacement`
+    max |Z1|.
     """
 
     status: str
@@ -87,8 +79,7 @@ def rigid(p, restitution, start, t, periods, tolerance):
     Its `peaks` are the largest |Z1| in each forcing cycle, and its `peak_times` the middles of the
     cycles.
     """
-    p = p.copy()
-    p[DASHPOT] = 0.0
+    p = without_dashpot(p)
     y, none, work = start.copy(), np.empty((0, 4)), workspace()
     period, counts = 2 * math.pi / p[FREQUENCY], [0, 0, 0]
     began, peaks = [], []

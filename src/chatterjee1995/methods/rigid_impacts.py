@@ -70,25 +70,14 @@ def rebound(p, restitution, y, tangents, t):
 
 @kernel
 def rigid_map(p, restitution, y, tolerance):
-    """Integrate the rigid model over one forcing cycle, from the forcing phase W T = pi/2.
+    """Integrate the rigid model over one forcing cycle from the state y at W T = pi/2.
 
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters. The dashpot must be 0. The stiffness r1 has no effect.
-    restitution : float
-        e.
-    y : array, shape (4,)
-        Z1, Z1', Z2, Z2' at the beginning, with the loose mass between the walls.
-    tolerance : float
-        Largest local error of a step.
+    The dashpot in p must be 0, and the loose mass between the walls. r1 has no effect.
 
     Returns
     -------
-    state : array, shape (4,)
-        State after the cycle.
-    matrix : array, shape (4, 4)
-        Derivative of this state with respect to `y`.
+    state, matrix : array, shapes (4,) and (4, 4)
+        State after the cycle, and its derivative with respect to `y`.
     impacts : int
         Number of impacts. If it is MOST_IMPACTS, the integration stopped before the end of the
         cycle, and the other return values are invalid.
@@ -121,23 +110,19 @@ def rigid_map(p, restitution, y, tolerance):
     return state, tangents.T.copy(), impacts, speed, first, largest
 
 
+def without_dashpot(p):
+    """Return a copy of packed parameters without a dashpot, for the rigid model."""
+    p = p.copy()
+    p[DASHPOT] = 0.0
+    return p
+
+
 class RigidOrbit(NamedTuple):
     """A symmetric orbit of the rigid model with two impacts in a forcing cycle.
 
-    Attributes
-    ----------
-    state : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' at W T = pi/2.
-    multiplier : complex
-        Dominant Floquet multiplier.
-    displacement : float
-        max |Z1|.
-    speed : float
-        Approach speed |Z2'| of the impacts.
-    acceleration : float
-        Acceleration of Z1 towards the wall before an impact.
-    maps : int
-        Number of integrations over a forcing cycle that Newton's method took.
+    `state` is the state at W T = pi/2, `multiplier` the dominant Floquet multiplier, `displacement`
+    max |Z1|, `speed` the approach speed |Z2'|, `acceleration` that of Z1 towards the wall before an
+    impact, and `maps` the number of integrations over a cycle that Newton's method took.
     """
 
     state: np.ndarray
@@ -149,24 +134,12 @@ class RigidOrbit(NamedTuple):
 
 
 def rigid_orbit(oscillator, damper, frequency, guess, reach):
-    """Find an orbit of the rigid model by Newton's method. The damper's r1 has no effect.
+    """Find an orbit of the rigid model by Newton's method.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-    frequency : float
-    guess : array, shape (4,)
-        State near the orbit at W T = pi/2.
-    reach : float
-        Largest difference of a component of the state from the guess.
-
-    Returns
-    -------
-    orbit : RigidOrbit or None
-    status : str
-        "found"; "not_followed" if Newton's method fails; "other_contacts" if the orbit does not
-        have two symmetric impacts in a cycle; "chatter" if a cycle has MOST_IMPACTS impacts.
+    `guess` is a state near the orbit at W T = pi/2, and `reach` the largest difference of a
+    component of the orbit's state from it. Return a `RigidOrbit` or None, and a status: "found";
+    "not_followed" if Newton's method fails; "other_contacts" if the orbit does not have two
+    symmetric impacts in a cycle; "chatter" if a cycle has MOST_IMPACTS impacts.
     """
     return _solve(pack(oscillator, damper, frequency), damper.restitution, guess, reach)
 
@@ -184,8 +157,7 @@ def mended_orbit(oscillator, damper, frequency, orbit, reach):
 
 def _solve(p, restitution, guess, reach):
     """Return orbit and status as `rigid_orbit`, for packed parameters and any restitution."""
-    p = p.copy()
-    p[DASHPOT] = 0.0
+    p = without_dashpot(p)
     restitution = float(restitution)  # numba would compile the map a second time for an int
     y = np.array(guess, float)
     for k in range(ITERATIONS):

@@ -58,26 +58,10 @@ def quiet_state(p):
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
-    """Return quiet orbits at increasing r1, followed from the quiet motion at the damper's own r1.
+    """Return a quiet `CompliantOrbit` at each r1, followed from the damper's own r1.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-    frequency : float
-        W.
-    stiffnesses : sequence of float
-        Increasing values of r1.
-
-    Returns
-    -------
-    list of CompliantOrbit or None
-        One for each stiffness; None if the orbit could not be followed to this stiffness.
-
-    Raises
-    ------
-    ArithmeticError
-        If the damper has no quiet motion.
+    None stands for an orbit that could not be followed. ArithmeticError is raised if the damper has
+    no quiet motion.
     """
     state = quiet_state(pack(oscillator, damper, frequency))
     if state is None:
@@ -113,11 +97,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step that keeps the quiet motion, as do all smaller tested steps.
-
-    `held` and `tested` mark the steps that keep it, and the steps that were tested. Return NaN if
-    fewer than CONFIRMED steps remain.
-    """
+    """Return the largest step that holds, as do all smaller tested steps; NaN without CONFIRMED."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -125,10 +105,7 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Fit log(1/step) as a linear function of log r1; return its slope and standard error.
-
-    Both are NaN if there are fewer than three points.
-    """
+    """Return slope and standard error of log(1/step) over log r1, NaN with fewer than 3 points."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan

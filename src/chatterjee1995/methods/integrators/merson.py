@@ -56,9 +56,8 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 def located(p, side, t, h, y, tolerance):
     """Return the length of the step that ends at an event, the state there, and the steps tried.
 
-    The event is the beginning or end of a contact within the step from t to t + h. The step is
-    halved until it ends before the event. Then the Illinois variant of regula falsi finds the
-    length with which it ends at the event.
+    The event is the beginning or end of a contact within the step h. The step is halved until it
+    ends before the event. Then the Illinois variant of regula falsi finds the event.
     """
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
@@ -93,32 +92,14 @@ def located(p, side, t, h, y, tolerance):
 
 @kernel
 def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
-    """Integrate from t to end.
+    """Integrate the state y in place from t to end, with a first step h.
 
-    Parameters
-    ----------
-    p, y : array
-        Packed parameters, and the state at t, which is replaced by the state at `end`.
-    side : int
-        Wall in contact at t: -1 or 1, or 0 for none. Unused without `locate`.
-    t, end, h, tolerance : float
-        Times of beginning and end, length of the first step, and tolerance.
-    locate : bool
-        Whether steps end where contacts begin and end.
-    ends : array, shape (m, 5)
-        Receives time and state at the ends of the first m steps; m may be 0.
-
-    Returns
-    -------
-    side : int
-        Wall in contact at the end.
-    h : float
-        Length for the next step.
-    steps : int
-        Number of accepted steps; -1 if the tolerance could not be met, if more than MOST_STEPS
-        steps were needed, or if the run diverged.
-    tries : int
-        Number of computed steps, including rejected steps and trials of `located`.
+    `side` is the wall in contact at t, unused without `locate`, which ends steps where contacts
+    begin and end. `ends`, shape (m, 5), receives time and state at the ends of the first m steps.
+    Return the wall in contact at the end, the length for the next step, and the numbers of accepted
+    and of computed steps. Computed steps include rejected steps and trials of `located`. The number
+    of accepted steps is -1 if the tolerance could not be met, if more than MOST_STEPS steps were
+    needed, or if the run diverged.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, tries = 0, 0
