@@ -49,8 +49,7 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
-from impact_damper.theory.harmonic_solutions import Solution, solve, state_of
-from impact_damper.theory.many_harmonics import Balance
+from impact_damper.theory.many_harmonics import Balance, Solution, solve, state_of
 
 # See the module's docstring.
 BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32

@@ -20,8 +20,7 @@ from impact_damper.model.parameters import describe
 from impact_damper.motions.simulate import simulate
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory import fourier, hill
-from impact_damper.theory.harmonic_solutions import refine, single_term, solve, state_of
-from impact_damper.theory.many_harmonics import Balance
+from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
 
 # Number of values of Z1 in a cycle of the exact orbit for its Fourier coefficients.
 SAMPLES = 2**14

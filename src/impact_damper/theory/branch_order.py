@@ -15,17 +15,6 @@ def branches_over(rows) -> list[np.ndarray]:
     nearest solution to the other, and the distance between them is below JUMP times the size of the
     largest solution. Any other solution begins a new branch. Two branches that meet at a fold are
     told apart if each moves less from value to value than the distance between them.
-
-    Parameters
-    ----------
-    rows : list of array, shape (count, m)
-        Coordinates of the solutions at each value of the parameter. The coordinates are continuous
-        along a branch.
-
-    Returns
-    -------
-    list of numpy.ndarray of int, shape (count,)
-        Numbers of the branches, counted from 0 in the order of their first solutions.
     """
     sizes = [np.max(np.abs(row)) for row in rows if len(row)]
     reach = JUMP * max(sizes, default=1.0)

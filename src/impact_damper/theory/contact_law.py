@@ -1,22 +1,8 @@
 """One contact of the damper in closed form, under a constant load, with two rules for its end.
 
-While the loose mass touches a wall, equations (20) to (23) of the paper give for the penetration
-q = |Z2| - d0
-
-    q'' + 2 z wn q' + wn^2 q = g,   wn^2 = r1 (1 + 1/rm),   z = zeta_c sqrt(1 + rm).
-
-Here g is the acceleration of Z1 towards the wall by all forces other than the contact force. It is
-nearly constant during the short contact. With s = wn t, u = wn q/v0 and the approach speed v0 the
-equation becomes
-
-    u'' + 2 z u' + u = G,   u(0) = 0,   u'(0) = 1,   G = g/(wn v0).
-
-A contact therefore depends only on the restitution e, which gives z by (25), and on the load G. A
-positive load presses loose mass and wall together. The force of the wall is F = u + 2 z u'.
-
-An exit rule states when a contact ends. By `zero_penetration` (appendix B) it ends when u = 0; the
-wall may pull the loose mass shortly before. By `no_tension` it ends when F = 0; the wall never
-pulls.
+With s = wn t, u = wn q/v0 and the approach speed v0 the penetration q obeys u'' + 2 z u' + u = G
+with u(0) = 0, u'(0) = 1; the force is F = u + 2 z u'. By `zero_penetration` (appendix B) a contact
+ends when u = 0, by `no_tension` when F = 0.
 """
 
 import math
@@ -134,22 +120,7 @@ def _waves(restitution, load):
 
 
 def contact(restitution, load, rule) -> Exit:
-    """Return how a contact ends.
-
-    Parameters
-    ----------
-    restitution : float
-        The intended restitution e, from which (25) gives the dashpot; dimensionless.
-    load : float
-        G = g/(wn v0), dimensionless.
-    rule : str
-        One of EXIT_RULES.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is not a number or out of range.
-    """
+    """Return how a contact ends."""
     if rule not in EXIT_RULES:
         raise ValueError(f"rule = {rule!r}: must be one of {', '.join(EXIT_RULES)}")
     penetration, force = _waves(restitution, load)
@@ -167,16 +138,6 @@ def tension(restitution, load) -> Tension:
     """Return time, impulse and peak of the pull of the wall under the rule `zero_penetration`.
 
     The impulse of the wall between two instants is the integral of G over s minus the change of u'.
-
-    Parameters
-    ----------
-    restitution, load : float
-        Intended restitution e, and load G = g/(wn v0), dimensionless.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is not a number or out of range.
     """
     penetration, force = _waves(restitution, load)
     speed = penetration.slope()

@@ -1,9 +1,4 @@
-"""Design rule (19) of the paper for the clearance.
-
-The parameters h (damping), wl (linear frequency), k3 (cubic spring), F, U and V (forcing) are as in
-`system.parameters.Oscillator`, W is the forcing frequency, a the amplitude of Z1 and rm the mass
-ratio. This module imports no NumPy, because Snakemake reads it at every dry run.
-"""
+"""Design rule (19) of the paper for the clearance; no NumPy, since every dry run imports it."""
 
 import math
 
@@ -20,13 +15,6 @@ def peak_frequency(oscillator) -> float:
     V occurs only with a linear spring (k3 = 0), for which Wp = wl. A softening spring (k3 < 0) has
     two solutions, and the peak is the solution with the smaller amplitude. The maximum of the
     response curve lies at a slightly lower frequency, see `free_oscillator.maximum_response`.
-
-    Raises
-    ------
-    ValueError
-        If no motion lags by a quarter of a cycle. There are three reasons: neither the linear nor
-        the cubic stiffness is positive; the motion crosses the barrier of a softening spring at a
-        lower amplitude; or, with a hardening spring, the unbalance is too large for the damping.
     """
     stiffness, hardening = oscillator.linear_frequency**2, oscillator.hardening
     scale = hardening / oscillator.damping**2
@@ -63,11 +51,6 @@ def rule_clearance(oscillator, mass_ratio) -> float:
 
     With this clearance the amplitude a = 0 solves equation (13), the harmonic balance for rigid
     walls, at the peak frequency Wp. f is the forcing amplitude F + U W^2 + V/W^2 at W = Wp.
-
-    Raises
-    ------
-    ValueError
-        If `peak_frequency` finds no peak, or if there is no forcing.
     """
     peak = peak_frequency(oscillator)
     forcing = oscillator.forcing_amplitude(peak)

@@ -1,8 +1,7 @@
 """Values and extrema of real Fourier series, and the intervals in which a series exceeds a level.
 
-A series z(s) is the sum of c_k exp(i k s) over all k in K and in -K, where K (`harmonics`) is an
-ascending array of non-negative integers. c_-k is the conjugate of c_k, and c_0 is real, so that z
-is real. The array `coefficients` holds the c_k for k in K. Angles s are in radian.
+A series is the sum of c_k exp(i k s) over k in `harmonics`, an ascending array of non-negative
+integers, and over -k; `coefficients` are the c_k, and c_-k is the conjugate of c_k.
 """
 
 import numpy as np
@@ -52,11 +51,6 @@ def intervals(coefficients, harmonics, level) -> np.ndarray:
     No interval wider than SHORTEST is missed. A bound on the second derivative of z shows which
     cells (intervals between two samples) contain no crossing of the level and which contain exactly
     one. All other cells are halved, down to the width SHORTEST.
-
-    Returns
-    -------
-    numpy.ndarray, shape (count, 3)
-        Wall, beginning in [0, 2 pi), and end, which may lie beyond 2 pi.
     """
     return np.concatenate([_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)])
 
@@ -103,19 +97,7 @@ def _cells(function, coefficients, harmonics, ends, values):
 
 
 def indicator(rows, orders) -> np.ndarray:
-    """Return the Fourier coefficients of the function that is 1 in all `intervals`, elsewhere 0.
-
-    Parameters
-    ----------
-    rows : array, shape (count, 3)
-        Result of `intervals`.
-    orders : array of int, shape (m,)
-        Indices k of the coefficients, positive or negative.
-
-    Returns
-    -------
-    numpy.ndarray of complex, shape (m,)
-    """
+    """Return the Fourier coefficients of the function that is 1 in all `intervals`, elsewhere 0."""
     _, begin, end = rows.T[:, :, None]
     half = (end - begin) / 2
     turn = np.exp(-0.5j * orders * (begin + end))

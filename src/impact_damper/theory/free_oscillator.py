@@ -1,19 +1,7 @@
 """Single-term harmonic balance of the oscillator without the damper: Z1 = a cos(W T + t1).
 
-a is the amplitude and t1 the phase of the primary mass. The parameters h (damping), wl (linear
-frequency), k3 (cubic spring), F, U and V (forcing) are those of `system.parameters.Oscillator`, and
-W is the forcing frequency. Let g = (3/4) k3, and let f = F + U W^2 + V/W^2 be the forcing amplitude
-(V = 0 unless k3 = 0). Then equation (3) of the paper without contact gives
-
-    (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2.
-
-This is a cubic equation in a^2 at a fixed frequency W, and a quadratic equation in W^2 at a fixed
-amplitude a. All quantities are dimensionless. Angles are in radian.
-
-With a softening spring (k3 < 0) the response curve has two parts. The main part passes through the
-resonance peak, and its amplitudes do not exceed the amplitude of `maximum_response`. The second
-part has larger amplitudes, near the barrier |Z1| = wl/sqrt(-k3) of the spring, where a single
-harmonic is a poor approximation.
+With g = (3/4) k3 and the forcing amplitude f the balance is (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2
+= f^2: a cubic equation in a^2 at fixed W, and a quadratic one in W^2 at fixed a.
 """
 
 from functools import lru_cache
@@ -67,13 +55,7 @@ class Resonance(NamedTuple):
 
 
 def free_solutions(oscillator, frequency) -> FreeSolutions:
-    """Return all solutions without the damper at one frequency, by ascending amplitude.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If the frequency is not a number or out of range.
-    """
+    """Return all solutions without the damper at one frequency, by ascending amplitude."""
     detuning = oscillator.linear_frequency**2 - check_frequency(frequency) ** 2
     force = oscillator.forcing_amplitude(frequency)
     if force == 0:
@@ -94,11 +76,6 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
     """Return the solutions of `free_solutions` on the main part of the curve, through the peak.
 
     With a linear or hardening spring these are all solutions.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As in `free_solutions` and, with a softening spring, in `maximum_response`.
     """
     free = free_solutions(oscillator, frequency)
     if oscillator.hardening >= 0:
@@ -124,11 +101,6 @@ def resonance(oscillator, frequency) -> Resonance:
     With a hardening spring the branch extends to low frequencies and ends at the upper fold. With a
     softening spring it extends to high frequencies and ends at the fold next to the peak. Without
     folds it is the whole curve.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As in `main_solutions`.
     """
     free = main_solutions(oscillator, frequency)
     folds = _folds(oscillator)
@@ -151,12 +123,6 @@ def maximum_response(oscillator) -> Point:
     At the maximum the two roots coincide, so the discriminant of this equation is zero. The
     discriminant is a quadratic polynomial in a^2. With V > 0 the response also grows without limit
     towards W = 0, and the function returns the local maximum at resonance.
-
-    Raises
-    ------
-    ValueError
-        If the amplitude decreases from W = 0 on (large damping), increases without limit (large
-        unbalance with a hardening spring), or reaches the barrier of a softening spring.
     """
     if oscillator.shaker:
         return _peak_on_a_shaker(oscillator)

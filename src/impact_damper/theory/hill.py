@@ -1,20 +1,8 @@
 """Hill's method: Floquet exponents of a motion from the Fourier series of its linearisation.
 
-For a disturbance exp(lambda T) p(T) with periodic p the linearised equations become the quadratic
-eigenvalue problem (Q0 + lambda Q1 + lambda^2 Q2) p = 0. `many_harmonics.Balance.operator` returns
-the matrices, truncated at the harmonics of the balance. In contact the force on the disturbance is
-r1 M p + c (d/dT + lambda)(M p), with the stiffness r1 and the dashpot coefficient c of the contact,
-and M = 1 in contact and 0 elsewhere. The time derivative of M contains Dirac impulses at the
-beginning and end of each contact. The impulses represent the jumps of the dashpot force at the
-displaced ends of the contact, so that no saltation matrix is needed.
-
-In the infinite problem each exponent has copies at distances of i s, with the imaginary unit i. Let
-nu be the base frequency of the motion. For a symmetric motion only odd harmonics of p are used and
-s = 2 nu; otherwise s = nu. In the truncated problem the copies near the middle of the spectrum are
-accurate and the copies near its ends are not. The copies in the strip -s/2 < Im lambda <= s/2 are
-returned. If their number is not the dimension of the state, the status is "not_separated".
-
-Lazarus and Thomas, C. R. Mecanique 338, 510 (2010), discuss how to choose among the copies.
+For a disturbance exp(lambda T) p(T) with periodic p the linearised equations become a quadratic
+eigenvalue problem. Each exponent has copies at distances of i s; the copies in the middle strip are
+accurate (Lazarus and Thomas, C. R. Mecanique 338, 510, 2010).
 """
 
 from typing import NamedTuple
@@ -23,7 +11,7 @@ import numpy as np
 from scipy.linalg import eigvals, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
-from impact_damper.theory.harmonic_solutions import factorised
+from impact_damper.theory.many_harmonics import factorised
 
 # With at most DENSE unknowns all eigenvalues are computed. With more unknowns only the eigenvalues
 # nearest to zero are computed: COPIES of them for each exponent.
@@ -57,16 +45,7 @@ class Exponents(NamedTuple):
 
 
 def exponents(solution) -> Exponents:
-    """Return the Floquet exponents of a solution of harmonic balance.
-
-    Parameters
-    ----------
-    solution : harmonic_solutions.Solution
-
-    Returns
-    -------
-    Exponents
-    """
+    """Return the Floquet exponents of a solution of harmonic balance."""
     balance = solution.balance
     dimension = 2 if balance.damper is None else 4
     orbit, contacts = solution.coefficients, balance.contacts(solution.coefficients)

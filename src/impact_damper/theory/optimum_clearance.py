@@ -1,11 +1,6 @@
 """The optimum clearance by harmonic balance, by straight flight and by closed-form rules.
 
-Straight flight is a model in which the loose mass moves at constant velocity between impacts
-(`straight_flight`). The clearance d0 is stated as the dimensionless ratio rm W^2 d0/f, with the
-mass ratio rm, the forcing frequency W and the forcing amplitude f = F + U W^2 + V/W^2. The ratio is
-written rm W^2 d0 for short. By rule (18) of the paper it is 1.
-
-Symbols are as in `system.parameters`.
+It is stated as the ratio rm W^2 d0/f, which is 1 by rule (18) of the paper.
 """
 
 from dataclasses import replace
@@ -42,18 +37,6 @@ def straight_flight_ratio(mass_ratio, restitution=1.0) -> float:
     In this limit the spring and the damping of the primary mass are negligible, and the loose mass
     flies at constant velocity (see `straight_flight.Flight`). For e = 1 the result is
     1.1382 + 0.1382 rm.
-
-    Parameters
-    ----------
-    mass_ratio : float
-        rm, dimensionless.
-    restitution : float
-        e, dimensionless.
-
-    Returns
-    -------
-    float
-        Dimensionless; rule (18) has the value 1.
     """
     return least_displacement_ratio(Flight(mass_ratio, restitution))
 
@@ -78,20 +61,6 @@ def analytical_table(oscillator, dampers, frequency):
     """Return the amplitude of Z1 by harmonic balance (7) over a sweep of the clearance.
 
     The clearance at which this amplitude is zero is returned too.
-
-    Parameters
-    ----------
-    oscillator : Oscillator
-    dampers : list of Damper
-        In order of ascending clearance, otherwise equal.
-    frequency : float
-        W, dimensionless.
-
-    Returns
-    -------
-    dict
-        Data of the variables `analytical_amplitude`, `analytical_status`, `analytical_optimum`
-        and `analytical_kind`.
     """
     signed, status = zip(
         *(_analytical(oscillator, each, frequency) for each in dampers), strict=True
@@ -122,18 +91,6 @@ def excess_table(ratio, damper):
     The excess is (rm W^2 d0 at the optimum) - 1. A closed form with the ratio c explains the
     fraction (c - 1)/excess. The two closed forms are FIRST_HARMONIC_RATIO and
     `straight_flight_ratio`.
-
-    Parameters
-    ----------
-    ratio : float
-        rm W^2 d0 at the simulated optimum, dimensionless.
-    damper : Damper
-
-    Returns
-    -------
-    dict
-        Data of the variables `optimum_ratio`, `straight_flight_ratio`, `first_harmonic_share` and
-        `straight_flight_share`.
     """
     straight = straight_flight_ratio(damper.mass_ratio, damper.restitution)
     harmonic = FIRST_HARMONIC_RATIO if damper.restitution == 1 else np.nan
@@ -152,24 +109,6 @@ def rule_ratios(oscillator, damper, frequency):
     a straight flight between rigid walls ("straight_flight"), a straight flight with elastic
     contact to first order in the duration of a contact and in the damping ("elastic"), and a
     straight flight with damping, stiffness and inelastic contact ("flight").
-
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-        Its clearance is not used.
-    frequency : float
-        W, dimensionless, above omega_l.
-
-    Returns
-    -------
-    numpy.ndarray, shape (2, 5)
-        Dimensionless, in the order of `CRITERIA` and `RULES`.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As in `straight_flight.flight_of`.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

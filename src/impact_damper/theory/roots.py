@@ -1,8 +1,7 @@
 """Find all real roots of a smooth function of one variable, double roots included.
 
-Between neighbouring extrema a function is monotone, so a change of sign means exactly one root
-and no change of sign means none. An extremum whose value is zero to rounding is a double root. No
-decision depends on the imaginary part of a computed root, which is inaccurate at a double root.
+Between neighbouring extrema a function is monotone, so that signs decide; an extremum that is zero
+to rounding is a double root.
 """
 
 import numpy as np
@@ -19,22 +18,7 @@ LARGEST_RANGE = 1e6
 
 
 def polynomial_roots(coefficients) -> np.ndarray:
-    """Return the real roots of a polynomial, ascending; a double root is listed once.
-
-    Parameters
-    ----------
-    coefficients : array_like, shape (degree + 1,)
-        Lowest power first. Zeros at the end are ignored. A constant has no roots.
-
-    Returns
-    -------
-    numpy.ndarray, shape (count,)
-
-    Raises
-    ------
-    ArithmeticError
-        If values of the polynomial between the roots exceed the floating-point range.
-    """
+    """Return the real roots of a polynomial, ascending; a double root is listed once."""
     coefficients = np.trim_zeros(np.asarray(coefficients, float), "b")
     if len(coefficients) < 2:
         return np.empty(0)
@@ -57,25 +41,6 @@ def smooth_roots(function, size, lower, upper) -> np.ndarray:
     until its last coefficients reach the rounding error. An interval in which the rounding error
     varies by more than a factor of 1e6 is halved first. Between the extrema the roots of the
     function itself are located.
-
-    Parameters
-    ----------
-    function : callable
-        Maps x, a number or an array, to the function's value.
-    size : callable
-        Maps an array x to the sum of the moduli of the function's terms, which must be positive.
-        Rounding errors of `function` are proportional to `size`.
-    lower, upper : float
-        Ends of the interval.
-
-    Returns
-    -------
-    numpy.ndarray, shape (count,)
-
-    Raises
-    ------
-    ArithmeticError
-        If an interpolant of degree 512 does not resolve the function.
     """
     sizes = size(np.linspace(lower, upper, 17))
     if np.max(sizes) > LARGEST_RANGE * np.min(sizes):

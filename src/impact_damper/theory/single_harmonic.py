@@ -1,16 +1,6 @@
 """Single-term harmonic balance with the damper (section 2.1): equations (6), (7), (13), (14).
 
-The ansatz is Z1 = a cos(W T + t1) for the displacement of the primary mass and Z2 = b cos(W T + t2)
-for its displacement relative to the loose mass. Equation (6d) requires sin(t1 - t2) = 0. We set
-t2 = t1 and let the amplitude a have either sign. With a < 0, Z1 and Z2 are in antiphase. We also
-set b > 0 without losing a solution, because changing the signs of both a and b shifts t1 by pi and
-changes nothing else.
-
-The equations hold for elastic contact (restitution 1). The parameters h (damping), wl (linear
-frequency), k3, F, U, V, rm, d0 and r1 are as in `system.parameters`, and W is the forcing
-frequency. Numbers in brackets are equations of the paper. Let g = (3/4) k3, and let f be the
-forcing amplitude F + U W^2 + V/W^2, which is 1 in the paper. All quantities are dimensionless.
-Angles are in radian.
+Z1 = a cos(W T + t1) and Z2 = b cos(W T + t1) with b > 0; a < 0 means antiphase. Contact is elastic.
 """
 
 from typing import NamedTuple
@@ -70,18 +60,6 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 
     With the contact angle p, cos(p) = d0/b, we have B = b (2/pi)(p - sin p cos p) and
     dB/db = (2/pi)(p + sin p cos p). Both are zero for b <= d0, without contact.
-
-    Parameters
-    ----------
-    relative_amplitude : float or array_like
-        b >= 0, dimensionless.
-    clearance : float
-        d0, dimensionless.
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        B and dB/db, each with the shape of `relative_amplitude`.
     """
     amplitude = np.maximum(relative_amplitude, clearance)
     angle = np.arctan2(np.sqrt((amplitude - clearance) * (amplitude + clearance)), clearance)
@@ -94,13 +72,6 @@ def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
 
     For a forcing amplitude f other than 1, (14) holds with d0/f in place of d0, k3 f^2 in place of
     k3, and a/f in place of a. Without forcing there is no solution.
-
-    Raises
-    ------
-    TypeError
-        If `damper` is not a Damper, or the frequency not a number.
-    ValueError
-        If the contact is not elastic, or the frequency out of range.
     """
     check_elastic(damper)
     frequency = check_frequency(frequency)
@@ -136,15 +107,6 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
     cos^6(p) G(p) is an entire function, and (7b) bounds |a| and thereby p. `smooth_roots` finds all
     roots of this function up to rounding. Without forcing there is no solution.
-
-    Raises
-    ------
-    TypeError
-        If `damper` is not a Damper, or the frequency not a number.
-    ValueError
-        If the contact is not elastic, or the frequency out of range.
-    ArithmeticError
-        If no polynomial of the allowed degree resolves G.
     """
     balance = _Balance(oscillator, damper, check_frequency(frequency))
     lower, upper = balance.angle_range()
@@ -159,11 +121,6 @@ def resting_solutions(oscillator, damper, frequency) -> Solutions:
     """Return the motions without contact, in which the loose mass is at rest.
 
     These are the free solutions with a < d0. Z2 = Z1 and b = a, because the loose mass is at rest.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As in `free_solutions`; also if `damper` is not a Damper.
     """
     check_damper(damper)
     free = free_solutions(oscillator, frequency)

@@ -1,13 +1,7 @@
 """Slow flow (17) and its Jacobian in the complex amplitudes A = a exp(i t1), C = b exp(i t2).
 
-Z1 = Re(A exp(i W T)) and Z2 = Re(C exp(i W T)) with slowly varying A and C (section 2.2). The slow
-flow gives the rates at which A and C change. Its fixed points are the solutions of harmonic
-balance, and the Jacobian at a fixed point decides whether the solution is stable. The polar
-equations (17a) to (17d) are the real and imaginary parts of A' exp(-i t1) and C' exp(-i t2). The
-polar equations are singular at a = 0, the design point. The equations in A and C are not singular
-there, and their Jacobian has the same eigenvalues at a fixed point.
-
-Symbols are as in `system.parameters`.
+Unlike the polar equations of the paper these are regular at a = 0, the design point, and have the
+same eigenvalues elsewhere.
 """
 
 import numpy as np
@@ -20,28 +14,7 @@ MARGIN = 1e-9
 
 
 def slow_flow(state, oscillator, damper, frequency) -> np.ndarray:
-    """Return the time derivatives of the slow amplitudes, equation (17).
-
-    Parameters
-    ----------
-    state : array_like, shape (..., 4)
-        Re A, Im A, Re C, Im C, dimensionless. Without a damper shape (..., 2): Re A, Im A.
-    oscillator : Oscillator
-    damper : Damper or None
-        The contact is treated as elastic, so the restitution is not used.
-    frequency : float
-        W, dimensionless.
-
-    Returns
-    -------
-    numpy.ndarray
-        Derivatives with respect to T, with the shape of `state`.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If the frequency is not a number or out of range.
-    """
+    """Return the time derivatives of the slow amplitudes, equation (17)."""
     frequency = check_frequency(frequency)
     state = np.asarray(state, float)
     primary = state[..., 0] + 1j * state[..., 1]
@@ -65,16 +38,6 @@ def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
     """Return the Jacobian of `slow_flow` with respect to the state.
 
     This is appendix A in complex amplitudes. The arguments are as in `slow_flow`.
-
-    Returns
-    -------
-    numpy.ndarray, shape (..., 4, 4)
-        Without a damper shape (..., 2, 2).
-
-    Raises
-    ------
-    TypeError, ValueError
-        If the frequency is not a number or out of range.
     """
     frequency = check_frequency(frequency)
     state = np.asarray(state, float)
@@ -105,17 +68,7 @@ def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def fixed_points(solutions) -> np.ndarray:
-    """Return the states of harmonic-balance solutions, which are fixed points of the slow flow.
-
-    Parameters
-    ----------
-    solutions : single_harmonic.Solutions or free_oscillator.FreeSolutions
-
-    Returns
-    -------
-    numpy.ndarray, shape (count, 4)
-        Re A, Im A, Re C, Im C. For `FreeSolutions` shape (count, 2): Re A, Im A.
-    """
+    """Return the states of harmonic-balance solutions, which are fixed points of the slow flow."""
     turn = np.exp(1j * solutions.phase)
     parts = [
         part

@@ -1,13 +1,6 @@
-"""Closed forms for the optimum clearance, by a model of the small motion with straight flights.
+"""Closed forms for the optimum clearance, for a loose mass that flies at constant velocity.
 
-In the model the loose mass flies at constant velocity between two impacts in each forcing cycle. At
-small displacement the cubic spring is negligible, and the primary mass is a linear oscillator under
-the forcing and the two impulses. The walls may be rigid or compliant, and the impacts elastic or
-inelastic. The model gives the optimum value of rm W^2 d0 for two criteria: the smallest max |Z1|,
-and the smallest first harmonic of Z1. Lengths are in units of f/W^2 with the forcing amplitude f
-and the forcing frequency W, so rm W^2 d0 means rm W^2 d0/f everywhere in this module. The
-parameters rm, d0, e and r1 are as in `system.parameters.Damper`, and h, omega_l and k3 as in
-`Oscillator`.
+Lengths are in units of f/W^2, so rm W^2 d0 means rm W^2 d0/f in this module.
 """
 
 from functools import cache
@@ -34,40 +27,9 @@ APART = 1e-20j
 class Flight(NamedTuple):
     """The quiet motion near its optimum, with lengths in units of f/W^2 and time as phase W T.
 
-    Let x = W^2 Z1/f, and let x2 be the displacement of the loose mass. The response to the forcing
-    alone is -A cos(phi), where the phase phi is zero at a maximum of -x. An impact takes place at
-    phi = s, the lag. In the following half cycle the loose mass flies at constant velocity: W^2
-    x2/f = -(q/rm) (1 - 2 (phi - s)/pi). The motion in the other half cycle is the mirror image. The
-    loose mass exerts impulses on the primary mass, which are written 4 q/pi with an unknown q. They
-    add q R(y) to x:
-
-        x = -A cos(phi) + q R(y),      y = pi/2 - (phi - s),  |y| <= pi/2.
-
-    R is the periodic response of x'' + g x' + l^2 x to alternating impulses 4/pi. For g = l = 0 it
-    is R = 2 y/pi. Three conditions complete the problem.
-
-    Lag. For e = 1 the mean of the relative velocities before and after an impact is zero. For e < 1
-    it is (1 - e)/(1 + e) times half the velocity jump. Hence A sin(s) = q L, where L is the sum of
-    (2/pi) (1 + 1/rm) (1 - e)/(1 + e) and a term of the damping g, which is (2/pi) tanh(pi g/2) for
-    l = 0.
-
-    Walls. For rigid walls, rm W^2 d0 = q + rm x(s), because the loose mass is at a wall at the
-    impact. For compliant walls let k = W/sqrt(r1 (1 + 1/rm)). An elastic contact then lasts the
-    phase pi k, and an inelastic contact the phase theta = pi k/sqrt(1 - z^2), where z is the
-    damping ratio of the relative motion. The straight lines of the flights before and after the
-    contact, with the speeds v and e v, intersect beyond the wall at the depth v theta e/(1 + e).
-    The motion therefore equals a motion between rigid walls that are farther out by this depth.
-    This reduces rm W^2 d0 by (1 + rm) q (4/pi) theta e/(1 + e)^2, which is (1 + rm) q k for e = 1.
-    The forcing during a contact reduces the lag by theta (1 - e)/(1 + e) - 2 z k.
-
-    Tip. During a contact of finite duration x has a rounded maximum. The maximum lies below the
-    intersection of the two lines by (1 - 2/pi) times the depth, as the maximum of a half sine lies
-    below the intersection of its end tangents.
-
-    For rigid walls l and g enter exactly. For compliant walls terms of the orders k^2 (that is
-    1/r1) and k g are neglected, and for e < 1 also a part of the rounding of the tip, of order k (1
-    - e). The cubic spring is neglected. Near an optimum it would add about (3/4) k3 max |Z1|^2/W^2
-    to l^2. The relative error of the clearance is of the same size.
+    `docs/explanation/straight_flight.md` derives the equations: with x = W^2 Z1/f, the amplitude A
+    of the forced response, impulses 4 q/pi at the phase s, and walls farther out by the depth of a
+    contact.
 
     Attributes
     ----------
@@ -179,22 +141,7 @@ class Flight(NamedTuple):
 
 
 def flight_of(oscillator, damper, frequency) -> Flight:
-    """Return the `Flight` for a damper, whose clearance is not used.
-
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-    frequency : float
-        W, dimensionless, above omega_l.
-
-    Raises
-    ------
-    TypeError
-        If `damper` is not a Damper, or the frequency not a number.
-    ValueError
-        If the frequency is not above the linear frequency omega_l, or there is no forcing.
-    """
+    """Return the `Flight` for a damper, whose clearance is not used."""
     check_damper(damper)
     if oscillator.forcing_amplitude(1.0) == 0:
         raise ValueError("force = 0, unbalance = 0: a quiet motion needs a forcing")
@@ -256,13 +203,6 @@ def elastic_ratios(flight) -> tuple[float, float]:
     """Return the optima of rm W^2 d0 by both criteria for elastic contact.
 
     The closed forms are of first order in k and g and neglect the stiffness l.
-
-    Returns
-    -------
-    displacement : float
-        For the smallest max |Z1|: (1 + rm) (1.138 - 0.860 k + 0.095 g) - rm; NaN for e < 1.
-    harmonic : float
-        For the smallest first harmonic of Z1: (1 + rm) (1 - k) pi^2/8 - rm; NaN for e < 1.
     """
     if flight.restitution != 1:
         return np.nan, np.nan

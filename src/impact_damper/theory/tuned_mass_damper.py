@@ -1,9 +1,7 @@
 """The tuned mass damper on an undamped linear oscillator under a harmonic force.
 
 Frequencies are divided by the natural frequency of the oscillator, and displacements by the static
-deflection. The absorber has the mass ratio m, the damping ratio z and the tuning f, which is its
-natural frequency divided by the natural frequency of the oscillator. The response curves for all z
-pass through the same two points, which are called fixed points.
+deflection.
 """
 
 from typing import NamedTuple

@@ -24,8 +24,7 @@ from impact_damper.theory.free_oscillator import (
     resonance,
 )
 from impact_damper.theory.harmonic_balance import optimum_clearance
-from impact_damper.theory.harmonic_solutions import refine, single_term, solve, state_of
-from impact_damper.theory.many_harmonics import Balance
+from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
 from impact_damper.theory.optimum_clearance import rule_ratios
 from impact_damper.theory.single_harmonic import (
     contact_amplitude,

@@ -8,8 +8,7 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory import hill
-from impact_damper.theory.harmonic_solutions import refine, single_term, solve, state_of
-from impact_damper.theory.many_harmonics import Balance
+from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
 
 CASES = {"free": (None, 1.9, 21), "elastic": (DESIGN, 2.0, 255), "inelastic": (INELASTIC, 2.0, 255)}
 

@@ -15,8 +15,7 @@ from impact_damper.model.parameters import Oscillator
 from impact_damper.motions import strobe_map
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
-from impact_damper.theory.harmonic_solutions import refine, single_term, solve, state_of
-from impact_damper.theory.many_harmonics import Balance
+from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
 
 BALANCES = {
     "free": Balance(Oscillator(0.3, 0.7), None, 1.3, 5),
