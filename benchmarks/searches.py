@@ -24,9 +24,9 @@ from impact_damper.model.machine import Machine
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions import ensemble, strobe_map
-from impact_damper.motions.sweep import SIMILAR, size_ratio
 from impact_damper.motions.response import frequency_response
 from impact_damper.motions.start_states import barrier
+from impact_damper.motions.sweep import SIMILAR, size_ratio
 from impact_damper.theory.design_rule import peak_frequency
 
 # Ratio of the largest displacements and speeds of the starts of both searches.

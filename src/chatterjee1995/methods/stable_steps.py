@@ -26,8 +26,8 @@ from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.following import StrobeOrbit
 from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.orbits.compliant_orbits import compliant_orbit
 from impact_damper.orbits.grid_following import Grid
+from impact_damper.orbits.quiet_orbits import compliant_orbit
 
 # A run keeps the quiet motion with an accuracy if max |Z1| of every cycle differs relatively by at
 # most this number from the exact orbit.

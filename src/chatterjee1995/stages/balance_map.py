@@ -1,23 +1,16 @@
 """Map of the errors of single-term harmonic balance, compared with the exact motions.
 
-A cell of the map is one forcing frequency W and one value of a parameter. Numbers in brackets are
-equations of the paper: (7) is harmonic balance with one harmonic and (17) the slow flow, from which
-the stability of its solutions follows. The quiet orbit is the small symmetric periodic motion for
-which a damper is designed. Free means without the damper.
-
-Two questions are answered in each cell. Quiet: is the solution of (7) with the smallest amplitude
-|a| stable by (17), and is the exact quiet orbit stable by its Floquet multipliers? High: is there a
-stable solution of at least half the amplitude of the free resonance, and to which motion does a
-simulation lead that starts from this solution? Harmonic balance describes elastic contact only. For
-a restitution e < 1 its solution for e = 1 is taken.
+In each cell, of one frequency and one value of a parameter, two questions are asked. Quiet: is the
+solution of (7) with the smallest amplitude |a| stable by the slow flow, and is the quiet orbit?
+High: to which motion does the largest stable solution lead? Harmonic balance takes e = 1.
 """
 
 from dataclasses import replace
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
 
-from chatterjee1995.stages.map_cells import HIGH, NEAR, balance_cells
 from chatterjee1995.variables.balance_map import MAPPED
 from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wall
 from impact_damper.model import packed
@@ -34,7 +27,111 @@ from impact_damper.orbits.quiet_orbits import (
     straight_flight_end,
 )
 from impact_damper.theory.design_rule import peak_frequency
+from impact_damper.theory.free_oscillator import resonance
 from impact_damper.theory.harmonic_balance import optimum_clearance
+from impact_damper.theory.single_harmonic import impacting_solutions
+from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
+
+# A motion is high if its amplitude is at least HIGH times the free resonance amplitude, and quiet
+# if its amplitude is below this limit.
+HIGH = 0.5
+# A settled motion is near a predicted motion if max |Z1| differs relatively by at most NEAR.
+NEAR = 0.2
+
+
+class Cells(NamedTuple):
+    """Solutions of harmonic balance in all cells, and start states; NaN without a solution.
+
+    All arrays have the shape (rows, columns); those of the starts at T = 0 have a last axis of 4.
+    `quiet` and `high` are flags. Beyond the end of the free resonance branch,
+    `resonance` is the amplitude at this end. Without a high solution `high_start` is the state on
+    this branch, with the loose mass at rest in the middle of the gap.
+    """
+
+    resonance: np.ndarray
+    quiet: np.ndarray
+    quiet_amplitude: np.ndarray
+    quiet_start: np.ndarray
+    high: np.ndarray
+    high_amplitude: np.ndarray
+    high_start: np.ndarray
+
+
+def balance_cells(rows) -> Cells:
+    """Solve the harmonic balance (7) in all cells of a map.
+
+    The quiet limit is half the amplitude of the free resonance branch. The quiet solution is the
+    solution with the smallest |a|, if this |a| is below the limit. The high solution is the stable
+    solution with the largest |a|, if this |a| is not below the limit.
+    """
+    cells = [
+        [_cell(oscillator, damper, frequency) for frequency in frequencies]
+        for oscillator, damper, frequencies in rows
+    ]
+    return Cells(
+        *(np.array([[cell[k] for cell in row] for row in cells]) for k in range(len(Cells._fields)))
+    )
+
+
+def _cell(oscillator, damper, frequency):
+    """Return the harmonic balance in one cell, as `Cells` with one entry in place of each array."""
+    free, phase = _resonance(oscillator, frequency)
+    high_start = np.full(4, np.nan)
+    if phase is not None:
+        start = _start(free, 0.0, phase, frequency)
+        # The loose mass is at rest in the middle of the gap: Z2 = 0 and Z2' = Z1'.
+        high_start = np.array([start[0], start[1], 0.0, start[1]])
+    nothing = np.nan, np.full(4, np.nan)
+    elastic = replace(damper, restitution=1.0)
+    try:
+        solutions, growth = _solutions(oscillator, elastic, frequency)
+    except ArithmeticError:
+        unresolved = flag("balance_quiet", "unresolved")
+        return Cells(free, unresolved, *nothing, unresolved, np.nan, high_start)
+    signs = stability(growth)
+    amplitude = np.abs(solutions.amplitude)
+
+    def start_at(k):
+        return _start(*(values[k] for values in solutions), frequency)
+
+    quiet = flag("balance_quiet", "none"), *nothing
+    if len(amplitude) and np.min(amplitude) < HIGH * free:
+        k = np.argmin(amplitude)
+        verdict = {1: "stable", -1: "unstable", 0: "unresolved"}[int(signs[k])]
+        quiet = flag("balance_quiet", verdict), amplitude[k], start_at(k)
+    high = flag("balance_high", "none"), np.nan, high_start
+    large = np.flatnonzero((signs == flag("stability", "stable")) & (amplitude >= HIGH * free))
+    if len(large):
+        k = large[np.argmax(amplitude[large])]
+        high = flag("balance_high", "stable"), amplitude[k], start_at(k)
+    return Cells(free, *quiet, *high)
+
+
+@lru_cache(4096)
+def _solutions(oscillator, damper, frequency):
+    """Return the solutions of (7) and their growth rates.
+
+    The result is cached because cells that differ only in the restitution share it.
+    """
+    solutions = impacting_solutions(oscillator, damper, frequency)
+    return solutions, growth_rate(fixed_points(solutions), oscillator, damper, frequency)
+
+
+_resonance = lru_cache(4096)(resonance)
+
+
+def _start(amplitude, relative_amplitude, phase, frequency):
+    """Return Z1, Z1', Z2, Z2' at T = 0 of Z1 = a cos(W T + t1), Z2 = b cos(W T + t1)."""
+    inline, across = np.cos(phase), -frequency * np.sin(phase)
+    return np.array(
+        [
+            amplitude * inline,
+            amplitude * across,
+            relative_amplitude * inline,
+            relative_amplitude * across,
+        ]
+    )
+
 
 # A chaotic motion is stopped after a number of cycles, the patience (`Settling.patience`). At most
 # CHECKED of the chaotic high motions are run again with LONG times the patience, to see whether the
@@ -107,8 +204,8 @@ def balance_map(
         "straight_flight_end": [_rigid_end(row) for row in rows],
         "high_long_outcome": _long(parameters, balance.high_start, high_kind, settling, workers),
     }
-    data |= _quiet_data(balance, quiet_kind, quiet_runs)
-    data |= _orbit_data(balance, orbits, parameters[..., FREQUENCY], frequency_ratios)
+    data |= _quiet_data(balance, quiet_kind)
+    data |= _orbit_data(balance, orbits, frequency_ratios)
     data |= _high_data(balance, high_kind, high_runs)
     coordinates = {
         "map_value": np.asarray(values, float),
@@ -119,27 +216,23 @@ def balance_map(
     return dataset(data, coordinates, made, "Harmonic balance against the true motions")
 
 
-def _quiet_data(balance, kinds, runs):
+def _quiet_data(balance, kinds):
     return {
         "balance_quiet": balance.quiet,
         "balance_quiet_amplitude": balance.quiet_amplitude,
-        "balance_quiet_growth": balance.quiet_growth,
         "quiet_run_motion": kinds,
-        "quiet_run_exponent": runs["lyapunov_exponent"],
-        "quiet_run_error": runs["lyapunov_error"],
     }
 
 
-def _orbit_data(balance, orbits, frequency, ratios):
+def _orbit_data(balance, orbits, ratios):
     truth = _truth(orbits)
     return {
         "quiet_orbit": truth,
-        "quiet_orbit_growth": np.log(np.abs(orbits.multiplier)) * frequency / np.pi,
         "quiet_orbit_displacement": orbits.displacement,
         "quiet_orbit_harmonic": orbits.harmonic,
         "quiet_verdict": _quiet_verdict(balance.quiet, truth),
         "quiet_end": np.interp(orbits.end, np.arange(len(ratios)), ratios),
-        "quiet_end_event": orbits.end_event,
+        "quiet_end_event": np.vectorize(partial(flag, "quiet_end_event"))(orbits.end_event),
     }
 
 
@@ -149,11 +242,6 @@ def _high_data(balance, kinds, runs):
         "balance_high_amplitude": balance.high_amplitude,
         "high_run_motion": kinds,
         "high_run_outcome": runs["outcome"],
-        "high_run_period": runs["period"],
-        "high_run_contacts": runs["contacts"],
-        "high_run_displacement": runs["maximum_displacement"],
-        "high_run_exponent": runs["lyapunov_exponent"],
-        "high_run_error": runs["lyapunov_error"],
         "high_verdict": _high_verdict(balance, kinds, runs["maximum_displacement"]),
     }
 
@@ -238,10 +326,7 @@ def _truth(orbits):
     """
     values = orbits.multiplier
     columns = np.arange(values.shape[1])
-    ended = np.isin(
-        orbits.end_event,
-        [flag("quiet_end_event", name) for name in ("fold", "contacts_change")],
-    )
+    ended = np.isin(orbits.end_event, ["fold", "contacts_change"])
     below = ended[:, :1] & (columns < orbits.end[:, :1])
     above = ended[:, 1:] & (columns > orbits.end[:, 1:])
     real = values.imag == 0

@@ -68,12 +68,6 @@ def asymptotic_harmonic(damper, frequency) -> float:
     (appendix B). With a dashpot N is also at least r1/(c W), with c = 2 zc sqrt(r1 rm). Above this
     harmonic the jump of the contact force, c Z2', contributes more to a coefficient than the jump
     of its slope, r1 Z2'.
-
-    Parameters
-    ----------
-    damper : Damper or None
-    frequency : float
-        W, dimensionless.
     """
     if damper is None:
         return 1.0
@@ -86,23 +80,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Return the predicted decrease of each error in `MEASURES` with the highest harmonic N.
-
-    Parameters
-    ----------
-    damper : Damper or None
-    p : array, shape (packed.COUNT,)
-        Packed parameters.
-    state : array, shape (4,)
-        State of the exact orbit at W T = pi/2: Z1, Z1', Z2, Z2'.
-
-    Returns
-    -------
-    kind : str
-        "algebraic" if the errors decrease as N^-rate, "exponential" if as exp(-rate N).
-    rates : numpy.ndarray, shape (4,)
-        The rates, in the order of MEASURES.
-    """
+    """Return the predicted decrease of each error in `MEASURES` with the highest harmonic N."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
@@ -115,18 +93,6 @@ def singularity_distance(p, state) -> float:
     in half a forcing cycle. Near a singularity T* the motion is Z1 = sqrt(-2/k3)/(T - T*), so T* is
     estimated as T + Z1/Z1'. The next integration leads along a straight line from the real part of
     the estimate towards the estimate.
-
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters.
-    state : array, shape (4,)
-        State of the exact orbit at W T = pi/2: Z1, Z1', Z2, Z2'.
-
-    Returns
-    -------
-    float
-        In units of T; infinite for a linear spring, NaN if no singularity is found.
     """
     frequency, (stiffness, cubic) = p[FREQUENCY], cubic_spring(p)
     if cubic == 0:

@@ -24,7 +24,7 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import Damper, describe
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.motions.traces import trace
-from impact_damper.orbits.compliant_orbits import compliant_orbit
+from impact_damper.orbits.quiet_orbits import compliant_orbit
 from impact_damper.theory.optimum_clearance import CRITERIA, RULES, rule_ratios
 from impact_damper.theory.straight_flight import flight_of
 
@@ -185,23 +185,7 @@ class QuietMotion:
         return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """Return the ratio at the local minimum reached downhill from a guess, and its kind.
-
-        Parameters
-        ----------
-        criterion : int
-            0 to minimise max |Z1|, 1 for the first harmonic.
-        guess : float
-
-        Returns
-        -------
-        ratio : float
-            NaN if there is no orbit at the guess.
-        kind : str
-            "smooth" or "kink"; "edge" if the search finds no minimum in MOST_STEPS steps; "jump" if
-            the orbit ends next to the smallest value; "not_found" if there is no orbit at the
-            guess.
-        """
+        """Return the ratio at the local minimum reached downhill from a guess, and its kind."""
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
         def size(ratio):
@@ -234,13 +218,6 @@ def first_harmonic(p, y) -> complex:
 
     The integral over one period is computed by the trapezoidal rule. At an impact Z1 has a kink,
     and the error is of second order in the step: below 1e-5 of the change of c by this kink.
-
-    Parameters
-    ----------
-    p : array, shape (COUNT,)
-        Packed parameters.
-    y : array, shape (4,)
-        State of an orbit of period 1 at W T = pi/2.
     """
     start = strobe_time(p)
     times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[FREQUENCY] * SAMPLES)

@@ -18,8 +18,8 @@ from impact_damper.model.checks import check_frequencies, check_frequency, check
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import check_damper, describe
 from impact_damper.model.settling import check_settling
-from impact_damper.orbits.compliant_orbits import compliant_orbit
 from impact_damper.orbits.grid_following import Grid, follow_line
+from impact_damper.orbits.quiet_orbits import compliant_orbit
 
 # Relative errors of max |Z1|. The dataset says from which stiffness the error is smaller.
 THRESHOLDS = (0.01, 0.1)

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from chatterjee1995.reading import datasets as extract
-from chatterjee1995.stages.map_cells import NEAR
+from chatterjee1995.stages.balance_map import NEAR
 from chatterjee1995.variables.balance_map import BALANCE_VERDICT
 from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.data.shares import wilson

@@ -63,13 +63,9 @@ balance_quiet | map_value frequency_ratio | | | stability of the quiet solution 
   : BALANCE_VERDICT
 balance_quiet_amplitude | map_value frequency_ratio | | |a| | |a| of the quiet solution of
   harmonic balance
-balance_quiet_growth | map_value frequency_ratio | | | growth rate of the slow flow at the quiet
-  solution, per unit time
 quiet_orbit | map_value frequency_ratio | | | stability of the exact quiet orbit, or the
   bifurcation by which it becomes unstable
   : unresolved -1, absent 0, stable 1, fold 2, symmetry_breaking 3, neimark_sacker 4
-quiet_orbit_growth | map_value frequency_ratio | | | logarithm of the dominant Floquet multiplier
-  of the quiet orbit, per unit time
 quiet_orbit_displacement | map_value frequency_ratio | | max |Z1| | largest displacement in the
   quiet orbit
 quiet_orbit_harmonic | map_value frequency_ratio | | | amplitude of the first harmonic of Z1 in
@@ -86,9 +82,6 @@ straight_flight_end | map_value | | | Omega/Omega_p at the upper end of quiet or
 quiet_run_motion | map_value frequency_ratio | | | motion to which a start at the quiet solution
   of harmonic balance leads
   : RUN_MOTION
-quiet_run_exponent | map_value frequency_ratio | | | largest Lyapunov exponent of the quiet run,
-  per unit time
-quiet_run_error | map_value frequency_ratio | | | standard error of quiet_run_exponent
 # the high motion
 balance_high | map_value frequency_ratio | | | stability of the high solution of harmonic balance
   : BALANCE_VERDICT
@@ -100,13 +93,6 @@ high_run_motion | map_value frequency_ratio | | | motion to which the high run l
   : RUN_MOTION
 high_run_outcome | map_value frequency_ratio | | | outcome of the high run
   : OUTCOME
-high_run_period | map_value frequency_ratio | | n | period of the motion of the high run in cycles
-high_run_contacts | map_value frequency_ratio | | | contacts begun per cycle in the high run
-high_run_displacement | map_value frequency_ratio | | max |Z1| | largest displacement in the high
-  run
-high_run_exponent | map_value frequency_ratio | | | largest Lyapunov exponent of the high run, per
-  unit time
-high_run_error | map_value frequency_ratio | | | standard error of high_run_exponent
 high_long_outcome | map_value frequency_ratio | | | outcome of some chaotic high runs, repeated
   with ten times as many cycles
   : OUTCOME

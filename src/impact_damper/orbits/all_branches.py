@@ -18,8 +18,8 @@ from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.orbits.branch_datasets import branches_dataset
 from impact_damper.orbits.branches import follow_branch
-from impact_damper.orbits.other_branches import follow_others
 from impact_damper.orbits.shooting import find_orbit
+from impact_damper.orbits.switching import follow_others
 
 # A branch of period 1 is followed to its ends. Any other branch is left once its unstable orbits in
 # a row last BEYOND forcing cycles together: farther on, branches wind through chaos for up to 20000

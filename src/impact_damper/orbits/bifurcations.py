@@ -1,8 +1,7 @@
 """Locate bifurcations and changes of contact on a step between two points of a branch.
 
-A branch is the curve of the periodic orbits over a parameter. A multiplier is a Floquet multiplier.
-A bifurcation is located as the zero of a test function along the step. A change of contact is
-located as the place at which the sequence of walls that the orbit touches changes.
+A bifurcation is the zero of a test function along the step, a change of contact the place at which
+the sequence of walls touched changes.
 """
 
 from typing import NamedTuple
@@ -11,8 +10,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from impact_damper.model.packed import FREQUENCY
-from impact_damper.orbits import between
-from impact_damper.orbits.continuation import Point
+from impact_damper.orbits.continuation import Point, point_at_distance
 
 # A place is a distance along the branch from the beginning of the step.
 # FINE: largest tolerance of the place of a bifurcation, divided by the length of the step.
@@ -109,26 +107,7 @@ TESTS = {
 
 
 def bifurcations_between(point_at, start, end, first, last):
-    """Locate all bifurcations between two points of a branch.
-
-    Parameters
-    ----------
-    point_at : callable
-        Function that returns the point of the branch at a place between `first` and `last`. It
-        raises ArithmeticError if Newton's method fails.
-    start, end : Point
-        Points at the places `first` and `last`.
-    first, last : float
-        Places, such as distances along the branch.
-
-    Returns
-    -------
-    located : list of (float, Event)
-        Places and events, in order. If the product of two real multipliers passes 1, the test
-        function of the Neimark-Sacker bifurcation also vanishes; such a place is not listed.
-    lost : int
-        Number of events that were not located because Newton's method failed.
-    """
+    """Locate all bifurcations between two points of a branch."""
     located, lost = [], 0
     for kind, (test, precision) in TESTS.items():
         if test(start) * test(end) >= 0:
@@ -159,22 +138,7 @@ def bifurcations_between(point_at, start, end, first, last):
 
 
 def events_between(start, end, length):
-    """Locate all events on a step, at most MOST_CHANGES of them changes of contact.
-
-    Parameters
-    ----------
-    start, end : Point
-        Points at the two ends of the step.
-    length : float
-        Distance of `end` from `start` along the tangent at `start`.
-
-    Returns
-    -------
-    events : list of Event
-        In order along the step.
-    lost : int
-        Number of events that were not located.
-    """
+    """Locate all events on a step, at most MOST_CHANGES of them changes of contact."""
 
     known = {0.0: start, length: end}
 
@@ -182,7 +146,7 @@ def events_between(start, end, length):
         if distance not in known:
             low = max(place for place in known if place < distance)
             high = min(place for place in known if place > distance)
-            found = between.at_distance(start, known[low], known[high], distance)
+            found = point_at_distance(start, known[low], known[high], distance)
             if found is None:
                 raise ArithmeticError
             known[distance] = found

@@ -1,14 +1,7 @@
 """Boundaries of the free oscillator's basins, which are stable manifolds of its unstable orbits.
 
-An unstable orbit of the map over a cycle is a saddle: one multiplier lies inside and one outside
-the unit circle. The states that tend to a saddle form a curve, the stable manifold, which separates
-basins. The curve is computed backwards in time, cycle by cycle, from a short segment along the
-stable direction of the saddle. Where neighbouring points of the curve are further apart than a
-given spacing, points are inserted: the midpoint of their images one cycle later is integrated
-backwards. The errors of this interpolation shrink, because backwards in time all nearby curves
-approach the stable manifold.
-
-Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
+A manifold is computed backwards in time, cycle by cycle, from a short segment at the orbit. All
+nearby curves approach it backwards in time, so errors of interpolation shrink.
 """
 
 import math
@@ -41,24 +34,7 @@ CHUNK = 4096
 
 
 def saddles(p, states, periods, phase):
-    """Return the saddles (unstable orbits) that Newton's method finds from given states.
-
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters without a damper.
-    states : array, shape (n, 2)
-        Z1 and Z1' at which Newton's method begins.
-    periods : iterable of int
-        Periods of the orbits in forcing cycles.
-    phase : float
-        Phase W T of the states, radian.
-
-    Returns
-    -------
-    list of orbits.orbit.Orbit
-        By ascending period, each orbit once.
-    """
+    """Return the saddles (unstable orbits) that Newton's method finds from given states."""
     orbits, known = [], np.empty((0, 2))
     for n in sorted(set(periods)):
         for state in states:
@@ -101,30 +77,7 @@ def run_backwards(p, states, phase, tolerance, reach):
 
 
 def stable_manifold(orbit, tolerance, window, spacing, reach):
-    """Return the stable manifold of a saddle within a window.
-
-    Parameters
-    ----------
-    orbit : orbits.orbit.Orbit
-        A saddle of the free oscillator.
-    tolerance : float
-        Largest local error of a step.
-    window : array, shape (2,)
-        Largest |Z1| and |Z1'| of interest.
-    spacing : array, shape (2,)
-        Largest distance of neighbouring points in Z1 and Z1' within the window.
-    reach : array, shape (2,)
-        |Z1| and |Z1'| beyond which the curve is not followed, at least as large as the window. It
-        must be so large that motions backwards in time do not come back from beyond it.
-
-    Returns
-    -------
-    pieces : list of numpy.ndarray, shape (n, 2)
-        Pieces of the curve, one or more for each side of the saddle and each cycle.
-    complete : bool
-        Whether the curve was computed until it left the reach. A curve that winds without end is
-        cut after MOST_POINTS points on each side.
-    """
+    """Return the stable manifold of a saddle within a window."""
     values, vectors = np.linalg.eig(orbit.monodromy[:2, :2])
     k = int(np.argmin(np.abs(values)))
     direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)

@@ -1,17 +1,11 @@
-"""Periodic orbits, branches and their events as labelled datasets.
-
-A branch is the curve of the orbits over a parameter. An event is a point of a branch at which an
-orbit changes, such as a fold or a loss of stability.
-
-Z1 is the displacement of the primary mass.
-"""
+"""Variables of orbits and of branches for datasets."""
 
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.motions.records import phase_of
 from impact_damper.motions.simulate import COMPONENTS
-from impact_damper.orbits.other_branches import met_by
+from impact_damper.orbits.switching import met_by
 
 # A contact counts as near grazing if the relative speed at its beginning is below SLOW. Floquet
 # multipliers then describe very small disturbances only: the effect of a disturbance d also has a
@@ -62,24 +56,7 @@ def orbit_variables(pairs):
 
 
 def branches_dataset(branches, back, parameters, title, more=None):
-    """Return a dataset of branches.
-
-    Parameters
-    ----------
-    branches : list of Branch
-    back : callable
-        Function that returns the parameter for the coordinate in which the branches were followed,
-        which is the parameter itself or its logarithm.
-    parameters : dict
-        Parameters of the dataset, as from `describe`.
-    title : str
-    more : dict, optional
-        Further variables.
-
-    Returns
-    -------
-    xarray.Dataset
-    """
+    """Return a dataset of branches."""
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]
     events = [

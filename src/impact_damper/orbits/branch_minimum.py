@@ -1,11 +1,4 @@
-"""Minimum of the largest displacement along a branch of motions over the clearance, for `optimum`.
-
-A sweep computes motions at several clearances. A branch consists of the motions of period 1 at
-successive clearances that belong together. Between the clearances of the sweep the motion is
-followed by Newton's method, so that the minimum is exact.
-
-Z1 is the displacement of the primary mass and W T the phase of the forcing.
-"""
+"""Minimum of the largest displacement along a branch of motions over the clearance."""
 
 from typing import NamedTuple
 

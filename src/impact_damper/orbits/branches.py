@@ -1,13 +1,4 @@
-"""Follow a branch of periodic orbits from one orbit in both directions of a parameter.
-
-A branch is the curve of the orbits over the parameter. Along it events are located: folds, at which
-the branch turns back, other bifurcations, and grazings, at which a contact appears or vanishes with
-zero speed. A branch may end at a branch of more symmetry, whose orbits are symmetric or have half
-the period. The deviation of an orbit is the difference between its state and the image of the state
-half a period later (`Orbit.deviation`). It is zero for an orbit of more symmetry.
-
-Z1 is the displacement of the primary mass and W T the phase of the forcing.
-"""
+"""Follow a branch of periodic orbits from one orbit in both directions of a parameter."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -15,7 +6,6 @@ from functools import cached_property
 
 import numpy as np
 
-from impact_damper.orbits import between
 from impact_damper.orbits.bifurcations import Event, bifurcations_between, events_between
 from impact_damper.orbits.continuation import (
     FIRST_STEP,
@@ -25,10 +15,15 @@ from impact_damper.orbits.continuation import (
     SMALLEST,
     Point,
     Problem,
+    folds_twice,
+    holds_still,
+    next_point,
+    passes_unseen,
+    point_at_value,
+    recut,
+    with_bend,
 )
-from impact_damper.orbits.cutting import holds_still, recut
 from impact_damper.orbits.grazing import through_grazing
-from impact_damper.orbits.steps import folds_twice, next_point, passes_unseen, with_bend
 
 # Largest number of orbits in one direction.
 MOST_POINTS = 10_000
@@ -116,35 +111,12 @@ def _at_value(point, ahead, value):
     The result is None if Newton's method fails.
     """
     if np.array_equal(point.problem.phases, ahead.problem.phases):
-        return between.at_value(point, ahead, value)
+        return point_at_value(point, ahead, value)
     return point.problem.at_value(point, value)
 
 
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
-    """Follow a branch from an orbit in both directions of a parameter.
-
-    Parameters
-    ----------
-    family : callable
-        Maps the parameter to packed parameters.
-    orbit : Orbit
-        A converged orbit of the branch.
-    value : float
-        Value of the parameter of this orbit.
-    span : tuple of float
-        Least and greatest value of the parameter.
-    beyond : int, optional
-        Largest number of unstable orbits in a row. A branch with more ends as "unstable".
-
-    Returns
-    -------
-    Branch
-
-    Raises
-    ------
-    ArithmeticError
-        If Newton's method finds no orbit of the family at this value close to the given one.
-    """
+    """Follow a branch from an orbit in both directions of a parameter."""
     problem = Problem.of(family, orbit)
     walks = []
     for direction in (-1, 1):
@@ -300,7 +272,7 @@ def _passes(point, ahead, first):
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
         return None
-    again = between.at_value(point, ahead, first.value)
+    again = point_at_value(point, ahead, first.value)
     return again if again is not None and first.orbit.is_same(again.orbit, SAME) else None
 
 

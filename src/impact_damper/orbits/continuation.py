@@ -1,18 +1,8 @@
-"""Pseudo-arclength continuation of periodic orbits in one parameter.
+"""Pseudo-arclength continuation of periodic orbits in one parameter: its equations and its steps.
 
-A branch is the curve of the periodic orbits over the parameter. The unknowns of a point of a branch
-are the parameter and the states at the beginnings of the orbit's segments, at phases of the forcing
-at which the loose mass is in flight. Most orbits have one segment (single shooting). An orbit that
-strongly amplifies disturbances is cut into several segments (`segments`), together called a chain.
-
-A step goes along the tangent of the branch. Newton's method then corrects its end orthogonally to
-the tangent, so that the continuation passes folds, at which the branch turns back. The derivative
-with respect to the parameter is a central difference. Its error changes the direction of a step,
-but not the orbits. Where a contact appears within the difference, a finer difference is taken.
-
-In shapes, m is the number of segments and n the number of unknowns of a state: 4 with a damper, or
-2 without. Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose
-mass and W T the phase of the forcing.
+The unknowns are the states at the beginnings of the orbit's segments, and the parameter. A step
+goes along the tangent; Newton's method corrects its end orthogonally to the tangent, so that folds
+are passed. Where contacts move close to a section, the orbit is cut into new segments.
 """
 
 from collections.abc import Callable
@@ -21,13 +11,14 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from impact_damper.model.packed import CLEARANCE
-from impact_damper.motions.segment_runs import NUDGE, correction, slopes_of_ends
+from impact_damper.motions.segment_runs import FINE_NUDGE, NUDGE, correction, slopes_of_ends
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit
-from impact_damper.orbits.shooting import orbit_of
+from impact_damper.orbits.shooting import AMPLIFYING, orbit_of
 
 # Newton's method. The size of a correction is the largest change of an unknown.
 # NEWTON: largest number of corrections.
@@ -208,19 +199,7 @@ class Problem:
         )
 
     def rows(self, x, orbit, rate=None, known=None):
-        """Return the derivative of the defect by the unknowns, shape (m n, m n + 1).
-
-        Parameters
-        ----------
-        x : array, shape (m n + 1,)
-        orbit : Orbit
-            The orbit at the unknowns.
-        rate : array, shape (COUNT,), optional
-            Result of `rate` at a parameter nearby, if it is known.
-        known : (int, array), optional
-            The index of a segment, and the derivative of the state at its end by the parameter,
-            shape (4,), if this derivative is known.
-        """
+        """Return the derivative of the defect by the unknowns, shape (m n, m n + 1)."""
         rate = self.rate(x[-1]) if rate is None else rate
         states, n = self.states(x), 4 if self.damped else 2
         chain, sign = orbit.chain or self.flow(x), -1 if self.symmetric else 1
@@ -342,3 +321,170 @@ class Problem:
         """
         x = self.unknowns(orbit, value)
         return self.correct(x, direction * np.eye(len(x))[-1])
+
+
+def point_at_distance(origin, point, ahead, distance):
+    """Return the point of a branch at a distance from `origin`; None if Newton's method fails."""
+    row = origin.problem.metric * origin.tangent
+    first, last = (row @ (end.x - origin.x) for end in (point, ahead))
+    x = _cubic(point, ahead, (distance - first) / (last - first))
+    x += (distance - row @ (x - origin.x)) / (last - first) * (ahead.x - point.x)
+    return origin.problem.near(x, origin.tangent, distance)
+
+
+def point_at_value(point, ahead, value):
+    """Return the point of a branch at a value of the parameter between those of two points.
+
+    Both points have the same problem. The result is None if Newton's method fails.
+    """
+    problem, chord = point.problem, ahead.x - point.x
+
+    def beyond(fraction):
+        return _cubic(point, ahead, fraction)[-1] - value
+
+    # At an end of the step the value may lie beyond it by a rounding error.
+    ends = beyond(0.0), beyond(1.0)
+    inside = ends[0] * ends[1] < 0
+    fraction = brentq(beyond, 0.0, 1.0) if inside else float(np.argmin(np.abs(ends)))
+    x = _cubic(point, ahead, fraction)
+    x[-1] = value
+    near = problem.near(x, np.eye(len(x))[-1], problem.length(chord))
+    if near is None:
+        return None
+    turned = np.sign((problem.metric * near.tangent) @ chord)
+    return near._replace(tangent=near.tangent * turned)
+
+
+def _cubic(point, ahead, fraction):
+    """Return the unknowns on the cubic that passes through two points with their tangents.
+
+    `fraction` goes from 0 at the first to 1 at the second point, along the tangent at the first.
+    """
+    row = point.problem.metric * point.tangent
+    chord = ahead.x - point.x
+    length = row @ chord
+    aside = chord - length * point.tangent
+    slope = length * (ahead.tangent / (row @ ahead.tangent) - point.tangent)
+    bent = fraction**2 * ((3 - 2 * fraction) * aside + (fraction - 1) * slope)
+    return point.x + fraction * length * point.tangent + bent
+
+
+# A step is accepted if both bounds hold. Otherwise it may have led to another branch nearby.
+# TURNED: largest angle between the tangents at its ends, radian.
+# SKEW: largest difference between the directions of the chord and of the mean tangent.
+TURNED, SKEW = 0.5, 0.03
+# Length of the next step.
+# AIM: the step is chosen to use about this fraction of the bounds TURNED and SKEW.
+# GROWTH: largest ratio of its length to the length before.
+# SHRINKAGE: least ratio after a step that was not accepted.
+AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
+
+
+def next_point(point, span, length):
+    """Return the next point of a branch, and the factor for the length of the following step.
+
+    If the step would leave the range `span` of the parameter, the point lies at the end of the
+    range. The point is None if Newton's method fails, or if the step is not accepted (TURNED,
+    SKEW).
+    """
+    problem = point.problem
+    ahead = problem.step(point, length)
+    if ahead is not None and np.clip(ahead.value, *span) != ahead.value:
+        ahead = point_at_value(point, ahead, float(np.clip(ahead.value, *span)))
+    if ahead is None:
+        return None, 0.5
+    chord = ahead.x - point.x
+    mean = (point.tangent + ahead.tangent) / 2
+    straight = problem.length(mean)
+    turned = 2 * np.arccos(min(straight, 1.0)) / TURNED
+    chord /= problem.length(chord) or 1.0
+    skew = problem.length(chord - mean / straight) / SKEW
+    ease = AIM / max(turned, skew**0.5, AIM / GROWTH)
+    if max(turned, skew) > 1:
+        return None, max(min(ease, AIM), SHRINKAGE)
+    return ahead, ease
+
+
+def with_bend(point, ahead):
+    """Return the point `ahead` with `bend` and `twist` (`Point`) from the cubic of the step."""
+    length = ahead.problem.length(ahead.x - point.x)
+    chord = (ahead.x - point.x) / length
+    bend = (2 * point.tangent + 4 * ahead.tangent - 6 * chord) / length
+    twist = 6 * (point.tangent + ahead.tangent - 2 * chord) / length**2
+    return ahead._replace(bend=bend, twist=twist)
+
+
+def folds_twice(point, ahead):
+    """Return whether the cubic of the step between two points has two folds."""
+    length = point.problem.length(ahead.x - point.x)
+    first, last = length * point.tangent[-1], length * ahead.tangent[-1]
+    chord = ahead.value - point.value
+    # On the cubic the parameter has the derivative first + middle u + bend u^2, for u from 0 to 1.
+    bend, middle = 3 * (first + last) - 6 * chord, 6 * chord - 4 * first - 2 * last
+    if first * last <= 0 or not 0 < -middle * bend < 2 * bend**2:
+        return False
+    return first * (first - middle**2 / (4 * bend)) < 0
+
+
+def passes_unseen(point, ahead, located):
+    """Return whether a step crosses a branch of more symmetry without a located fold.
+
+    The orbits of that branch are symmetric or have half the period. Where the two branches meet,
+    the parameter has an extremum along the branch, so the events `located` on the step should
+    include a fold. Without a fold the step may have led past the meeting.
+    """
+    folds = any(event.kind == "fold" for event in located)
+    return not folds and point.orbit.deviation @ ahead.orbit.deviation < 0
+
+
+# An orbit is cut into new segments in three cases.
+# NEAR_SECTION: a contact is closer to a section than this (radian).
+# ROUGHER: a segment amplifies more than this factor times the largest amplification of a segment
+#   when the orbit was cut.
+# MILD: the whole orbit amplifies less than MILD * AMPLIFYING. It then becomes a single segment.
+NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
+
+
+def holds_still(point):
+    """Return whether the segments of a point can be kept (see NEAR_SECTION)."""
+    problem, orbit = point.problem, point.orbit
+    if not problem.damped:
+        return True
+    if len(problem.phases) == 2 and problem.rough == 0:
+        return orbit.amplification <= AMPLIFYING and orbit.flight_phase() == orbit.phase
+    mild = orbit.amplification < MILD * AMPLIFYING
+    still = np.max(_norms(orbit)) < ROUGHER * problem.rough
+    return bool(not mild and still and np.min(orbit.margin(problem.phases[:-1])) > NEAR_SECTION)
+
+
+def recut(point, between=()):
+    """Return a point with new segments, or the same point if Newton's method fails with them.
+
+    The new unknowns are the states at the new sections. Their tangent points to the states there
+    of a motion that begins at a point displaced along the old tangent. `between` is the argument of
+    `segments.cut`.
+    """
+    before, orbit = point.problem, point.orbit
+    phases, rough = segments.cut(orbit, before.cycle, between), 1.0
+    if not between and orbit.amplification <= AMPLIFYING:
+        phases, rough = orbit.flight_phase() + np.array([0.0, before.cycle]), 0.0
+    problem = replace(before, phases=phases - phases[0] + phases[0] % TURN, rough=rough)
+    x = np.append([orbit.at(phase) for phase in phases[:-1]], point.x[-1])
+    nudged = point.x + FINE_NUDGE * point.tangent
+    p, states = before.family(nudged[-1]), before.states(nudged)
+    if orbit.chain is None:
+        displaced = replace(orbit, p=p, state=states[0])
+    else:
+        displaced = replace(orbit.chain, p=p, states=states)
+    ahead = np.append([displaced.at(phase) for phase in phases[:-1]], nudged[-1])
+    border = (ahead - x) / problem.length(ahead - x)
+    moved = problem.correct(x, border)
+    if moved is None:
+        return point
+    problem = replace(problem, rough=np.max(_norms(moved.orbit)) if rough else 0.0)
+    return moved._replace(problem=problem)
+
+
+def _norms(orbit):
+    """Return the Frobenius norms of the derivatives of the m segments of an orbit, shape (m,)."""
+    return np.sqrt(np.sum(orbit.factors**2, axis=(1, 2)))

@@ -1,26 +1,18 @@
 """Follow a branch through a grazing, at which a contact appears, vanishes, or parts in two.
 
-A branch is the curve of the periodic orbits over a parameter. Let h be the height |Z2| - d0 of an
-extremum of Z2 (displacement relative to the loose mass) close to a wall, with the clearance d0. It
-is positive in contact. On the side of h = 0 with more contacts, the force of the wall changes the
-orbit by a term of the order |h|^(3/2) with a large factor. The multipliers change with the square
-root of |h|, and the branch turns sharply, often while the parameter changes by less than 1e-8. Near
-a grazing the branch is therefore followed in steps of h, not of its length. As functions of h the
-orbits are smooth except for the term of power 3/2, so Newton's method at fixed h converges.
-Derivatives by the parameter are integrated (`variations`), because difference quotients would reach
-across the grazing.
-
-Multipliers are Floquet multipliers. A branch may meet a branch of more symmetry, whose orbits are
-symmetric or have half the period. In shapes, m is the number of segments of an orbit.
+Beside a grazing the branch turns sharply, often while the parameter changes by less than 1e-8.
+There it is followed in steps of the height |Z2| - d0 of the extremum of Z2 that reaches its wall:
+as functions of the height the orbits are smooth up to a term of power 3/2.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.orbits.continuation import NEWTON, Point
-from impact_damper.orbits.cutting import recut
-from impact_damper.orbits.turns import moved, nearest, next_grazing, turns_of
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
+from impact_damper.orbits.continuation import NEWTON, Point, recut
+from impact_damper.orbits.paths import POINTS
+from impact_damper.orbits.sensitivity import Variations, path_of
 
 # On the side with more contacts the heights of successive points are LEAST, RATIO * LEAST, ... up
 # to MOST in modulus.
@@ -41,23 +33,7 @@ LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction, exact=True):
-    """Return the point of a branch at which an extremum has a given height, and the extremum.
-
-    Parameters
-    ----------
-    problem : Problem
-    x : array, shape (4 m + 1,)
-        First guess of the unknowns.
-    turn : Turn
-        The extremum near the guess.
-    height : float
-    direction : int
-        1 if the height increases along the tangent of the point, -1 if it decreases.
-    exact : bool
-        Whether the derivatives of the extremum are computed, which is expensive. Otherwise those of
-        `turn` are kept. Newton's method then converges from close guesses only, and the tangent of
-        the point is approximate.
-    """
+    """Return the point of a branch at which an extremum has a given height, and the extremum."""
     x = x.copy()
     for _ in range(NEWTON):
         orbit, defect = problem.shoot(x)
@@ -140,20 +116,7 @@ def guess(point, turn, height):
 
 
 def through_grazing(point, reach):
-    """Follow a branch through the next grazing.
-
-    Parameters
-    ----------
-    point : Point
-        A point of a branch with a damper.
-    reach : float
-        Distance along the tangent within which an extremum must reach its wall.
-
-    Returns
-    -------
-    Passage or None
-        None if no extremum reaches its wall, or if Newton's method fails at the grazing.
-    """
+    """Follow a branch through the next grazing."""
     turn = next_grazing(point, reach)
     if turn is None:
         return None
@@ -178,25 +141,7 @@ def through_grazing(point, reach):
 
 
 def _along(point, turn, targets, direction, contacts):
-    """Follow a branch from height to height, as far as Newton's method succeeds.
-
-    Parameters
-    ----------
-    point : Point
-    turn : Turn
-        The extremum at the point.
-    targets : list of float
-        Heights in order.
-    direction : int
-        Sign of the change of height.
-    contacts : callable
-        Function that returns the number of contacts at a height.
-
-    Returns
-    -------
-    points, heights, turns : list
-        As in `Passage`.
-    """
+    """Follow a branch from height to height, as far as Newton's method succeeds."""
     points, heights, turns = [point], [turn.height], [turn]
     pending, halvings = targets[::-1], 0
     while pending and halvings <= HALVINGS:
@@ -232,19 +177,127 @@ def _has_left(orbit, ahead):
 
 
 def _targets(height, sharp, direction):
-    """Return a list of the heights of the points from one side of a grazing to the other.
-
-    Parameters
-    ----------
-    height : float
-        Height of the extremum before the passage.
-    sharp : int
-        Sign of the height on the side with more contacts.
-    direction : int
-        Sign of the change of the height along the branch.
-    """
+    """Return a list of the heights of the points from one side of a grazing to the other."""
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)
     inside = fine[fine < abs(height) / RATIO**0.5]
     return [*(sharp * inside[::-1]), *(direction * height for height in BESIDE)]
+
+
+# Distance along the tangent of a branch over which the change of a height is estimated.
+SHIFT = 1e-10
+# An extremum on another orbit counts as the same if its phase differs by less than MOVED (radian).
+MOVED = 0.1
+
+
+class Found(NamedTuple):
+    """An extremum of Z2 without its derivatives: the first four attributes of a `Turn`."""
+
+    segment: float
+    phase: float
+    outer: float
+    height: float
+
+
+class Turn(NamedTuple):
+    """An extremum of Z2.
+
+    Attributes
+    ----------
+    segment : int
+        Index of the segment of the orbit.
+    phase : float
+        W T, radian.
+    outer : bool
+        True if |Z2| has a maximum, False if it has a minimum.
+    height : float
+        |Z2| - d0.
+    gradient : numpy.ndarray, shape (4 m + 1,)
+        Derivative of the height by the unknowns: the states at the beginnings of the m segments,
+        and the parameter.
+    by_parameter : numpy.ndarray, shape (4,)
+        Derivative of the state at the end of the segment by the parameter, without the change of
+        sign at the end of a symmetric orbit's half period.
+    """
+
+    segment: int
+    phase: float
+    outer: bool
+    height: float
+    gradient: np.ndarray
+    by_parameter: np.ndarray
+
+
+def turns_of(problem, x, orbit, segment=None):
+    """Return a list of all extrema of an orbit, or of one segment, whose gradients are known.
+
+    `problem` is the `continuation.Problem` of the branch, and x are the unknowns of the orbit. The
+    entries are `Turn`.
+    """
+    rate = problem.rate(x[-1])
+    turns = []
+    for k in range(len(problem.phases) - 1) if segment is None else [segment]:
+        path = path_of(orbit) if orbit.chain is None else orbit.chain.path(k)
+        steps, sizes, weights, times = path.turns(1)
+        if not len(steps):
+            continue
+        variations = Variations(path, rate[:, None])
+        try:
+            change = variations.changes(np.zeros((4, 1)), np.eye(1))[2, 0]
+        except np.linalg.LinAlgError:
+            # After many inelastic contacts the derivative of the motion by its first state is
+            # singular up to rounding errors. The gradients of the segment are then not known.
+            continue
+        by_parameter = variations.slopes()[:, 0]
+        for step, size, weight, time in zip(steps, sizes, weights, times, strict=True):
+            wall, part = np.sign(size), slice(step * POINTS, (step + 1) * POINTS)
+            gradient = np.zeros(len(x))
+            gradient[4 * k : 4 * k + 4] = wall * (path.tangents[2, :, part] @ weight)
+            gradient[-1] = wall * (change[part] @ weight) - rate[CLEARANCE]
+            before = path.times[part] < time
+            speed = wall * path.states[3, part]
+            outer = (speed[before][-1] if before.any() else -speed[~before][0]) > 0
+            height = wall * size - orbit.p[CLEARANCE]
+            phase = orbit.p[FREQUENCY] * time
+            turns.append(Turn(k, phase, bool(outer), height, gradient, by_parameter))
+    return turns
+
+
+def nearest(turns, turn):
+    """Return the extremum that corresponds to a given one, or None.
+
+    It is the closest in phase, at a distance of less than MOVED. A maximum of |Z2| is preferred for
+    a maximum, a minimum for a minimum.
+    """
+    near = [each for each in turns if abs(each.phase - turn.phase) < MOVED]
+    near = [each for each in near if each.outer == turn.outer] or near
+    return min(near, key=lambda each: abs(each.phase - turn.phase), default=None)
+
+
+def moved(problem, x, orbit, turn):
+    """Return an extremum with its phase and height on another orbit nearby, or None.
+
+    x are the unknowns of the other orbit. The derivatives of the extremum are kept.
+    """
+    chain = orbit.chain or problem.flow(x)
+    found = nearest([Found(*row) for row in chain.turns(turn.segment)], turn)
+    return found and turn._replace(phase=found.phase, outer=bool(found.outer), height=found.height)
+
+
+def next_grazing(point, reach):
+    """Return the extremum that first reaches its wall along the tangent of a point, or None."""
+    problem, candidates = point.problem, []
+    here, ahead = (problem.flow(point.x + shift * point.tangent).turns() for shift in (0.0, SHIFT))
+    for row in here:
+        turn = Found(*row)
+        moved = nearest([Found(*other) for other in ahead[ahead[:, 0] == turn.segment]], turn)
+        distance = SHIFT * turn.height / (turn.height - moved.height or np.inf) if moved else 0.0
+        if 0 < distance < 2 * reach:
+            candidates.append((distance, turn))
+    for _, turn in sorted(candidates):
+        turn = nearest(turns_of(problem, point.x, point.orbit, int(turn.segment)), turn)
+        rate = turn.gradient @ point.tangent if turn else 0.0
+        if rate and 0 < -turn.height / rate < reach:
+            return turn
+    return None

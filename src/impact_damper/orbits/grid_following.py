@@ -1,8 +1,4 @@
-"""Orbits in the cells of a grid of parameters, each followed from a neighbouring cell.
-
-To follow an orbit means to predict its state at the next parameters and to correct it, usually by
-Newton's method.
-"""
+"""Orbits in the cells of a grid of parameters, each followed from a neighbouring cell."""
 
 from collections import deque
 
@@ -18,31 +14,7 @@ SHORTEST = 1 / 32
 def follow_line(
     correct, first, last, orbit, *, shortest=SHORTEST, extrapolating=False, behind=None
 ) -> Followed:
-    """Follow an orbit along the straight line between two points in the space of parameters.
-
-    Parameters
-    ----------
-    correct : callable
-        Function of a point and a predicted state. It returns a pair: an orbit with the attribute
-        `state` and the status "found", or None and another status, which names the failure.
-    first, last : array, shape (m,)
-        Points.
-    orbit
-        Orbit at the first point.
-    shortest : float
-        Shortest step, divided by the distance of the points.
-    extrapolating : bool
-        Whether the prediction is extrapolated from the last two orbits; otherwise it is the last
-        orbit. Only with extrapolation does a step grow again after a success: without it, a longer
-        step that has failed would fail again.
-    behind : optional
-        Orbit at 2 first - last. With this orbit the first prediction is extrapolated too.
-
-    Returns
-    -------
-    Followed
-        Its values are fractions of the distance, from 0 to 1.
-    """
+    """Follow an orbit along the straight line between two points in the space of parameters."""
 
     def correct_at(fraction, guess):
         return correct((1 - fraction) * first + fraction * last, guess)

@@ -1,8 +1,7 @@
 """A periodic orbit, stable or unstable: its multipliers, contacts, motion and flights.
 
-The state of an orbit is stored at a phase W T of the forcing at which the loose mass is in flight,
-far from contacts. The map over the period, which integrates a state over this time, is then smooth
-and well scaled.
+Its state is stored at a phase at which the loose mass is in flight, so that the map over the period
+is smooth and well scaled.
 """
 
 import math
@@ -142,11 +141,6 @@ class Orbit:
         """Contacts in the order of time, shape (k, 5).
 
         A row holds the wall (-1 or 1), the times of beginning and end, and Z2' at both.
-
-        Raises
-        ------
-        ArithmeticError
-            If there are more than CONTACTS contacts in a forcing cycle.
         """
         if self.chain is not None:
             log = self.chain.surveyed[0]

@@ -1,12 +1,4 @@
-"""Motions with their derivatives by the first state, at all times.
-
-The tangents of a motion are the derivatives of its state by the first state. In each step the
-integrator computes the Taylor series of the motion and of its tangents, accurate to its tolerance.
-A path stores these series. They are evaluated at Chebyshev points of each step. Polynomials through
-these points give values and integrals at all times.
-
-Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
-"""
+"""Motions with their derivatives by the first state, as Taylor series of each step."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -122,24 +114,7 @@ class Path:
         return POINTS * (at + 1) - 1, (self.sides[1:] + self.sides[:-1])[at], change[at]
 
     def turns(self, moving):
-        """Find the turns (extrema) of Z1 or of Z2, at which its velocity is zero.
-
-        Parameters
-        ----------
-        moving : int
-            0 for Z1, 1 for Z2.
-
-        Returns
-        -------
-        steps : numpy.ndarray of int, shape (n,)
-            Steps that contain the turns.
-        values : numpy.ndarray, shape (n,)
-            Z1 or Z2 at the turns.
-        weights : numpy.ndarray, shape (n, POINTS)
-            Weights with which the values at the points of the step give the value at the turn.
-        times : numpy.ndarray, shape (n,)
-            Times T of the turns.
-        """
+        """Find the turns (extrema) of Z1 or of Z2, at which its velocity is zero."""
         speed = self.states[2 * moving + 1].reshape(-1, POINTS)
         steps, points = np.nonzero(speed[:, :-1] * speed[:, 1:] <= 0)
         before, after = speed[steps, points], speed[steps, points + 1]
@@ -165,22 +140,7 @@ def _derivative(series, times, order):
 
 
 def follow_path(p, state, begin, end) -> Path:
-    """Return the path of a motion from one time to another.
-
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters.
-    state : array, shape (4,)
-        Z1, Z1', Z2, Z2' at the time `begin`.
-    begin, end : float
-        Times T.
-
-    Raises
-    ------
-    ArithmeticError
-        If the motion escapes to infinity.
-    """
+    """Return the path of a motion from one time to another."""
     y, tangents, work = np.array(state, float), np.eye(4), workspace()
     side, t, farthest = side_of(p, y), begin, no_return(p)
     sides, begins, lengths, series = [], [], [], []

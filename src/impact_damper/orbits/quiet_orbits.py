@@ -1,33 +1,64 @@
 """The quiet orbit, stable or unstable, on a grid of parameters.
 
-The quiet orbit has period 1, touches each wall once in a cycle, and is its own mirror image half a
-cycle later. It is therefore a fixed point of the map over half a cycle followed by a change of
-sign. The derivative of this map is called the root. The multipliers (eigenvalues) of the root
-determine how the orbit becomes unstable: at a fold a multiplier is 1, at the loss of symmetry it is
--1, and at a Neimark-Sacker bifurcation a conjugate pair has modulus 1. The multipliers over a whole
-cycle are the squares of these multipliers, so a period doubling would require a pair at i and -i.
-
-Z1 is the displacement of the primary mass, W T the phase of the forcing and d0 the clearance.
+It has period 1, touches each wall once in a cycle, and is its own mirror image half a cycle later:
+a fixed point of the map over half a cycle followed by a change of sign, whose derivative is called
+the root.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.data.datasets import flag
 from impact_damper.model import packed
-from impact_damper.orbits.compliant_orbits import CONTACTS, SYMMETRIC
+from impact_damper.motions.records import measured
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish
 from impact_damper.orbits.grid_following import Grid
 from impact_damper.orbits.orbit import STROBE
-from impact_damper.orbits.shooting import shoot
+from impact_damper.orbits.shooting import newton, shoot
+
+# Number of contacts of the orbits in a forcing cycle.
+CONTACTS = 2
+# Half a cycle later the state of a symmetric orbit has changed its sign, up to this difference.
+SYMMETRIC = 1e-6
+
+
+class CompliantOrbit(NamedTuple):
+    """A symmetric orbit with two contacts in a forcing cycle, stable or unstable.
+
+    Attributes
+    ----------
+    parameters : numpy.ndarray, shape (COUNT,)
+        Packed parameters.
+    state : numpy.ndarray, shape (4,)
+        Z1, Z1', Z2, Z2' at the strobe, W T = pi/2, where W is the forcing frequency.
+    multiplier : complex
+        Dominant Floquet multiplier, with an imaginary part that is not negative.
+    displacement : float
+        max |Z1|.
+    """
+
+    parameters: np.ndarray
+    state: np.ndarray
+    multiplier: complex
+    displacement: float
+
+
+def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
+    """Find a symmetric orbit with two contacts in a forcing cycle by Newton's method."""
+    state = np.array(guess, float)
+    converged, _, multiplier = polish(p, state, 1, reach, tolerance)
+    if not converged:
+        return None, "not_followed"
+    record = measured(p, state, 1, tolerance)
+    if record["contacts"] != CONTACTS or not record["asymmetry"] < asymmetry:
+        return None, "other_contacts"
+    return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
+
 
 # Phase W T of the states, far from contacts. Contacts lie between about -0.2 and pi/2, and half a
 # cycle later.
 PHASE = 0.75 * np.pi
-# Newton's method.
-# ITERATIONS: largest number of corrections.
-# REACH: largest distance of the state from the guess.
-ITERATIONS = 10
+# Largest distance of the state of an orbit from the guess.
 REACH = 0.05
 # Shortest step between cells, divided by their distance.
 SHORTEST = 2.0**-12
@@ -49,7 +80,8 @@ class QuietOrbits(NamedTuple):
         Smallest and largest column at which each row has an orbit, as a fractional number if the
         orbits end between two columns.
     end_event : numpy.ndarray, shape (rows, 2)
-        Reasons why the orbits end there, flags of `quiet_end_event`.
+        Reasons why the orbits end there: "map_ends", "no_orbit", "fold", "contacts_change" or
+        "not_converged".
     """
 
     multiplier: np.ndarray
@@ -69,18 +101,6 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
     an unbalance and a shaker. For W^2 d0/f > sqrt(1 + k^2) there is no solution, because the
     forcing cannot supply the energy that the impacts dissipate. At the fold both sides are equal,
     which is a quadratic equation in W^2.
-
-    Parameters
-    ----------
-    oscillator : Oscillator
-    clearance, restitution : float
-        d0 and e.
-
-    Returns
-    -------
-    float
-        W, dimensionless. Infinite for e = 1, and for an unbalance that supplies the energy at any
-        frequency.
     """
     if restitution == 1:
         return np.inf
@@ -99,24 +119,7 @@ def is_symmetric_pair(records):
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Return the quiet orbits of a grid, followed from known orbits as far as possible.
-
-    Parameters
-    ----------
-    parameters : array, shape (rows, columns, packed.COUNT)
-        Packed parameters of the cells. Within a row only the frequency differs.
-    states : array, shape (rows, columns, 4)
-        States of known orbits at W T = pi/2, NaN in cells without a known orbit.
-
-    Returns
-    -------
-    QuietOrbits
-
-    Raises
-    ------
-    ValueError
-        If the arrays do not have these shapes.
-    """
+    """Return the quiet orbits of a grid, followed from known orbits as far as possible."""
     grid = quiet_orbits(parameters, states)
     rows, columns = grid.shape
     ends, events = zip(*(_row_ends(grid, row) for row in range(rows)), strict=True)
@@ -151,35 +154,11 @@ def quiet_orbits(parameters, states, *, shortest=SHORTEST) -> Grid:
 
 
 def find_quiet_orbit(p, guess):
-    """Find the quiet orbit near a guess of its state at W T = 3 pi/4 by Newton's method.
-
-    Parameters
-    ----------
-    p : array, shape (COUNT,)
-        Packed parameters.
-    guess : array, shape (4,)
-
-    Returns
-    -------
-    orbit : Orbit or None
-    status : str
-        "found"; "not_converged" if Newton's method fails; or "contacts_change" if the orbit has
-        another number of contacts.
-    """
-    state = guess
-    for _ in range(ITERATIONS):
-        orbit, end = shoot(p, state, 1, PHASE, symmetric=True)
-        if orbit.converged:
-            if orbit.record["contacts"] != CONTACTS:
-                return None, "contacts_change"
-            return orbit, "found"
-        try:
-            state = state + np.linalg.solve(np.eye(4) - orbit.root, end - state)
-        except np.linalg.LinAlgError:
-            break
-        if not np.max(np.abs(state - guess)) < REACH:
-            break
-    return None, "not_converged"
+    """Find the quiet orbit near a guess of its state at W T = 3 pi/4 by Newton's method."""
+    orbit = newton(p, guess, 1, PHASE, symmetric=True, reach=REACH)
+    if not orbit.converged:
+        return None, "not_converged"
+    return (orbit, "found") if orbit.record["contacts"] == CONTACTS else (None, "contacts_change")
 
 
 def dominant_root(orbit):
@@ -190,20 +169,17 @@ def dominant_root(orbit):
 
 
 def _row_ends(grid, row):
-    """Return the columns at which the orbits of a row end, as fractional numbers, and the reasons.
-
-    The reasons are flags of `quiet_end_event`.
-    """
+    """Return the fractional columns at which the orbits of a row end, and the reasons."""
     columns = [column for first, column in grid.orbits if first == row]
     if not columns:
-        return [np.nan] * 2, [flag("quiet_end_event", "no_orbit")] * 2
+        return [np.nan] * 2, ["no_orbit"] * 2
     places, events = [], []
     for column, turn in ((min(columns), -1), (max(columns), 1)):
         fraction, event = 0.0, "map_ends"
         if grid.beside((row, column), (0, turn)) is not None:
             fraction, event = _end(grid.follow((row, column), (0, turn)))
         places.append(column + turn * fraction)
-        events.append(flag("quiet_end_event", event))
+        events.append(event)
     return places, events
 
 

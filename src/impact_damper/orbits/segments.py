@@ -1,16 +1,7 @@
 """Multiple shooting: an orbit as a chain of segments that begin and end in flight.
 
-A strongly unstable orbit amplifies rounding errors over a period by its largest multiplier. To keep
-its accuracy, the orbit is cut into segments that amplify little. The unknowns are the states y_k at
-the beginnings of the segments. They solve F_k = Phi_k(y_k) - y_(k+1) = 0 for all segments k, where
-Phi_k is the flow over segment k, which integrates a state from its beginning to its end. The last
-segment leads back to the first, with a change of sign if the chain is half of a symmetric orbit.
-The derivatives of the flows are called factors. The multipliers of the orbit are the eigenvalues of
-the product of the factors and are computed without forming the product. The sections, at which one
-segment ends and the next begins, lie at phases of the forcing at which the loose mass is in flight,
-so that the flow is smooth there.
-
-Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
+A strongly unstable orbit amplifies rounding errors over a period by its largest multiplier. Cut
+into segments that amplify little, it keeps its accuracy.
 """
 
 from dataclasses import dataclass
@@ -179,16 +170,6 @@ def multipliers(factors):
 
     Orthogonal iteration separates eigenvalues of different moduli. Eigenvalues of similar moduli
     are computed from the product of diagonal blocks.
-
-    Parameters
-    ----------
-    factors : array, shape (m, n, n)
-        In the order in which they act, so the last matrix is leftmost in the product.
-
-    Returns
-    -------
-    numpy.ndarray of complex, shape (n,)
-        By descending modulus.
     """
     m, n = factors.shape[:2]
     if m == 1:
@@ -213,15 +194,6 @@ def cut(orbit, cycle, between=()):
     Possible phases are the middles of flights. A segment ends at the last of these phases at which
     the norm of its derivative is below AMPLIFIED. If the norm is larger at all of them, the segment
     ends at the first.
-
-    Parameters
-    ----------
-    orbit : Orbit
-    cycle : float
-        Range of phases that the segments cover, radian: the period or half the period.
-    between : sequence of float
-        Phases at which the loose mass comes close to a wall in flight. Such a flight is cut twice,
-        before and after this phase.
     """
     if not orbit.touching:
         return np.array([orbit.phase, orbit.phase + cycle])

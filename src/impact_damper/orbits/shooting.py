@@ -1,13 +1,4 @@
-"""Find periodic orbits, stable or unstable, by Newton's method on the event-driven flow.
-
-The map over the period integrates a state over this time; an orbit is one of its fixed points. The
-state of an orbit is stored at a phase W T of the forcing at which the loose mass is in flight, far
-from contacts, so that the map is smooth and well scaled. The derivative of the map comes from the
-variational equations, with saltation matrices (jumps of the derivative) where the dashpot's force
-jumps. Multiple shooting (`segments`) cuts an orbit into several segments.
-
-Z1 is the displacement of the primary mass.
-"""
+"""Find periodic orbits, stable or unstable, by Newton's method on the event-driven flow."""
 
 from dataclasses import replace
 from functools import reduce
@@ -86,8 +77,7 @@ def find_orbit(p, state, periods=1, phase=STROBE):
     Orbit
         Its attribute `converged` states whether Newton's method converged.
     """
-    state = np.array(state, float)
-    orbit = _newton(p, state, periods, phase)
+    orbit = newton(p, state, periods, phase)
     if orbit.amplification > AMPLIFYING:
         chain = polish(orbit if orbit.residual < NEAR else shoot(p, state, periods, phase)[0])
         if chain.residual < orbit.residual:
@@ -97,33 +87,50 @@ def find_orbit(p, state, periods=1, phase=STROBE):
     if not orbit.residual < NEAR or orbit.flight_phase() == orbit.phase:
         return orbit
     phase = orbit.flight_phase()
-    moved = _newton(p, orbit.at(phase), periods, phase % TURN)
+    moved = newton(p, orbit.at(phase), periods, phase % TURN)
     return replace(moved, maps=orbit.maps + moved.maps)
 
 
-def _newton(p, state, periods, phase):
-    """Return the orbit with the smallest residual among the iterates of Newton's method."""
-    best, end = shoot(p, state, periods, phase)
-    orbit = best
-    maps = 1
+def newton(p, state, periods, phase, *, symmetric=False, reach=None):
+    """Return the orbit that Newton's method finds by single shooting; arguments as in `shoot`.
+
+    With `reach` it stops at the first converged orbit, or where a component of the state is further
+    than this from the guess.
+    """
+
+    def shot(states):
+        orbit, end = shoot(p, states[0], periods, phase, symmetric=symmetric)
+        return orbit, (end - states[0])[None]
+
+    return _iterate(shot, np.array(state, float)[None], reach)
+
+
+def _iterate(shot, first, reach=None):
+    """Return the orbit with the smallest residual among the iterates of Newton's method.
+
+    `first` are the states at the beginnings of the segments, shape (m, 4). `shot` returns the orbit
+    with such states, and the defects of its segments. `reach` is that of `newton`.
+    """
+    orbit, defects = shot(first)
+    states, best, maps = first, orbit, 1
     for _ in range(ITERATIONS):
         n = orbit.active
-        matrix = np.eye(n) - orbit.monodromy[:n, :n]
+        if reach is not None and best.converged:
+            break
         try:
-            change = np.linalg.solve(matrix, (end - orbit.state)[:n])
+            matrix = segments.cyclic(orbit.factors[:, :n, :n])
+            change = np.linalg.solve(matrix, -defects[:, :n].ravel()).reshape(-1, n)
         except np.linalg.LinAlgError:
             break
-        if not np.max(np.abs(change)) < FAR:
+        states = states + np.tile(change, (1, 4 // n))
+        away = np.max(np.abs(change)) if reach is None else np.max(np.abs(states - first))
+        if not away < (FAR if reach is None else reach):
             break
-        moved = orbit.state.copy()
-        moved[:n] += change
-        if n == 2:
-            moved[2:] += change
-        orbit, end = shoot(p, moved, periods, phase)
+        orbit, defects = shot(states)
         maps += 1
         if best.converged and orbit.residual >= best.residual:
             break
-        if orbit.residual < best.residual or not best.converged:
+        if orbit.residual < best.residual:
             best = orbit
     return replace(best, maps=maps)
 
@@ -133,12 +140,6 @@ def orbit_of(chain, periods):
 
     The residual of the orbit is the largest defect of the chain, the difference between the end of
     a segment and the beginning of the next segment.
-
-    Parameters
-    ----------
-    chain : segments.Chain
-    periods : int
-        Period n of the orbit in forcing cycles, odd if the chain is half of the orbit.
     """
     product = reduce(lambda product, factor: factor @ product, chain.factors)
     half = chain.sign < 0
@@ -158,54 +159,17 @@ def orbit_of(chain, periods):
 
 
 def polish(orbit):
-    """Return an orbit by multiple shooting, near an approximate orbit.
-
-    Parameters
-    ----------
-    orbit : Orbit
-        The approximate orbit, which need not have converged.
-
-    Returns
-    -------
-    Orbit
-        Its attribute `converged` states whether Newton's method converged.
-    """
-    maps = orbit.maps
+    """Return the orbit that Newton's method finds by multiple shooting near an approximate one."""
+    maps, sign = orbit.maps, 1 if orbit.root is None else -1
     for _ in range(CUTS):
         phases = segments.cut(orbit, orbit.cycle)
-        states = np.array([orbit.at(phase) for phase in phases[:-1]])
-        orbit, more = _newton_of_chain(orbit, phases, states)
-        maps += more
+
+        def shot(states, p=orbit.p, phases=phases, periods=orbit.periods):
+            chain = segments.chain_of(p, phases, states, sign)
+            return orbit_of(chain, periods), chain.defects
+
+        orbit = _iterate(shot, np.array([orbit.at(phase) for phase in phases[:-1]]))
+        maps += orbit.maps
         if np.max(np.linalg.norm(orbit.factors, 2, axis=(1, 2))) < ROUGH * segments.AMPLIFIED:
             break
     return replace(orbit, maps=maps)
-
-
-def _newton_of_chain(orbit, phases, states):
-    """Return the best iterate of Newton's method by multiple shooting, and the number of maps.
-
-    The best iterate has the smallest residual. `phases` and `states` are those of the segments.
-    """
-
-    def shot(states):
-        sign = 1 if orbit.root is None else -1
-        return orbit_of(segments.chain_of(orbit.p, phases, states, sign), orbit.periods)
-
-    current = best = shot(states)
-    maps = 1
-    for _ in range(ITERATIONS):
-        matrix = segments.cyclic(current.factors)
-        try:
-            change = np.linalg.solve(matrix, -current.chain.defects.ravel())
-        except np.linalg.LinAlgError:
-            break
-        if not np.max(np.abs(change)) < FAR:
-            break
-        before = current.residual
-        current = shot(current.chain.states + change.reshape(states.shape))
-        maps += 1
-        if current.residual < best.residual:
-            best = current
-        if best.converged and current.residual > before / 2:
-            break
-    return best, maps

@@ -1,7 +1,8 @@
 """Harmonic balance with any number of harmonics: its equations, and Newton's method for them.
 
 The times at which contacts begin and end are located to rounding, so the contact force has no
-aliasing error: the only error is the truncation of the Fourier series."""
+aliasing error: the only error is the truncation of the Fourier series.
+"""
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace

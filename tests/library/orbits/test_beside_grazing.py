@@ -15,11 +15,10 @@ from references import extended
 
 from impact_damper.model.packed import COUNT, FREQUENCY, pack
 from impact_damper.orbits.branches import follow_branch
-from impact_damper.orbits.sensitivity import path_of
+from impact_damper.orbits.grazing import turns_of
+from impact_damper.orbits.sensitivity import Variations, path_of
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import other_branch
-from impact_damper.orbits.turns import turns_of
-from impact_damper.orbits.variations import Variations
 
 # States at W T = pi/2 of stable orbits, and their frequencies.
 TWICE = 1.159, (0.128, 0.730, 0.408, 0.021)

@@ -8,7 +8,6 @@ from types import SimpleNamespace
 import numpy as np
 from numpy.testing import assert_allclose
 
-from impact_damper.data.datasets import flag
 from impact_damper.orbits.grid_following import Grid, follow_line
 
 POINTS = np.stack(np.meshgrid(np.arange(5.0), np.arange(5.0), indexing="ij"), axis=-1)
@@ -57,10 +56,8 @@ def test_cells_behind_a_slit_are_reached_around_it():
 def test_cells_behind_a_wall_are_not_reached():
     grid = spread(lambda x, y: x > 1.5)
     assert len(grid.orbits) == 10
-    flags = grid.flags("compliant_status")
-    assert (flags[:2] == flag("compliant_status", "found")).all()
-    assert (flags[2] == flag("compliant_status", "not_followed")).all()
-    assert (flags[3:] == flag("compliant_status", "not_attempted")).all()
+    tried = {cell[0]: status for cell, status in grid.status.items()}
+    assert tried == {0: "found", 1: "found", 2: "not_followed"}
 
 
 def test_orbits_are_followed_along_the_first_axis_given():

@@ -15,9 +15,8 @@ from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions.ensemble import settle
 from impact_damper.orbits.branches import follow_branch
-from impact_damper.orbits.other_branches import follow_others, met_by
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.orbits.switching import LEAVING, other_branch
+from impact_damper.orbits.switching import LEAVING, follow_others, met_by, other_branch
 
 # For each branch: damping of the oscillator; mass ratio, clearance and restitution of the damper;
 # W, state at W T = pi/2 and period of a stable orbit; least and greatest W.

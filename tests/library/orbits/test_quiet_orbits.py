@@ -93,8 +93,8 @@ def test_a_row_ends_at_the_fold_that_continuation_locates(design_orbit):
     # The branch goes on beyond this fold and has further folds.
     assert np.min(np.abs(np.array(folds) - end)) < 1e-6
     assert list(found.end_event[0]) == [
-        flag("quiet_end_event", "fold"),
-        flag("quiet_end_event", "map_ends"),
+        "fold",
+        "map_ends",
     ]
 
 
@@ -157,7 +157,7 @@ def test_with_inelastic_contact_it_ends_where_straight_flight_predicts(restituti
     assert len(quiet)
     found = seeded(grid, quiet["state"][0], column=0)
     end = np.interp(found.end[0, RIGHT], np.arange(31), frequencies)
-    assert found.end_event[0, RIGHT] == flag("quiet_end_event", "fold")
+    assert found.end_event[0, RIGHT] == "fold"
     assert end == pytest.approx(expected, rel=0.005)
 
 
@@ -179,7 +179,7 @@ def test_straight_flight_end():
 
 def test_a_row_without_a_known_orbit_has_the_flag_no_orbit():
     found = follow_quiet_orbits(row(DESIGN, [1.9, 2.0]), np.full((1, 2, 4), np.nan))
-    assert (found.end_event == flag("quiet_end_event", "no_orbit")).all()
+    assert (found.end_event == "no_orbit").all()
     assert np.isnan(found.end).all()
 
 

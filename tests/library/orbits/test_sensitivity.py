@@ -27,9 +27,14 @@ from impact_damper.model.packed import DESIGN as DESIGN_PARAMETERS
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.orbits.orbit import TURN
 from impact_damper.orbits.paths import follow_path
-from impact_damper.orbits.sensitivity import _displacement, _modulus, path_of, sensitivity
+from impact_damper.orbits.sensitivity import (
+    Variations,
+    _displacement,
+    _modulus,
+    path_of,
+    sensitivity,
+)
 from impact_damper.orbits.shooting import find_orbit, shoot
-from impact_damper.orbits.variations import Variations
 
 LINEAR = Oscillator(0.02, 1.0, cubic=0.0, unbalance=0.3)
 STIFF = Damper(0.05, 3.0, restitution=0.6, contact_stiffness=500.0)

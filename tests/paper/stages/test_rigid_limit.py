@@ -19,7 +19,7 @@ from chatterjee1995.tables.contact import SHOWN
 from chatterjee1995.tables.contact import rigid_limit as table
 from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
-from impact_damper.orbits.compliant_orbits import compliant_orbit
+from impact_damper.orbits.quiet_orbits import compliant_orbit
 
 NEAR = 0.2
 
