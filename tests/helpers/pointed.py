@@ -5,8 +5,7 @@ from functools import cache
 
 import numba
 
-from impact_damper.kernel.by_address import compiled
-from impact_damper.kernel.memory import pointer
+from impact_damper.kernel.compiling import compiled, pointer
 
 NUMBERS = ctypes.POINTER(ctypes.c_double)
 

@@ -2,10 +2,7 @@
 
 All trajectories of one step must be in the same phase, in flight or in contact. Therefore a pool
 holds more trajectories than there are lanes and has a queue for each kind of step. Each step takes
-its trajectories from the longest queue. The result for a trajectory does not depend on the other
-trajectories.
-
-Z1 is the displacement of the primary mass, and Z2 its displacement relative to the loose mass.
+its trajectories from the longest queue. The result for a trajectory does not depend on the others.
 """
 
 from typing import NamedTuple
@@ -13,10 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.kernel import instances
-from impact_damper.kernel.by_address import by_address
-from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.compiling import aligned, by_address, kernel, kernel_only, pointer
 from impact_damper.kernel.equation import no_return
-from impact_damper.kernel.memory import aligned, pointer
 from impact_damper.model import packed
 
 LANES = 16
@@ -130,9 +125,8 @@ def enqueue(queues, waiting, m, kind):
 def choose(pool, chosen):
     """Take up to LANES trajectories from the longest queue, and write their indices to `chosen`.
 
-    If there are fewer than LANES, the last index is written to all remaining entries. Return the
-    number of trajectories and the kind of the queue.
-    """
+    If there are fewer, the last index fills the remaining entries. Return their number and the
+    queue."""
     waiting = pool.waiting
     kind = FLIGHT
     for other in range(1, 4):
@@ -147,10 +141,7 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Copy the chosen trajectories into the lanes.
-
-    Parameters are copied only if the lane held another trajectory before.
-    """
+    """Copy the chosen trajectories into the lanes, parameters only if the lane held another one."""
     for lane in range(LANES):
         m = chosen[lane]
         numbers = pool.numbers[m]
@@ -201,21 +192,10 @@ def scatter(pool, chosen, count, kind, arrived):
 
 @kernel
 def advance_some(pool, chosen, arrived):
-    """Step trajectories of the pool until at least one of them is at its end.
+    """Step trajectories of a pool, which is not empty, until at least one of them is at its end.
 
-    Parameters
-    ----------
-    pool : Pool
-        Must not be empty.
-    chosen, arrived : array of int, shape (LANES,)
-        `chosen` is working memory; `arrived` receives the indices of the trajectories at their
-        ends.
-
-    Returns
-    -------
-    int
-        Number of trajectories at their ends.
-    """
+    Return the number of these; `arrived` (LANES,) receives their indices. `chosen` is working
+    memory."""
     ended = 0
     a, d = pointer(pool.a), pointer(pool.d)
     while ended == 0:
@@ -240,9 +220,8 @@ def advance(parameters, states, sides, starts, ends, tolerance, contacts):
     Parameters
     ----------
     parameters : array, shape (m, packed.COUNT)
-        Packed parameters (`packed.pack`).
     states : array, shape (m, 4)
-        Z1, Z1', Z2, Z2' at the start times, replaced by the states at the end times.
+        Replaced by the states at the end times.
     sides : array of int, shape (m,)
         Wall in contact, -1 or 1, or 0 in flight; also replaced.
     starts, ends : array, shape (m,)

@@ -1,4 +1,4 @@
-"""How kernels are compiled with numba, and where their machine code is kept.
+"""How kernels are compiled with numba, where their machine code is kept, and how they are called.
 
     kernel       compiled on the first call, and cached
     kernel_only  not callable from Python; cached only as part of the kernels that call it
@@ -9,17 +9,32 @@ edit of a function that it calls. Therefore each module has a folder of its own,
 digest of all modules that its kernels can depend on.
 """
 
+import gc
+import inspect
 import os
+import sys
 import tempfile
+import time
 from contextlib import contextmanager
 from functools import cache, partial
 from pathlib import Path
 
+import llvmlite.binding
 import numba
+import numpy as np
 import platformdirs
+from llvmlite import ir
+from numba import types
+from numba.core import event
+from numba.extending import intrinsic
 
-from impact_damper.kernel.progress import show_progress
 from impact_damper.kernel.sources import kernel_digest
+
+# Seconds of compilation after which MESSAGE is printed.
+PATIENCE = 1.0
+MESSAGE = "impact_damper: compiling kernels; later sessions will load them from the cache"
+# Number of float64 values in a cache line of the processor, which has 64 bytes.
+CACHE_LINE = 8
 
 
 @cache
@@ -68,11 +83,7 @@ SETTINGS = {"cache": True, "nogil": True, "fastmath": set(CONTRACT), "error_mode
 
 
 def kernel(function, **options):
-    """Decorate a kernel.
-
-    With `no_cfunc_wrapper` numba compiles no wrapper for calls from C, which saves a tenth of the
-    compile time.
-    """
+    """Decorate a kernel; `no_cfunc_wrapper` saves a tenth of the compile time."""
     with own_cache(function):
         return numba.njit(no_cfunc_wrapper=True, **SETTINGS | options)(function)
 
@@ -80,4 +91,109 @@ def kernel(function, **options):
 kernel_only = partial(kernel, no_cpython_wrapper=True, cache=False)
 inlined = partial(kernel, inline="always")
 
-show_progress()
+
+@kernel
+def aligned(count):
+    """Return `count` zeros from a cache line on; a vector that crosses two lines loads slower."""
+    numbers = np.zeros(count + CACHE_LINE)
+    before = -numbers.ctypes.data // 8 % CACHE_LINE
+    return numbers[before : before + count]
+
+
+@intrinsic
+def pointer(typing, array):
+    """Return a pointer to the first element of an array. The caller must keep the array alive.
+
+    numba changes the reference count of an array that is passed to a kernel twice with locked
+    instructions, which take longer than some kernels do. Pointers have no reference count.
+    """
+
+    def generate(context, builder, signature, arguments):
+        return context.make_array(signature.args[0])(context, builder, arguments[0]).data
+
+    return types.CPointer(array.dtype)(array), generate
+
+
+def signature_of(function):
+    """Return the signature of a kernel that takes pointers to float64 and returns nothing."""
+    count = len(inspect.signature(function.py_func).parameters)
+    return types.void(*[types.CPointer(types.float64)] * count)
+
+
+@cache
+def compiled(function):
+    """Return the compiled cfunc of a kernel (see `signature_of`); `call_at` takes its `address`."""
+    with own_cache(function.py_func):
+        return numba.cfunc(signature_of(function), **SETTINGS)(function.py_func)
+
+
+def by_address(function):
+    """Return a stand-in for a kernel; calls of the stand-in jump to the kernel's address.
+
+    Otherwise LLVM compiles a called kernel again as a part of each caller. A dozen kernels call the
+    steps of the integration, and one step takes most of a second to compile. A cached caller refers
+    to the kernel by name, and this name must be bound to an address before the caller is loaded.
+    Therefore `by_address` is called when a module is imported that the modules of all callers
+    import."""
+    name = f"{function.__module__}.{function.__name__}"
+    llvmlite.binding.add_symbol(name, compiled(function).address)
+    return types.ExternalFunction(name, signature_of(function))
+
+
+@intrinsic
+def call_at(typing, address, numbers):
+    """Call the kernel at `address`, an integer, with `numbers`, a pointer to float64."""
+
+    def generate(context, builder, signature, arguments):
+        address, numbers = arguments
+        kernel = ir.FunctionType(ir.VoidType(), [numbers.type]).as_pointer()
+        builder.call(builder.inttoptr(address, kernel), [numbers])
+        return context.get_dummy_value()
+
+    return types.void(address, numbers), generate
+
+
+class Progress(event.Listener):
+    """Adds up the time spent on compiling functions of this package, and prints MESSAGE once.
+
+    The garbage collector is switched off during compilation, because it finds little garbage and
+    would take a fifth of the time."""
+
+    def __init__(self):
+        self.depth = 0
+        self.spent = 0.0
+        self.written = False
+
+    def on_start(self, started):
+        if not _is_own(started):
+            return
+        if self.depth == 0:
+            self.begun = time.perf_counter()
+            self.collecting = gc.isenabled()
+            gc.disable()
+        self.depth += 1
+        self._write()
+
+    def on_end(self, ended):
+        if not _is_own(ended):
+            return
+        self.depth -= 1
+        self._write()
+        if self.depth == 0:
+            self.spent += time.perf_counter() - self.begun
+            if self.collecting:
+                gc.enable()
+
+    def _write(self):
+        spent = self.spent + time.perf_counter() - self.begun
+        if spent > PATIENCE and not self.written:
+            self.written = True
+            print(MESSAGE, file=sys.stderr, flush=True)
+
+
+def _is_own(compiled):
+    """Return whether an event concerns a function of this package or of a module it generated."""
+    return compiled.data["dispatcher"].py_func.__module__.startswith("impact_damper")
+
+
+event.register("numba:compile", Progress())

@@ -1,13 +1,38 @@
-"""The equation of motion of the primary mass without the damper, for kernels.
+"""The equation of motion of the primary mass without the damper, and its Taylor series.
 
     Z1'' = (F + U W^2 + V/W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
-This is equation (3) of the paper with four more parameters k3, F, U and V, which are fields of
-`parameters.Oscillator`. Kernels that evaluate the equation call the functions of this module. The
-modules of the variational equations call the functions that return its derivatives. The module
-`recurrence` has the Taylor series of the equation.
+This is equation (3) of the paper with four more parameters k3, F, U and V of `Oscillator`.
 
-Symbols are as in `system.parameters`.
+Between events the motion is analytic, and each coefficient of its Taylor series follows from those
+before it. The coefficient of order k of a series x is x[k]. Let x be the series of Z1, q the series
+of the signed penetration Z2 -+ d0 during contact, e the series of the forcing, a = Z1'' and b =
+q''. Then by equations (3), (4) and (20) to (24)
+
+    g[k] = e[k] - omega_l^2 x[k] - k3 (x^3)[k] - h/k a[k-1]
+    f[k] = r1 q[k] + D/k b[k-1]
+    a[k] = g[k] - f[k]                   x[k+2] = a[k] / ((k+1) (k+2))
+    b[k] = g[k] - (1 + 1/rm) f[k]        q[k+2] = b[k] / ((k+1) (k+2))
+
+with the dashpot coefficient D. For k = 0 the last terms are h x[1] and D q[1]. f is the force of
+the wall, and g the part of the acceleration that does not come from the wall. In flight q and f are
+absent, and Z2 - Z1 is a linear function of time. The variational equations, for a small difference
+dx, dq between two motions, are the same equations with e = 0, with dx and dq in place of x and q,
+and with 3 k3 (x^2 dx)[k] in place of k3 (x^3)[k].
+
+A product of three coefficients x[i] x[j] x[m] with i + j + m = k has at most one factor of an order
+above n = k // 2. Let l be the polynomial that has the terms of x up to order n. Then
+
+    (x^3)[k] = (l^3)[k] + 3 sum over j > n of (x^2)[k-j] x[j].
+
+Each of the newest coefficients occurs in one product only, which is computed last. Names in the
+generated lines:
+
+    s0, s1, ...   coefficients of k3 l^2; a new term x[n] of l changes all of s[n], ..., s[2n]
+    z0, z1, ...   3 s0, 3 s1, ...
+    P0, P2, ...   pairs of neighbours (s0, s1), (s2, s3), ...; with one lane (a single trajectory)
+                  each pair is in one register
+    Z0, Z2, ...   3 P0, 3 P2, ...
 """
 
 import math
@@ -35,14 +60,8 @@ from impact_damper.model.packed import (
 def forcing_amplitude(p, lane=0, lanes=1):
     """Return the amplitude F + U W^2 + V/W^2 of the forcing per unit of primary mass.
 
-    Parameters
-    ----------
-    p : array or pointer
-        Packed parameters. For several trajectories side by side there is one row of `lanes` numbers
-        for each parameter.
-    lane, lanes : int
-        Index of the trajectory, and number of trajectories side by side.
-    """
+    For trajectories side by side `p` has a row of `lanes` numbers for each parameter, and `lane` is
+    the index of one of them."""
     frequency = p[FREQUENCY * lanes + lane]
     without = p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
     return without + p[SHAKER * lanes + lane] / (frequency * frequency)
@@ -60,10 +79,7 @@ def external_force(p, t):
 
 @kernel_only
 def spring(p, x, lane=0, lanes=1):
-    """Return the restoring force of the spring at Z1 = x per unit of primary mass.
-
-    The parameters `p`, `lane` and `lanes` are as in `forcing_amplitude`.
-    """
+    """Return the restoring force of the spring at Z1 = x; `lane` as in `forcing_amplitude`."""
     return (p[STIFFNESS * lanes + lane] + p[CUBIC * lanes + lane] * x * x) * x
 
 
@@ -80,20 +96,10 @@ def acceleration(p, y, t):
 
 
 def acceleration_by_parameters(p, x, v, cosine):
-    """Return the derivatives of `acceleration` with respect to the packed parameters.
+    """Return the derivatives of `acceleration` by the packed parameters, shape (COUNT, n).
 
-    The derivatives hold at a fixed phase W T of the forcing.
-
-    Parameters
-    ----------
-    p : array, shape (COUNT,)
-    x, v, cosine : arrays, shape (n,)
-        Z1, Z1' and cos(W T).
-
-    Returns
-    -------
-    numpy.ndarray, shape (COUNT, n)
-    """
+    They hold at a fixed phase W T of the forcing. x, v and cosine are Z1, Z1' and cos(W T), shape
+    (n,)."""
     frequency = p[FREQUENCY]
     slopes = np.zeros((COUNT, len(x)))
     slopes[DAMPING], slopes[STIFFNESS], slopes[CUBIC] = -v, -x, -(x**3)
@@ -105,22 +111,10 @@ def acceleration_by_parameters(p, x, v, cosine):
 
 
 def spring_slope_changes(p, x, change, parameters):
-    """Return first-order changes of `spring_slope` under k changes of Z1 and of the parameters.
+    """Return first-order changes of `spring_slope`, shape (k, n), under k changes.
 
-    Parameters
-    ----------
-    p : array, shape (COUNT,)
-    x : array, shape (n,)
-        Z1.
-    change : array, shape (k, n)
-        Changes of Z1.
-    parameters : array, shape (COUNT, k)
-        Changes of the packed parameters.
-
-    Returns
-    -------
-    numpy.ndarray, shape (k, n)
-    """
+    `x` is Z1, shape (n,), `change` (k, n) are changes of Z1, and `parameters` (COUNT, k) changes of
+    the packed parameters."""
     bent = np.outer(parameters[CUBIC], x) + 2 * p[CUBIC] * change
     return parameters[STIFFNESS][:, None] + 3 * x * bent
 
@@ -151,10 +145,7 @@ def has_escaped(p, x, v):
 
 @kernel_only
 def energy(p, y):
-    """Return the energy of both masses and all springs per unit of primary mass.
-
-    Z1' - Z2' is the velocity of the loose mass. Without forcing the energy never grows.
-    """
+    """Return the energy of both masses and all springs; without forcing it never grows."""
     x, v = y[0], y[1]
     total = 0.5 * v * v + (0.5 * p[STIFFNESS] + 0.25 * p[CUBIC] * x * x) * x * x
     if p[INVERSE_MASS_RATIO] > 0.0:
@@ -162,3 +153,130 @@ def energy(p, y):
         depth = max(abs(y[2]) - p[CLEARANCE], 0.0)
         total += 0.5 * p[CONTACT_STIFFNESS] * depth * depth
     return total
+
+
+def coefficients(at):
+    """Yield the lines that load the coefficients of the spring's nonlinear terms.
+
+    The function `at` of a name in `packed.NAMES` returns the expression for the parameter.
+    """
+    yield f"cubic = {at('CUBIC')}"
+
+
+def beginning(at):
+    """Yield lines that define names for `motion` from x0; `at` is as in `coefficients`."""
+    yield from coefficients(at)
+    yield "double = 2.0 * cubic"
+    yield "s0 = cubic * x0 * x0"
+    yield f"stiffness = {at('STIFFNESS')} + s0"
+    yield "linear = stiffness + 2.0 * s0"
+
+
+def motion(order, phase, constants):
+    """Yield the lines for the series of a step up to an order, in a phase, "flight" or "contact".
+
+    Before these lines the following names must have values:
+
+    - x0, x1 and the names of `beginning`; in contact also q0 and q1;
+    - `cosine` and `sine` of the forcing's phase, times the amplitude of the forcing;
+    - in contact `r1` and `mobility` = 1 + 1/rm.
+
+    The function `constants` of k returns the lines for the coefficients that are the same in all
+    steps of a trajectory: h/k, D/k, and e[k] without its factor cosine or sine.
+    """
+    for k in range(order - 1):
+        yield from constants(k)
+        if k > 0 and k % 2 == 0:
+            yield from _lower_squares(k // 2)
+        drive = f"e{k} * {'sine' if k % 2 else 'cosine'}"
+        if k > 1:
+            yield from _without_damping(k, drive)
+        else:
+            yield f"c{k} = {drive} - {'linear' if k else 'stiffness'} * x{k}"
+        yield from _accelerations(k, phase)
+
+
+def tangent(order, phase, constants):
+    """Yield the lines for the series of a tangent, whose x and q solve the variational equations.
+
+    The arguments are as in `motion`. Before these lines also the coefficients u0, u1, ... of 3 k3
+    Z1^2 from `squares` must have values.
+    """
+    for k in range(order - 1):
+        yield from constants(k)
+        # The terms stand in the order in which their factors become known.
+        terms = [f"u{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: (max(j, k - j), j))]
+        terms += [f"u{k} * x0"] if k > 0 else []
+        yield f"c{k} = -{' - '.join([*terms, f'linear * x{k}'])}"
+        yield from _accelerations(k, phase)
+
+
+def squares(count):
+    """Yield the lines for the first `count` coefficients u0, u1, ... of 3 k3 x^2.
+
+    Before these lines x0, x1, ... and the names of `coefficients` must have values. Each product
+    x[i] x[j] with i < j is computed once and counted twice.
+    """
+    yield "triple = 3.0 * cubic"
+    yield "sextuple = 6.0 * cubic"
+    for k in range(count):
+        terms = [f"x{j} * x{k - j}" for j in range((k + 1) // 2)]
+        middle = [f"triple * x{k // 2} * x{k // 2}"] if k % 2 == 0 else []
+        doubled = [f"sextuple * ({' + '.join(terms)})"] if terms else []
+        yield f"u{k} = {' + '.join([*middle, *doubled])}"
+
+
+def _lower_squares(n):
+    """Yield the lines that change all of s[n], ..., s[2n] when the term x[n] is added to l.
+
+    With y = 2 k3 x[n] the product y x[j] is added to s[n+j] for each j < n, in pairs that begin at
+    an even order, and k3 x[n]^2 becomes s[2n].
+    """
+    yield f"y{n} = double * x{n}"
+    for j in range(n - n % 2, 2 * n, 2):
+        before = f"P{j}" if j < 2 * n - 2 else f"(s{j}, 0.0)"
+        first = f"x{j - n}" if j >= n else "0.0"
+        yield f"P{j} = {before} + y{n} * ({first}, x{j + 1 - n})"
+        yield f"(s{j}, s{j + 1}) = P{j}"
+    yield f"s{2 * n} = cubic * x{n} * x{n}"
+
+
+def _without_damping(k, drive):
+    """Yield the lines for c[k] = g[k] + h/k a[k-1], k > 1; `drive` is the expression for e[k].
+
+    The products with the newest coefficients are added last, because these are known last.
+    """
+    n, odd = k // 2, k % 2
+    last = k - n - 1
+    if odd and last % 2 and last > 1:
+        yield f"Z{last - 1} = 3.0 * P{last - 1}"
+    elif odd:
+        yield f"z{last} = 3.0 * s{last}"
+    single, pairs = [f"s{2 * n} * x{odd}"], []
+    for j in range(odd + 1, n, 2):
+        pairs.append(f"P{k - j - 1} * (x{j + 1}, x{j})")
+    if (n - odd) % 2:
+        single.append(f"s{last + 1} * x{n}")
+    if last > 0 and last % 2 == 0:
+        single.append(f"z{last} * x{k - last}")
+    for m in range((last - 1) // 2 * 2, 1, -2):
+        pairs.append(f"Z{m} * (x{k - m}, x{k - m - 1})")
+    newest = [f"z1 * x{k - 1}"] if last > 0 else []
+    early = " - ".join([drive, *single])
+    if pairs:
+        yield f"(first, second) = {' + '.join(pairs)}"
+        early, newest = f"{early} - first", [f"({' + '.join(['second', *newest])})"]
+    yield f"c{k} = {' - '.join([early, *newest])} - linear * x{k}"
+
+
+def _accelerations(k, phase):
+    """Yield the lines for g[k] and x[k+2], and in contact q[k+2], from c[k]."""
+    a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
+    factor = 1 / ((k + 1) * (k + 2))
+    yield f"g{k} = c{k} - h{k} * {a}"
+    if phase == "contact":
+        yield f"f{k} = r1 * q{k} + d{k} * {b}"
+        yield f"b{k} = g{k} - mobility * f{k}"
+        yield f"q{k + 2} = {factor!r} * b{k}"
+    yield f"a{k} = g{k} - f{k}" if phase == "contact" else f"a{k} = g{k}"
+    yield f"x{k + 2} = {factor!r} * a{k}"

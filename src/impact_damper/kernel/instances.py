@@ -1,28 +1,65 @@
-"""Modules with the integration step, for a given number of lanes and given orders of the series.
+"""Modules with the integration step, generated for a number of lanes and for orders of the series.
 
-A lane holds one of the trajectories that are stepped side by side.
+A lane holds one of the trajectories that are stepped side by side. A kernel is a loop over lanes
+around the lines that `equation` yields, compiled by `straight_lines`. With one lane it works on
+single numbers and pairs of numbers, and is about three times as fast as loops over arrays. With
+several lanes it consists of vector instructions and is three times as fast again. All numbers of a
+step stand in one flat array of rows with one number for each lane.
 """
 
 import importlib.util
 import inspect
+import math
 import os
 import sys
+from itertools import chain
 
+from impact_damper.kernel import equation
 from impact_damper.kernel.compiling import CACHE_DIRECTORY
-from impact_damper.kernel.evaluation import Source
-from impact_damper.kernel.series import SERIES, SINGLE
+from impact_damper.kernel.straight_lines import straight
 from impact_damper.kernel.templates import contact, forcing, root_search, separation, step
+from impact_damper.model import packed
 
 # Orders of the Taylor series. With these the integration is cheapest at medium errors.
 FLIGHT_ORDER = 18
 CONTACT_ORDER = 23
+# Rows of a step, in this order:
+# packed.NAMES    the packed parameters
+# STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
+# STEP            further arguments of the step, and its result LENGTH
+# SCRATCH         intermediate results
+# SERIES          coefficients of these series:
+#                 X  Z1
+#                 Q  penetration of the wall
+#                 G  acceleration without the force of the wall
+#                 U  slope of the spring's nonlinear force, for tangents
+#                 and coefficients that are the same in all steps of a trajectory:
+#                 E  forcing without its factor cosine or sine
+#                 H  h/k, with the damping h
+#                 D  D/k, with the dashpot coefficient D
+# The array of a tangent has the tangent's STATE, and then the TANGENT_SERIES with the coefficients
+# of its Z1 (DX) and of its penetration (DQ).
+STATE = "Y0 Y1 Y2 Y3".split()
+STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
+SCRATCH = (
+    "COSINE SINE KNOWN TURNS ANGLE T Z1 Z1_SLOPE Z1_CURVE Z1_JERK "
+    "DEPTH DEPTH_SLOPE DEPTH_CURVE DEPTH_JERK BOUND CHANGE TAIL FINE SCALE WALL MODE LOW HIGH "
+    "NATURAL END_Z1 END_Z1_SLOPE END_DEPTH END_DEPTH_SLOPE"
+).split()
+SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH
+SERIES = "X Q G U E H D".split()
+TANGENT_SERIES = "DX DQ".split()
+# Largest number of sums that one kernel computes.
+SUMS = 6
+# Coefficients of (cos x - 1)/x^2 and (sin x - x)/x^3 in powers of x^2.
+COSINES = [(-1.0) ** k / math.factorial(2 * k) for k in range(1, 9)]
+SINES = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9)]
 
 
 def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
     """Return the module with the step for a number of lanes and the orders of the series.
 
-    The source of the module is written to a file in the folder of the compiled kernels, whose name
-    is the digest of all sources.
+    Its source is written to a file in the folder of the compiled kernels.
     """
     name = f"impact_damper_step_{lanes}_{flight_order}_{contact_order}"
     if name in sys.modules:
@@ -55,3 +92,319 @@ def _source(writer):
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
     templates = forcing, root_search, contact, separation, step
     return "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])
+
+
+def rows(flight_order, contact_order):
+    """Return a dictionary from the name of each row to its number, for series of these orders.
+
+    Further entries: PARTS, the first row for partial sums; ROWS and TANGENT_ROWS, numbers of rows.
+    """
+    length = max(flight_order, contact_order) + 1
+    single = {name: number for number, name in enumerate(SINGLE)}
+    series = {name: len(SINGLE) + length * j for j, name in enumerate(SERIES)}
+    tangent = {name: len(STATE) + length * j for j, name in enumerate(TANGENT_SERIES)}
+    ends = {
+        "PARTS": len(SINGLE) + length * len(SERIES),
+        "ROWS": len(SINGLE) + length * len(SERIES) + 4 * SUMS,
+        "TANGENT_ROWS": len(STATE) + length * len(TANGENT_SERIES),
+    }
+    return single | series | tangent | ends
+
+
+class Writer:
+    """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
+
+    With one lane the trajectory can have up to four tangents, which stand side by side. With
+    several lanes each trajectory has one tangent."""
+
+    def __init__(self, lanes, flight_order, contact_order):
+        self.lanes = lanes
+        self.tangents = lanes if lanes > 1 else 4
+        self.orders = {"flight": flight_order, "contact": contact_order}
+        self.rows = rows(flight_order, contact_order)
+
+    def at(self, row, k=0):
+        """Return the expression for a trajectory's entry in the k-th row after `row`."""
+        index = (self.rows[row] + k) * self.lanes
+        return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
+
+    def at_tangent(self, row, k=0):
+        """Return the expression for a tangent's entry in the k-th row after `row` or the first."""
+        return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
+
+    def function(self, name, lines, tangent=False, first=(), side_by_side=4):
+        """Return the source of a kernel that executes `lines` for each lane.
+
+        The kernel first executes the lines `first`, on vectors of `side_by_side` numbers.
+        """
+        arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
+        text, calls = "", ""
+        for part, count, body in (("first", side_by_side, first), ("lines", lanes, lines)):
+            if body:
+                text += f"@straight\ndef {name}_{part}({arguments}):\n"
+                text += f"    for i in range({count}):\n"
+                text += "".join(f"        {line}\n" for line in body) + "\n\n"
+                calls += f"    {name}_{part}({arguments})\n"
+        return f"{text}@kernel_only\ndef {name}({arguments}):\n{calls}"
+
+    def moving(self, phase):
+        """Return the names of the unknown series: X for Z1 and, in contact, Q for penetration."""
+        return "XQ" if phase == "contact" else "X"
+
+    def constant_series(self):
+        """Return a kernel that fills the series which are the same in all steps of a trajectory."""
+        lines = (self._computed(k, "EHD") for k in range(max(self.orders.values()) - 1))
+        return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
+
+    def _computed(self, k, names):
+        """Yield lines that compute coefficient k of the constant series with these names."""
+        factor = f"{1 / k!r} * " if k > 1 else ""
+        if "E" in names and k < 2:
+            beginning = [f"w = {self.at('FREQUENCY')}", "e0 = 1.0"], ["ww = w * w", "e1 = -w"]
+            yield from beginning[k]
+        elif "E" in names:
+            yield f"e{k} = {-1.0 / (k * (k - 1))!r} * ww * e{k - 2}"
+        yield f"h{k} = {factor}{self.at('DAMPING')}"
+        if "D" in names:
+            yield f"d{k} = {factor}{self.at('DASHPOT')}"
+
+    def _constants(self, phase, tangent):
+        """Return a function of k that returns lines for coefficient k of the constant series.
+
+        With one lane the lines read the coefficients from the array. With several lanes each step
+        has other trajectories, so the lines compute the coefficients again.
+        """
+        names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
+        if self.lanes > 1:
+            return lambda k: self._computed(k, names)
+        return lambda k: [f"{name.lower()}{k} = {self.at(name, k)}" for name in names]
+
+    def series(self, phase):
+        """Return a kernel that fills the series of a step: X and G, and in contact Q."""
+        lines = [
+            f"cosine = {self.at('COSINE')}",
+            f"sine = {self.at('SINE')}",
+            f"x0 = {self.at('Y0')}",
+            # Adding 0.0 keeps LLVM from loading x0 and x1 as one vector. The two were stored
+            # separately, and the load of a vector would wait until both stores are complete.
+            f"x1 = {self.at('Y1')} + 0.0",
+            *equation.beginning(self.at),
+            *self._factors(phase),
+        ]
+        if phase == "contact":
+            lines += [
+                f"q0 = {self.at('Y2')} - {self.at('SIDE')} * {self.at('CLEARANCE')}",
+                f"q1 = {self.at('Y3')}",
+            ]
+        constants = self._constants(phase, tangent=False)
+        lines += equation.motion(self.orders[phase], phase, constants)
+        return self.function(f"{phase}_series", self._stored(lines, f"{self.moving(phase)}G"))
+
+    def squares(self, phase):
+        """Return a kernel that fills U, for the tangents, from the series of a step."""
+        count = self.orders[phase] - 1
+        lines = list(equation.coefficients(self.at))
+        lines += [f"x{k} = {self.at('X', k)}" for k in range(count)]
+        lines += self._stored(equation.squares(count), "U")
+        return self.function(f"{phase}_squares", lines)
+
+    def tangent_series(self, phase):
+        """Return a kernel that fills the series of a tangent over a step, from U."""
+        order, names = self.orders[phase], self.moving(phase)
+        lines = [
+            *(f"u{k} = {self.at('U', k)}" for k in range(order - 1)),
+            f"linear = {self.at('STIFFNESS')} + u0",
+            *self._factors(phase),
+            *(
+                f"{name.lower()}{k} = {self.at_tangent('', 2 * j + k)}"
+                for j, name in enumerate(names)
+                for k in range(2)
+            ),
+            *equation.tangent(order, phase, self._constants(phase, tangent=True)),
+        ]
+        lines = self._stored(lines, names, tangent=True)
+        return self.function(f"{phase}_tangent_series", lines, tangent=True)
+
+    def _factors(self, phase):
+        """Yield lines for the factors that the recurrence needs in contact."""
+        if phase == "contact":
+            yield f"r1 = {self.at('CONTACT_STIFFNESS')}"
+            yield f"mobility = 1.0 + {self.at('INVERSE_MASS_RATIO')}"
+
+    def _stored(self, lines, names, tangent=False):
+        """Yield `lines`, each coefficient of `names` followed by a line that stores it."""
+        for line in lines:
+            yield line
+            target = line.split(" = ")[0]
+            name, order = target[0].upper(), target[1:]
+            if name in names and order.isdigit():
+                at = (
+                    self.at_tangent(f"D{name}", int(order))
+                    if tangent
+                    else self.at(name, int(order))
+                )
+                yield f"{at} = {target}"
+
+
+class Source(Writer):
+    """Writes the kernels that the templates call: series, their sums, bounds on their values."""
+
+    def text(self):
+        """Return the source of all kernels, with their imports."""
+        slope = {"Z1": "X", "Z1_SLOPE": "X'"}
+        curve = {"Z1_CURVE": "G"}
+        jerk = curve | {"Z1_JERK": "G'"}
+        depth = {"DEPTH": "Q", "DEPTH_SLOPE": "Q'"}
+        bound = {"BOUND": "|G|"}
+        early = max(4, self.orders["flight"] // 2)
+        changed = [f"{self.at('CHANGE')} = t * {self.at('CHANGE')}"]
+        functions = [
+            *([self.constant_series()] if self.lanes == 1 else []),
+            self.circular(),
+            *(self.series(phase) for phase in self.orders),
+            *(self.squares(phase) for phase in self.orders),
+            *(self.tangent_series(phase) for phase in self.orders),
+            *(self.tangent_value(phase) for phase in self.orders),
+            self.sums("flight_slope", "flight", "T", slope, self._tail("flight")),
+            self.sums("flight_early", "flight", "T", slope | curve, terms=early),
+            self.sums("flight_curve", "flight", "T", jerk),
+            self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
+            # Upper bounds on |g|. In flight g is Z1''.
+            self.sums("flight_bound", "flight", "LENGTH", bound),
+            self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
+            # An upper bound on the change of Z1': the sum of the moduli of its terms after the
+            # first.
+            self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
+        ]
+        imports = [
+            "from impact_damper.kernel.compiling import kernel_only",
+            f"from {straight.__module__} import {straight.__name__}\n",
+        ]
+        return "\n".join(imports) + "\n\n" + "\n\n".join(functions)
+
+    def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
+        """Return a kernel that sums series at the time in the row `time`.
+
+        `results` maps the row of each result to its series: "X" for the sum of the series X, "X'"
+        for the derivative of the sum, "|X|" for the sum of the moduli of the terms. A sum begins at
+        the order `begin` and has at most `terms` terms; the lines `then` follow. Each sum is split
+        into four partial sums, each of every fourth term, which the processor can compute at the
+        same time. With one lane the four stand in one vector register."""
+        lines = [*self._time(time, phase)]
+        first = list(lines) if self.lanes == 1 else []
+        for number, (result, series) in enumerate(results.items()):
+            start = max(begin, 1 if "'" in series else 0)
+            last = self.orders[phase] - (2 if "G" in series else 0)
+            orders = range(start, last + 1)[:terms]
+            coefficients = [self._coefficient(series, k) for k in orders]
+            parts, done = coefficients[:4], 4
+            if self.lanes == 1:
+                parts = [f"a[{self.rows['PARTS'] + 4 * number + j}]" for j in range(4)]
+                done = len(orders) // 4 * 4
+                first += self._parts(series, orders[:done], parts)
+            lines += _sum(coefficients, self.at(result), parts, done)
+        return self.function(name, [*lines, *then], first=first)
+
+    def _parts(self, series, orders, parts):
+        """Yield lines that compute the four partial sums of a series in one vector register."""
+        for k in orders[::4]:
+            four = self._coefficient(series, *range(k, k + 4))
+            power = k - orders[0]
+            yield f"part = part + {four} * t{power}" if power else f"part = {four}"
+        yield f"{_widened(parts[0])} = part"
+
+    def circular(self):
+        """Return a kernel that stores the sums of COSINES and SINES at ANGLE in COSINE and SINE."""
+        cosine, sine = self.at("COSINE"), self.at("SINE")
+        angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
+        if self.lanes == 1:
+            both = list(map(_constants, COSINES, SINES))
+            first = [*angle, _paired(both, _widened(cosine))]
+            return self.function("circular_series", [], first=first, side_by_side=2)
+        lines = [*angle, _paired(COSINES, cosine), _paired(SINES, sine)]
+        return self.function("circular_series", lines)
+
+    def _coefficient(self, series, *orders):
+        """Return the expression for one coefficient of a series, or for a vector of four."""
+        number = self.at(series.strip("'|"), orders[0])
+        if len(orders) > 1:
+            number = _widened(number)
+        if "'" in series:
+            number = f"{_constants(*map(float, orders))} * {number}"
+        return f"abs({number})" if series.startswith("|") else number
+
+    def _wall(self):
+        """Yield lines for the second and third derivatives ("curve", "jerk") of Z1 and penetration.
+
+        Before these lines Z1_CURVE and Z1_JERK hold g and g'. The lines subtract the force of the
+        wall and its rate."""
+        mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
+        for force, depth_row, rate, derivative in (
+            ("force", "DEPTH", "DEPTH_SLOPE", "CURVE"),
+            ("rise", "DEPTH_SLOPE", "DEPTH_CURVE", "JERK"),
+        ):
+            stiff, lossy = self.at("CONTACT_STIFFNESS"), self.at("DASHPOT")
+            z1, depth = self.at(f"Z1_{derivative}"), self.at(f"DEPTH_{derivative}")
+            yield f"{force} = {stiff} * {self.at(depth_row)} + {lossy} * {self.at(rate)}"
+            yield f"{depth} = {z1} - {mobility} * {force}"
+            yield f"{z1} -= {force}"
+
+    def _tail(self, phase):
+        """Yield lines that store in TAIL the largest of the last two terms of the velocities."""
+        last = self.orders[phase]
+        yield "last = 0.0"
+        for row in self.moving(phase):
+            yield f"last = max(last, abs({float(last - 1)} * {self.at(row, last - 1)}))"
+            yield f"last = max(last, abs({float(last)} * {self.at(row, last)}) * t)"
+        power = last - 2
+        factors = [f"t{power - power % 4}"] if power > 3 else []
+        factors += (["t2"] if power % 4 > 1 else []) + (["t"] if power % 2 else [])
+        yield f"{self.at('TAIL')} = {' * '.join(['last', *factors])}"
+
+    def tangent_value(self, phase):
+        """Return a kernel that evaluates a tangent at T."""
+        lines = [*self._time("T", phase)]
+        for number, name in enumerate(self.moving(phase)):
+            terms = [self.at_tangent(f"D{name}", k) for k in range(self.orders[phase] + 1)]
+            slopes = [f"{float(k)} * {term}" for k, term in enumerate(terms)][1:]
+            lines += _sum(terms, self.at_tangent("", 2 * number), terms[:4], 4)
+            lines += _sum(slopes, self.at_tangent("", 2 * number + 1), slopes[:4], 4)
+        return self.function(f"{phase}_tangent_value", lines, tangent=True)
+
+    def _time(self, row, phase):
+        """Yield lines for the time t in a row, and for the powers of t that `_sum` needs."""
+        yield f"t = {self.at(row)}"
+        yield "t2 = t * t"
+        yield "t4 = t2 * t2"
+        for k in range(8, self.orders[phase] + 1, 4):
+            half = 4 * (k // 8)
+            yield f"t{k} = t{half} * t{k - half}"
+
+
+def _widened(number):
+    """Return the expression for the vector that begins with a number of the array."""
+    return number.replace("]", " + i]")
+
+
+def _constants(*numbers):
+    """Return the expression for a constant, or for a vector of constants."""
+    return f"{numbers}[i]" if len(numbers) > 1 else repr(numbers[0])
+
+
+def _paired(c, result):
+    """Return a line that sums eight terms c[k] u^k by Estrin's scheme, with v = u^2."""
+    low, high = (f"({a} + {b} * u) + ({c} + {d} * u) * v" for a, b, c, d in (c[:4], c[4:]))
+    return f"{result} = ({low}) + ({high}) * (v * v)"
+
+
+def _sum(c, result, parts, done):
+    """Yield lines that sum a series at t in four partial sums, and then add the partial sums.
+
+    Each partial sum has every fourth term, and `parts` already contain the first `done` terms.
+    Terms are added in rising order, because the last coefficients of a step are computed last.
+    """
+    for j in range(4):
+        yield f"part{j} = {parts[j]}"
+        for k in range(done + j, len(c), 4):
+            yield f"part{j} = part{j} + {c[k]} * t{k - j}"
+    yield f"{result} = (part0 + t * part1) + t2 * (part2 + t * part3)"

@@ -1,20 +1,22 @@
 """Integration of one trajectory in steps that end at the beginnings and ends of contacts (events).
 
 A state is (Z1, Z1', Z2, Z2') together with `side`: the wall that the loose mass touches, -1 or 1,
-or 0 in flight. The module `tangents` also integrates tangents, solutions of the variational
-equations.
-
-Symbols are as in `system.parameters`.
+or 0 in flight.
 """
 
 import numpy as np
 
 from impact_damper.kernel import instances
-from impact_damper.kernel.by_address import by_address
-from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.compiling import (
+    CACHE_LINE,
+    aligned,
+    by_address,
+    kernel,
+    kernel_only,
+    pointer,
+)
 from impact_damper.kernel.equation import has_escaped
-from impact_damper.kernel.memory import CACHE_LINE, aligned, pointer
-from impact_damper.kernel.series import rows
+from impact_damper.kernel.instances import rows
 from impact_damper.model import packed
 from impact_damper.model.packed import CLEARANCE
 
@@ -65,11 +67,7 @@ def polynomial(c, order, t):
 
 @kernel_only
 def write_trajectory(p, y, side, tolerance, a):
-    """Write parameters and state of a trajectory into the rows of a workspace.
-
-    The positions of these rows do not depend on the orders of the series, so the kernel serves
-    steps of any orders.
-    """
+    """Write parameters and state into a workspace; these rows are the same for all orders."""
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -112,14 +110,12 @@ def step(p, y, side, t, longest, tolerance, work):
     Parameters
     ----------
     p : array, shape (packed.COUNT,)
-        Packed parameters (`packed.pack`).
     y : array, shape (4,)
-        Z1, Z1', Z2, Z2', replaced by the state after the step.
+        State, replaced by the state after the step.
     side : int
-        Wall in contact, -1 or 1, or 0 in flight.
+        Wall in contact.
     t, longest, tolerance : float
-        Time at the beginning, longest step, and largest local error. Only the phase of the forcing
-        depends on the time.
+        Time at the beginning, longest step, and largest local error.
     work : array
         The result of `workspace()`. After the call it holds the series of Z1 over the step from
         index X on and, after a step in contact, the series of Z2 -+ d0 from index Q on.
@@ -128,8 +124,8 @@ def step(p, y, side, t, longest, tolerance, work):
     -------
     length : float
         Time by which the state has advanced. For a motion that has escaped (`equation.no_return`)
-        the function returns `longest`, because steps on the way to infinity would become ever
-        shorter. The state is then the state at the escape, after the time `work[LENGTH]`.
+        it is `longest`, because steps on the way to infinity would become ever shorter. The state
+        is then the state at the escape, after the time `work[LENGTH]`.
     side : int
         Wall in contact after the step.
     """

@@ -32,8 +32,7 @@ def sources(*paths) -> set:
 def _imports(path, packages):
     """Return the files of `packages` that a Python file imports directly.
 
-    The `__init__.py` of a subpackage is included only if a name is imported from it. Python always
-    executes this file, but it does not affect results otherwise.
+    The `__init__.py` of a subpackage is included only if a name is imported from it.
     """
     # Parsing only the statements that import from the packages takes a tenth of the time of parsing
     # whole files.
@@ -56,13 +55,7 @@ def _imports(path, packages):
 
 @cache
 def module_file(name) -> Path:
-    """Return the file of a module, or of the module from which a name is imported.
-
-    Raises
-    ------
-    ModuleNotFoundError
-        If there is no such module.
-    """
+    """Return the file of a module, or of the module from which a name is imported."""
     path = ROOT.joinpath(*name.split("."))
     for place in (path, path.parent):
         for file in (place.with_suffix(".py"), place / "__init__.py"):

@@ -1,27 +1,29 @@
 """Compile lines of arithmetic without branches ("straight lines") without numba's type inference.
 
 All values are floats or pairs of floats, so the LLVM code can be written directly. The type
-inference of numba would take a millisecond for each operation, and the Taylor series of an
-integration step have thousands of operations. `lane_values` writes the LLVM code of each operation.
-A lane holds one of several trajectories that are integrated side by side; the same lines are
-executed for each lane.
+inference of numba would take a millisecond for each operation, and the Taylor series of a step have
+thousands. The same lines are executed for each lane, which holds one of several trajectories that
+are integrated side by side. With one lane an operation on a pair takes one instruction, not two.
 """
 
 import ast
 import inspect
 import textwrap
 from contextlib import nullcontext
+from functools import partial
 
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from impact_damper.kernel.lane_values import Arithmetic
+from impact_damper.kernel.compiling import CONTRACT
 
 # Lanes in a vector. Eight doubles fill one register of 512 bits, or several narrower registers.
 WIDTH = 8
-OFFSET = ir.IntType(64)
+FLOAT = ir.DoubleType()
+PAIR = ir.VectorType(FLOAT, 2)
+INDEX, OFFSET = ir.IntType(32), ir.IntType(64)
 OPERATIONS = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}
 
 
@@ -44,8 +46,7 @@ def straight(function):
           `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`,
           which means `x if x > y else y`.
         - `(x, y)` is a pair. Operators act on both of its values; a float combined with a pair is
-          used with both. A name can hold a pair, and `x, y = ...` unpacks it. With one lane, a pair
-          stands in one register.
+          used with both. A name can hold a pair, and `x, y = ...` unpacks it.
 
     Returns
     -------
@@ -72,13 +73,7 @@ def straight(function):
 
 
 def write(function, builder, pointers):
-    """Write the LLVM code of a call of a function (see `straight`) with these pointers.
-
-    Raises
-    ------
-    NotStraightError
-        If the function has a line that `straight` does not allow.
-    """
+    """Write the LLVM code of a call of a function (see `straight`) with these pointers."""
     code = function.__code__
     tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
     ast.increment_lineno(tree, code.co_firstlineno - 1)
@@ -136,10 +131,7 @@ class _Lines(ast.NodeVisitor):
         self.refuse(tree, "the body is not one loop `for i in range(lanes)`")
 
     def check_lanes_apart(self, loop):
-        """Raise NotStraightError if a lane writes a number that another lane reads or writes.
-
-        Lanes are executed at the same time, so the order of such accesses would be undefined.
-        """
+        """Refuse a lane that writes a number that another lane reads or writes at the same time."""
         accessed = self.loaded | {(*each, self.lanes) for each in self.stored}
         for array, offset in self.stored:
             for name, begin, count in accessed:
@@ -271,3 +263,89 @@ class _Lines(ast.NodeVisitor):
         values = [self.number(self.visit(each), each) for each in node.args]
         called = self.arithmetic.modulus if name == "abs" else self.arithmetic.larger
         return called(*values)
+
+
+class Arithmetic:
+    """Writes operations for `width` lanes, and returns their results as LLVM values.
+
+    With one lane a number is a double, and a pair is a vector of two doubles. With more lanes a
+    number is a vector with one double per lane, and a pair is a tuple of two such vectors.
+    """
+
+    def __init__(self, builder, width):
+        self.builder, self.width = builder, width
+        self.type = FLOAT if width == 1 else ir.VectorType(FLOAT, width)
+
+    def constant(self, value):
+        """Return a constant number, the same in all lanes."""
+        return ir.Constant(self.type, value if self.width == 1 else [value] * self.width)
+
+    def in_all_lanes(self, value):
+        """Return the number whose value is the double `value` in all lanes."""
+        return value if self.width == 1 else self._repeated(value, self.width)
+
+    def pair(self, first, second):
+        """Return a pair of two numbers."""
+        if self.width > 1:
+            return first, second
+        pair = ir.Constant(PAIR, ir.Undefined)
+        for place, number in enumerate((first, second)):
+            pair = self.builder.insert_element(pair, number, ir.Constant(INDEX, place))
+        return pair
+
+    def is_pair(self, value):
+        """Return whether a value is a pair."""
+        return isinstance(value, tuple) or (self.width == 1 and value.type == PAIR)
+
+    def part(self, pair, place):
+        """Return the number at the place 0 or 1 of a pair."""
+        if self.width > 1:
+            return pair[place]
+        return self.builder.extract_element(pair, ir.Constant(INDEX, place))
+
+    def combined(self, instruction, *values):
+        """Return the result of an LLVM instruction, such as "fadd", on numbers or pairs."""
+        return self._each(partial(getattr(self.builder, instruction), flags=CONTRACT), *values)
+
+    def negative(self, value):
+        """Return a number or pair with the opposite sign."""
+        return self.combined("fneg", value)
+
+    def fused(self, first, second, third):
+        """Return first * second + third, rounded once if the processor has such an instruction."""
+        return self._each(partial(self._intrinsic, "llvm.fmuladd"), first, second, third)
+
+    def modulus(self, number):
+        """Return the modulus of a number."""
+        return self._intrinsic("llvm.fabs", number)
+
+    def larger(self, first, second):
+        """Return the larger of two numbers; the second one if they cannot be compared (NaN)."""
+        return self.builder.select(self.builder.fcmp_ordered(">", first, second), first, second)
+
+    def _repeated(self, value, count):
+        """Return a vector that holds a double `count` times."""
+        vector = ir.Constant(ir.VectorType(FLOAT, count), ir.Undefined)
+        vector = self.builder.insert_element(vector, value, ir.Constant(INDEX, 0))
+        zeros = ir.Constant(ir.VectorType(INDEX, count), [0] * count)
+        return self.builder.shuffle_vector(vector, vector, zeros)
+
+    def _intrinsic(self, name, *values):
+        """Return the result of an LLVM intrinsic for values of one type."""
+        kind = values[0].type
+        suffix = f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64"
+        signature = ir.FunctionType(kind, [kind] * len(values))
+        function = cgutils.get_or_insert_function(
+            self.builder.module, signature, f"{name}.{suffix}"
+        )
+        return self.builder.call(function, values)
+
+    def _each(self, operation, *values):
+        """Return the result of an operation on numbers, or on both numbers of pairs."""
+        if not any(map(self.is_pair, values)):
+            return operation(*values)
+        if self.width > 1:
+            pairs = [value if self.is_pair(value) else (value, value) for value in values]
+            return tuple(map(operation, *pairs))
+        pairs = [value if self.is_pair(value) else self._repeated(value, 2) for value in values]
+        return operation(*pairs)

@@ -1,16 +1,12 @@
 """Integration of one trajectory together with tangents, solutions of the variational equations.
 
-The kernels of the tangents are compiled when this module is imported (`by_address`). Therefore a
-module that integrates no tangents imports `single` only.
-
-Symbols are as in `system.parameters`.
+The kernels of the tangents are compiled when this module is imported (`compiling.by_address`).
+Therefore a module that integrates no tangents imports `single` only.
 """
 
 from impact_damper.kernel import instances
-from impact_damper.kernel.by_address import by_address
-from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.compiling import by_address, kernel, kernel_only, pointer
 from impact_damper.kernel.equation import has_escaped, no_return
-from impact_damper.kernel.memory import pointer
 from impact_damper.kernel.single import BEHIND, COLUMNS, SIDE, STATE, load, step_loaded, unload
 
 _ONE = instances.instance(1)
@@ -50,13 +46,7 @@ def step_all(count, t, longest, a, d):
 
 @kernel
 def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
-    """Do `single.step` for a trajectory and its tangents; the other arguments are those of `step`.
-
-    Parameters
-    ----------
-    tangents : array, shape (m, 4)
-        Solutions of the variational equations, m from 0 to 4, replaced by those after the step.
-    """
+    """Do `single.step` for a trajectory and 0 to 4 `tangents` (m, 4), which are replaced."""
     a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, side, tolerance, a)
     load_tangents(tangents, d)

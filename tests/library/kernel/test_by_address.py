@@ -10,8 +10,7 @@ import pytest
 from helpers.pointed import pointed
 from numba.core.errors import NumbaError
 
-from impact_damper.kernel.by_address import by_address
-from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.compiling import by_address, kernel
 
 
 @kernel
@@ -31,9 +30,7 @@ called = by_address(add)
 # A module with a kernel that calls another by address.
 MODULE = """
 import numpy as np
-from impact_damper.kernel.by_address import by_address
-from impact_damper.kernel.compiling import kernel, kernel_only
-from impact_damper.kernel.memory import pointer
+from impact_damper.kernel.compiling import by_address, kernel, kernel_only, pointer
 
 @kernel_only
 def increment(x):
@@ -63,7 +60,7 @@ INTERRUPTED = """
 import os
 import signal
 from numba.core import event
-import impact_damper.kernel.by_address
+import impact_damper.kernel.compiling
 
 class Interrupt(event.Listener):
     sent = False

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import impact_damper
-from impact_damper.kernel.progress import MESSAGE
+from impact_damper.kernel.compiling import MESSAGE
 
 PACKAGE = Path(impact_damper.__file__).parent
 
@@ -35,14 +35,13 @@ assert before == (numba.config.CACHE_DIR, numba.config.CPU_FEATURES, numba.confi
 SLOW = """
 import time
 from numba.core import event
-from impact_damper.kernel.progress import show_progress
+import impact_damper.kernel.compiling
 
 class dispatcher:
     def py_func():
         pass
 
 dispatcher.py_func.__module__ = "MODULE"
-show_progress()
 for seconds in SECONDS:
     with event.trigger_event("numba:compile", data={"dispatcher": dispatcher}):
         time.sleep(seconds)
@@ -108,7 +107,7 @@ def digest(folder, module):
 @pytest.mark.parametrize(
     ("edited", "changes"),
     [
-        ("kernel/recurrence.py", True),
+        ("kernel/equation.py", True),
         ("kernel/templates/step.py", True),
         ("model/packed.py", True),
         ("motions/records.py", True),

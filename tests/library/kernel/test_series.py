@@ -16,7 +16,7 @@ from numpy.polynomial import Polynomial
 from numpy.testing import assert_allclose
 from references import equation
 
-from impact_damper.kernel import recurrence
+from impact_damper.kernel import equation as recurrence
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
 from impact_damper.model import packed
 from impact_damper.model.packed import (

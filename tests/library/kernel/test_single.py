@@ -18,8 +18,7 @@ from numpy.polynomial import Polynomial
 from numpy.testing import assert_allclose
 
 from impact_damper.kernel import single
-from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
-from impact_damper.kernel.series import SERIES, SINGLE
+from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, SERIES, SINGLE, instance
 from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator

@@ -15,9 +15,8 @@ from helpers.pointed import part, pointed
 from llvmlite import ir
 from numpy.testing import assert_allclose, assert_array_equal
 
-from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.compiling import aligned, kernel
 from impact_damper.kernel.instances import instance
-from impact_damper.kernel.memory import aligned
 from impact_damper.kernel.straight_lines import NotStraightError, straight, write
 
 

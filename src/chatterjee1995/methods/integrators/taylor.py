@@ -4,10 +4,8 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 
 from chatterjee1995.methods.integrator import Integrator, Run, root, stopped
-from impact_damper.kernel.by_address import call_at, compiled
-from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.compiling import aligned, call_at, compiled, kernel, pointer
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
-from impact_damper.kernel.memory import aligned, pointer
 from impact_damper.kernel.single import (
     LENGTH,
     LONGEST,

@@ -1,10 +1,4 @@
-"""Search for the beginning of a contact within a flight, with the kernels of `root_search`.
-
-This file is a template: `instances.instance` joins it with the other templates into one module. The
-template `step` explains the names in capitals and the word lane.
-
-Symbols are as in `system.parameters`.
-"""
+"""Template (see `step`): search for the beginning of a contact within a flight."""
 
 import math
 

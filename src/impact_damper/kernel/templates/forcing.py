@@ -1,8 +1,4 @@
-"""Cosine and sine of the forcing's phase at the beginning of a step, times its amplitude.
-
-This file is a template: `instances.instance` joins it with the other templates into one module. The
-template `step` explains the names in capitals and the word lane.
-"""
+"""Template (see `step`): cosine and sine of the forcing's phase at the beginning of a step."""
 
 import math
 

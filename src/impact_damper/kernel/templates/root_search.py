@@ -1,8 +1,8 @@
-"""Search for the first root of an event function f(t) within a step.
+"""Template (see `step`): search for the first root of an event function f(t) within a step.
 
 In flight f is the distance of the loose mass to a wall, and its root is the beginning of a contact.
-In contact f is the penetration, and its root is the separation. Each search is in one of five
-modes, whose number stands in the row MODE:
+In contact f is the penetration, and its root is the separation. The row MODE has the mode of a
+search:
 
     MARCH     several roots are possible. A bound on |f''| gives a time within which f cannot
               vanish. The search advances by such times, so that it never passes the first root.
@@ -10,10 +10,6 @@ modes, whose number stands in the row MODE:
     ENDING    the search has reached the end of the step in mode MARCH without a root.
     MET       the root has been found.
     MISSED    the step certainly contains no root.
-
-The templates `contact` and `separation` call these kernels. This file is a template:
-`instances.instance` joins it with the other templates into one module. The template `step` explains
-the names in capitals.
 """
 
 import math
@@ -36,11 +32,10 @@ FAR = 1e200
 
 @kernel_only
 def safe_advance(f, closing, bound):
-    """Return a time within which the event function cannot vanish.
+    """Return a time within which the event function f cannot vanish.
 
-    The time is the first root t of f - closing t - bound t^2/2, where f is the value of the event
-    function now, `closing` is -f' and `bound` is an upper bound on |f''|.
-    """
+    It is the first root t of f - closing t - bound t^2/2, where `closing` is -f' and `bound` is an
+    upper bound on |f''|."""
     f = max(f, 0.0)
     root = math.sqrt(closing * closing + 2.0 * bound * f)
     above = 2.0 * f if closing > 0.0 else root - closing
@@ -64,10 +59,7 @@ def march_step(t, f, closing, ahead, length, fine):
 
 @kernel_only
 def chebyshev(first, bend):
-    """Return a step of Chebyshev's method, which is of third order.
-
-    `first` is the step of Newton's method, -f/f', and `bend` is f''/f'.
-    """
+    """Return a step of Chebyshev's method, of third order, from -f/f' and `bend`, f''/f'."""
     return first * (1.0 - 0.5 * bend * first)
 
 
@@ -85,23 +77,14 @@ def is_last_move(a, i, move, rate):
 def bracketed_step(a, i, t, f, first, bend, rate, fine):
     """Return the next move and mode of a search in mode BRACKET, by one safeguarded iteration.
 
-    The event function is positive at LOW and not positive at HIGH, and has one root between them.
-    HIGH is FAR while no time is known at which the function is not positive. Then at most one root
-    lies between LOW and the end of the step. A move that would leave the bracket is replaced by
+    The event function is positive at LOW and not positive at HIGH, with one root between them. HIGH
+    is FAR while no time is known at which the function is not positive; then at most one root lies
+    between LOW and the end of the step. A move that would leave the bracket is replaced by
     bisection.
 
-    Parameters
-    ----------
-    t, f : float
-        Time, and value of the event function at this time.
-    first, bend : float
-        Arguments of `chebyshev`. In place of a Newton step `first` may be another estimate of the
-        move to the root; `bend` then belongs to the terms which that estimate neglects.
-    rate : float
-        Lower limit of the rate that is passed to `is_last_move`.
-    fine : float
-        Rounding error of the event function.
-    """
+    `first` may be another estimate of the move to the root than a Newton step; `bend` then belongs
+    to the terms which that estimate neglects. `rate` is a lower limit of the rate that
+    `is_last_move` gets, and `fine` the rounding error of the event function."""
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t
     length = a[LENGTH + i]
@@ -124,9 +107,8 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 def store_end(a, i, row, end, move, going):
     """Store value and slope after a move in `end` and the next row, if the search is `going` on.
 
-    The two are extrapolated from the value and the first three derivatives (slope, curve, jerk)
-    before the move, which stand in the four rows that begin with `row`.
-    """
+    They are extrapolated from the value and three derivatives in the four rows that begin with
+    `row`."""
     value, slope = a[row + i], a[row + LANES + i]
     curve, jerk = a[row + 2 * LANES + i], a[row + 3 * LANES + i]
     value += move * (slope + move * (0.5 * curve + move * (jerk / 6.0)))

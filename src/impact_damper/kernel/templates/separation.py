@@ -1,10 +1,4 @@
-"""Search for the separation, at which the loose mass leaves the wall and a contact ends.
-
-This file is a template: `instances.instance` joins it with the other templates into one module. The
-template `step` explains the names in capitals.
-
-Symbols are as in `system.parameters`.
-"""
+"""Template (see `step`): search for the separation, at which a contact ends."""
 
 import math
 

@@ -1,20 +1,14 @@
 """One Taylor step of the integration, for one trajectory or several side by side.
 
 The trajectories of a step are all in flight or all in contact. The step integrates each of them to
-its next event or over the longest admitted time, whichever is shorter. An event is the beginning of
-a contact, which the template `contact` searches for, or the end of a contact, which the template
-`separation` searches for.
+its next event, the beginning or end of a contact, or over the longest admitted time.
 
 The files in this folder are templates. `instances.instance` joins them into one module for a number
 of lanes (trajectories side by side) and a pair of orders of the Taylor series, in flight and in
 contact. The module begins with the constants declared below and with the functions that
-`evaluation.Source` writes. All numbers stand in flat arrays, `a` for trajectories and `d` for
-tangents (solutions of the variational equations). A name in capitals, such as Y0, is the index at
-which a row begins (`series.rows`), and a[Y0 + i] is the number of lane i in this row. No lane reads
-the numbers of another lane, so the result for a trajectory does not depend on the other
-trajectories.
-
-Symbols are as in `system.parameters`.
+`instances.Source` writes. All numbers stand in flat arrays, `a` for trajectories and `d` for
+tangents. A name in capitals, such as Y0, is the index at which a row begins (`instances.rows`), and
+a[Y0 + i] is the number of lane i in this row. No lane reads the numbers of another lane.
 """
 
 import math
