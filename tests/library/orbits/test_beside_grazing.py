@@ -13,7 +13,7 @@ from helpers.known_orbits import INELASTIC, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 from references import extended
 
-from impact_damper.model.packed import COUNT, FREQUENCY, pack
+from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.grazing import turns_of
 from impact_damper.orbits.sensitivity import Variations, path_of
@@ -116,25 +116,3 @@ def test_slopes_beside_a_grazing_are_the_integrated_ones(twice):
             expected = Variations(path).slopes()[:, FREQUENCY]
             assert_allclose(slope, expected, rtol=0, atol=0.03 * np.max(np.abs(expected)))
     assert min(heights) < 1e-7
-
-
-def test_variations_along_a_direction_are_sums_of_those_by_parameters():
-    orbit = polished_orbit("inelastic")
-    path = path_of(find_orbit(family(1.95), orbit.state))
-    directions = np.random.default_rng(2).normal(size=(COUNT, 2))
-    each, along = Variations(path), Variations(path, directions)
-    assert_allclose(along.slopes(), each.slopes() @ directions, rtol=1e-10, atol=1e-10)
-    changes = along.changes(np.eye(4)[:, :2], np.eye(2))
-    assert_allclose(changes, each.changes(np.eye(4)[:, :2], directions), rtol=1e-10, atol=1e-10)
-
-
-def test_a_branch_may_be_left_where_it_loses_stability(thrice):
-    value, state = THRICE
-    orbit = find_orbit(family(value), state, 3)
-    part = follow_branch(family, orbit, value, (1.2, 1.32), 0)
-    assert part.ends[0] == "unstable"
-    stable = [point.orbit.stable for point in part.points]
-    assert stable[1:] == [True] * (len(stable) - 1) and not stable[0]
-    whole = [event.point.value for _, event in thrice.events]
-    for _, event in part.events:
-        assert np.min(np.abs(np.subtract(whole, event.point.value))) < 1e-9

@@ -6,7 +6,6 @@ contact appears with zero speed. Without the damper the resonance motion is the 
 period 1. The quiet motion is the small symmetric motion for which a damper is designed.
 """
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -15,14 +14,13 @@ from helpers.known_orbits import DESIGN, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 
 from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.parameters import Damper
 from impact_damper.model.settling import Settling
 from impact_damper.motions.ensemble import settle
 from impact_damper.motions.following import follow_stable
 from impact_damper.motions.response import frequency_response
 from impact_damper.orbits.all_branches import complete_branches
-from impact_damper.orbits.branches import _walk, follow_branch
-from impact_damper.orbits.continuation import Problem
+from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit_branch import orbit_branch, periodic_orbit
 from impact_damper.orbits.shooting import find_orbit
 
@@ -59,26 +57,6 @@ def test_every_orbit_is_exact(quiet, resonance):
         for point in branch.points:
             assert point.orbit.converged and point.orbit.liouville_error < 1e-10
             assert point.orbit.p[0] == point.value
-
-
-def test_folds_are_where_one_multiplier_is_one(resonance):
-    """At a fold one Floquet multiplier is 1.
-
-    The product of both multipliers is known from Liouville's theorem. The points of the branch
-    before and after a fold lie on the same side of it in frequency.
-    """
-    for number in (0, 1):
-        fold = event(resonance, "fold", number)
-        values = np.sort(fold.orbit.multipliers[:2].real)[::-1]
-        assert_allclose(values[0], 1, atol=1e-4)
-        assert_allclose(
-            values[0] * values[1],
-            math.exp(-PAPER.damping * 2 * math.pi / fold.value),
-            rtol=1e-11,
-        )
-        place = next(k for k, found in resonance.events if found.point is fold)
-        beside = [resonance.points[k].value - fold.value for k in (place - 1, place + 1)]
-        assert np.sign(beside[0]) == np.sign(beside[1]) != 0
 
 
 def test_fold_by_simulation_on_both_sides(resonance):
@@ -133,14 +111,6 @@ def test_quiet_motion_folds_into_the_unstable_large_one(quiet):
     assert not large.orbit.stable
 
 
-def test_stability_changes_only_at_events(quiet, resonance):
-    for branch in (quiet, resonance):
-        at = {place for place, _ in branch.events}
-        stable = [point.orbit.stable for point in branch.points]
-        for k in np.flatnonzero(np.diff(stable)):
-            assert {k, k + 1} & at
-
-
 def test_isola_is_closed():
     """The branch of the one-third subharmonic, a motion of period 3, is a closed curve.
 
@@ -162,38 +132,6 @@ def test_isola_is_closed():
     assert not stable.all() and points["orbit_residual"].max() < 2e-12
 
 
-def test_motions_on_one_branch_with_two_folds_give_one_branch():
-    """The branch is followed once, although motions at several frequencies lie on it."""
-    response = frequency_response(PAPER, None, [1.0, 1.9, 2.2], starts=24)
-    branches = complete_branches(PAPER, None, (0.6, 2.6), [response])
-    # The other branch of period 1 begins where the motion loses its symmetry.
-    ones = branches["branch_period"].values == 1
-    leaving = (branches["branch_met"].values >= 0).any(axis=1)
-    assert (ones & ~leaving).sum() == 1 and (ones & leaving).sum() == 1
-    assert branches["seeds"] >= 4
-
-
-@pytest.mark.thorough
-def test_a_closed_branch_is_the_same_in_both_directions():
-    """The orbits have period 12 and multipliers up to 1e11, and other branches are close."""
-    oscillator, damper = Oscillator(0.107), Damper(0.12, 1.063)
-
-    def family(value):
-        return pack(oscillator, damper, value)
-
-    start = np.array([0.01125501, 0.18852517, 0.1156432, -0.93919254])
-    orbit = find_orbit(family(3.075), start, 12)
-    problem = Problem.of(family, orbit)
-    walks = [
-        _walk(problem, problem.begin(orbit, 3.075, direction), (0.8, 3.4), 400)
-        for direction in (-1, 1)
-    ]
-    there, back = (sorted((e.kind, e.point.value) for _, e in walk.events) for walk in walks)
-    assert [walk.ends[1] for walk in walks] == ["closed", "closed"]
-    assert [kind for kind, _ in there] == [kind for kind, _ in back]
-    assert_allclose([value for _, value in there], [value for _, value in back], atol=1e-8)
-
-
 def test_a_branch_holds_its_orbits_and_no_others(quiet, resonance):
     for branch in (quiet, resonance):
         middle = branch.points[len(branch.points) // 3]
@@ -204,19 +142,6 @@ def test_a_branch_holds_its_orbits_and_no_others(quiet, resonance):
     assert not quiet.holds(other, 1.9)
     of_period_2 = replace(quiet.points[5].orbit, periods=2)
     assert not quiet.holds(of_period_2, quiet.points[5].value)
-
-
-def test_first_guesses_stay_close_to_a_fold(resonance, monkeypatch):
-    """A first guess at a given parameter lies near the fold.
-
-    At a fold the tangent of a branch is nearly perpendicular to the axis of the parameter. On the
-    tangent a given change of the parameter is reached only at a distance of about 1e5.
-    """
-    fold = event(resonance, "fold")
-    guesses = []
-    monkeypatch.setattr(Problem, "correct", lambda self, x, border: guesses.append(x))
-    Problem.of(free, fold.orbit).at_value(fold, fold.value + 0.02)
-    assert np.linalg.norm(guesses[0] - fold.x) < 0.1
 
 
 def test_progress_shows_the_branches_found_and_their_ends(capsys):
@@ -280,29 +205,6 @@ def test_change_of_contacts_is_where_a_contact_has_no_speed(grazing):
     for k in changes:
         assert branches["walls_before"].values[k] != branches["walls_after"].values[k]
         assert branches["event_speed"].values[k] < 1e-4, branches["event_kind"].values[k]
-
-
-@pytest.mark.thorough
-def test_contacts_on_both_sides_of_grazing(grazing):
-    """On both sides of the event simulated orbits have the number of contacts that is stored."""
-    soft, branches, changes = grazing
-    counts = branches["orbit_contacts"].values
-    periods = branches["branch_period"].values
-    for k in changes:
-        first = np.searchsorted(branches["orbit_branch"].values, branches["event_branch"].values[k])
-        place = first + int(branches["event_place"][k])
-        n = periods[branches["event_branch"].values[k]]
-        sides = {round(counts[place + side] * n) for side in (-1, 0, 1)}
-        words = branches["walls_before"].values[k], branches["walls_after"].values[k]
-        assert {len(words[0]), len(words[1])} <= sides
-
-
-@pytest.mark.thorough
-def test_orbits_near_grazing_are_flagged(grazing):
-    _, branches, changes = grazing
-    slow = branches["least_speed"].values < 0.01
-    flagged = branches["orbit_status"].values == 2
-    assert np.array_equal(slow, flagged) and flagged.any() and not flagged.all()
 
 
 def test_bad_arguments_are_named():

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from impact_damper.model.families import PARAMETERS, family_of
-from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.parameters import Oscillator
 from impact_damper.orbits.orbit_branch import orbit_branch
 
 FREQUENCY = 1.7
@@ -66,13 +65,3 @@ def test_branches_over_force_and_cubic_agree_by_scaling():
     order = np.argsort(known)
     found = np.interp(root, known[order], expected[order])
     assert_allclose(size[values > 0.01] * root, found, rtol=3e-3)
-
-
-def test_spans_are_those_of_the_parameter():
-    oscillator, damper = Oscillator(0.2, 1.0, 0.5, 0.7), Damper(0.1, 2.0, 0.8)
-    for parameter in ("force", "unbalance", "clearance", "damping", "restitution"):
-        with pytest.raises(ValueError, match="span"):
-            family_of(oscillator, damper, 2.0, parameter, (-0.5, 2.5))
-    pack_at, here, ends = family_of(oscillator, damper, 2.0, "cubic", (-0.5, 2.5))
-    assert here == 0.5 and ends == (-0.5, 2.5)
-    assert set(PARAMETERS) >= {"cubic", "force", "unbalance"}

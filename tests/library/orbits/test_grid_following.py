@@ -60,12 +60,6 @@ def test_cells_behind_a_wall_are_not_reached():
     assert tried == {0: "found", 1: "found", 2: "not_followed"}
 
 
-def test_orbits_are_followed_along_the_first_axis_given():
-    order = [spread(lambda x, y: False, axes=axes).orbits for axes in ((0, 1), (1, 0))]
-    assert list(order[0])[:3] == [(0, 0), (1, 0), (0, 1)]
-    assert list(order[1])[:3] == [(0, 0), (0, 1), (1, 0)]
-
-
 def test_a_line_passes_a_narrow_gap_in_halved_steps_and_no_wide_one():
     """An orbit is found if the point differs from the predicted state by at most 0.3."""
 

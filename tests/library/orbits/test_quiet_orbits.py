@@ -14,11 +14,10 @@ import pytest
 from helpers.known_orbits import DESIGN, PAPER
 
 from impact_damper.data.datasets import flag
-from impact_damper.model import packed
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Oscillator
 from impact_damper.model.settling import Settling
-from impact_damper.motions import ensemble, strobe_map
+from impact_damper.motions import ensemble
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.quiet_orbits import (
@@ -67,20 +66,6 @@ def settled(orbit, push):
     return ensemble.settle(orbit.p[None], state[None], SETTLING, from_strobe=True)[0]
 
 
-def test_multipliers_are_squares_of_those_of_the_root(design_orbit):
-    orbit, status = find_quiet_orbit(
-        design_orbit.parameters, at_phase(design_orbit.parameters, design_orbit.state)
-    )
-    _, _, multiplier = strobe_map.polish(
-        design_orbit.parameters, design_orbit.state.copy(), 1, 0.1, 1e-12
-    )
-    assert status == "found"
-    found = seeded(design_orbit.parameters[None, None], design_orbit.state).multiplier[0, 0]
-    assert abs(found**2) == pytest.approx(abs(multiplier), abs=1e-9)
-    decay = np.exp(-0.215 * np.pi / 2.0)
-    assert np.linalg.det(orbit.root) == pytest.approx(decay, rel=1e-9)
-
-
 def test_a_row_ends_at_the_fold_that_continuation_locates(design_orbit):
     frequencies = np.arange(1.0, 2.01, 0.04)
     found = seeded(row(DESIGN, frequencies), design_orbit.state)
@@ -109,19 +94,6 @@ def test_the_fold_by_simulation_on_both_sides(design_orbit):
     state = orbit.strobe_states[0]
     left = ensemble.settle(beyond[None], state[None], SETTLING, from_strobe=True)[0]
     assert not is_symmetric_pair(left)
-
-
-def test_the_loss_of_symmetry_by_simulation_on_both_sides(design_orbit):
-    damper = replace(DESIGN, clearance=0.8)
-    push = np.array([1e-4, 0.0, 0.0, 0.0])
-    sides = {}
-    for frequency in (1.3, 1.6):
-        orbit = orbit_at(damper, frequency, design_orbit)
-        values = np.linalg.eigvals(orbit.root)
-        sides[frequency] = np.min(values.real[values.imag == 0], initial=0.0)
-        record = settled(orbit, push)
-        assert is_symmetric_pair(record) == (sides[frequency] > -1)
-    assert sides[1.3] < -1 < sides[1.6]
 
 
 def test_all_cells_hold_one_orbit_whichever_it_is_followed_from(design_orbit):
@@ -159,30 +131,3 @@ def test_with_inelastic_contact_it_ends_where_straight_flight_predicts(restituti
     end = np.interp(found.end[0, RIGHT], np.arange(31), frequencies)
     assert found.end_event[0, RIGHT] == "fold"
     assert end == pytest.approx(expected, rel=0.005)
-
-
-def test_straight_flight_end():
-    assert straight_flight_end(PAPER, 2.0, 1.0) == np.inf
-    phase = np.linspace(0, np.pi, 100001)
-    work = np.pi / 2 * 1.75 / 0.25
-    greatest = np.max(work * np.sin(phase) - np.cos(phase))
-    assert straight_flight_end(PAPER, 2.0, 0.75) ** 2 * 2.0 == pytest.approx(greatest)
-    # With a forcing of amplitude f = F + U W^2 + V/W^2 the end has W^2 d0/f = `greatest`.
-    shaken = Oscillator(0.2, force=0.3, unbalance=0.1)
-    end = straight_flight_end(shaken, 2.0, 0.75)
-    assert end**2 * 2.0 == pytest.approx(shaken.forcing_amplitude(end) * greatest)
-    assert straight_flight_end(replace(shaken, unbalance=2.0), 2.0, 0.75) == np.inf
-    shaken = replace(shaken, cubic=0.0, shaker=0.4)
-    end = straight_flight_end(shaken, 2.0, 0.75)
-    assert end**2 * 2.0 == pytest.approx(shaken.forcing_amplitude(end) * greatest)
-
-
-def test_a_row_without_a_known_orbit_has_the_flag_no_orbit():
-    found = follow_quiet_orbits(row(DESIGN, [1.9, 2.0]), np.full((1, 2, 4), np.nan))
-    assert (found.end_event == "no_orbit").all()
-    assert np.isnan(found.end).all()
-
-
-def test_shapes_are_checked():
-    with pytest.raises(ValueError, match="must be of shapes"):
-        follow_quiet_orbits(np.zeros((2, 3, packed.COUNT)), np.zeros((3, 2, 4)))

@@ -5,7 +5,6 @@ In multiple shooting an orbit is a chain of segments. Factors are the derivative
 W is the forcing frequency.
 """
 
-import math
 from fractions import Fraction
 from itertools import combinations
 
@@ -18,7 +17,7 @@ from references import extended
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import STROBE
-from impact_damper.orbits.shooting import find_orbit, orbit_of, polish, shoot
+from impact_damper.orbits.shooting import find_orbit, polish, shoot
 
 # A state of a chaotic motion at W = 1.55 that nearly repeats after 12 forcing cycles.
 RETURNING = (0.8012827850447051, -2.722120432592939, -0.22602951074616787, -3.910829733843885)
@@ -92,21 +91,6 @@ def test_a_complex_pair_between_real_multipliers_is_not_taken_for_two_real_ones(
         assert_eigenvalues(segments.multipliers(np.array(factors)), np.array(factors), 1e-8)
 
 
-def test_multipliers_of_similar_modulus():
-    """The product has a conjugate pair of eigenvalues between a large and a small real one."""
-    random = np.random.default_rng(1)
-    turn = np.array([[0.6, -0.8], [0.8, 0.6]])
-    middle = np.zeros((4, 4))
-    middle[0, 0], middle[1:3, 1:3], middle[3, 3] = 50.0, turn, 0.01
-    bases = random.normal(size=(6, 4, 4))
-    factors = np.array(
-        [np.roll(bases, -1, 0)[k] @ middle @ np.linalg.inv(bases[k]) for k in range(6)]
-    )
-    found = segments.multipliers(factors)
-    assert_allclose(abs(found), [50.0**6, 1, 1, 1e-12], rtol=1e-8)
-    assert_allclose(found[[1, 2]].sum(), 2 * np.cos(6 * np.angle(0.6 + 0.8j)), rtol=1e-9)
-
-
 @pytest.mark.parametrize("name", IMPACTING)
 @pytest.mark.parametrize("symmetric", [False, True])
 def test_chain_is_the_orbit_of_single_shooting(name, symmetric, monkeypatch):
@@ -135,14 +119,6 @@ def test_chain_is_the_orbit_of_single_shooting(name, symmetric, monkeypatch):
             assert_allclose(chain.record[name], value, atol=1e-9)
 
 
-def test_laws_of_a_strongly_unstable_orbit(saddle):
-    assert abs(saddle.multipliers[0]) > 1e10
-    assert saddle.converged and saddle.residual < 1e-12 * np.abs(saddle.chain.states).max()
-    assert saddle.liouville_error < 1e-9
-    assert_eigenvalues(saddle.multipliers, saddle.factors, 1e-9)
-    assert not any(saddle.margin(phase) < segments.CLEAR / 2 for phase in saddle.chain.phases[:-1])
-
-
 def test_strongly_unstable_orbit_in_80_bit(saddle):
     """In 80-bit arithmetic each segment ends where the next begins, and has the same derivative.
 
@@ -160,30 +136,6 @@ def test_strongly_unstable_orbit_in_80_bit(saddle):
         factors.append(run.flow.astype(float))
     again = segments.multipliers(np.array(factors))
     assert_allclose(np.sort(abs(again)), np.sort(abs(saddle.multipliers)), rtol=1e-8)
-
-
-def test_mirrored_chain_is_a_chain():
-    """The mirror image of an unsymmetric orbit, half a forcing cycle later, is an orbit too."""
-    guess, _ = shoot(pack(PAPER, DESIGN, 1.55), np.array(RETURNING), 12, STROBE)
-    chain = polish(guess).chain
-    mirrored = segments.chain_of(chain.p, chain.phases + math.pi, -chain.states, 1)
-    assert orbit_of(mirrored, 12).converged
-    assert_allclose(mirrored.factors, chain.factors, atol=1e-8)
-
-
-@pytest.mark.parametrize("angle", np.linspace(0.05, 3.0, 12))
-def test_a_complex_pair_is_never_taken_for_two_real_multipliers(angle):
-    """In a sheared basis the two columns of the pair grow by very different factors."""
-    rng, shear = np.random.default_rng(1), 100.0
-    cosine, sine = 0.24 * math.cos(angle), 0.24 * math.sin(angle)
-    product = np.diag([1250.0, cosine, cosine, 7e-4])
-    product[1, 2], product[2, 1] = -shear * sine, sine / shear
-    basis = np.linalg.qr(rng.normal(size=(4, 4)))[0]
-    first, second = rng.normal(size=(2, 4, 4))
-    last = basis @ product @ basis.T @ np.linalg.inv(second @ first)
-    found = segments.multipliers(np.array([first, second, last]))
-    expected = [1250.0, complex(cosine, sine), complex(cosine, -sine), 7e-4]
-    assert_allclose(np.sort_complex(found), np.sort_complex(expected), rtol=1e-6, atol=1e-8)
 
 
 def test_turns_are_those_of_the_taylor_series(saddle):

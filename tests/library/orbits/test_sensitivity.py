@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from helpers.known_orbits import DESIGN, PAPER, polished_orbit
+from helpers.known_orbits import polished_orbit
 from helpers.symmetric import CENTRAL, converged, linear_orbit
 from numpy.testing import assert_allclose
 from references import equation
@@ -20,7 +20,6 @@ from impact_damper.model.packed import (
     FREQUENCY,
     INVERSE_MASS_RATIO,
     STIFFNESS,
-    design_slopes,
     pack,
 )
 from impact_damper.model.packed import DESIGN as DESIGN_PARAMETERS
@@ -30,7 +29,6 @@ from impact_damper.orbits.paths import follow_path
 from impact_damper.orbits.sensitivity import (
     Variations,
     _displacement,
-    _modulus,
     path_of,
     sensitivity,
 )
@@ -184,48 +182,12 @@ def test_derivatives_by_design_parameters():
         assert_near(moduli[name], totals[5], step)
 
 
-def test_without_damper_its_parameters_have_no_effect():
-    slopes = design_slopes(pack(PAPER, None, 2.0))
-    contact = [DESIGN_PARAMETERS.index(name) for name in vars(DESIGN) if name != "clearance"]
-    assert not slopes[:, contact].any()
-    assert not sensitivity(named_orbit("resonance")).displacement_slopes[CLEARANCE:].any()
-
-
-def test_whole_and_half_period_agree():
-    """A symmetric orbit has the same derivatives by the map over a period and over half of it.
-
-    Over a period |Z1| is largest twice, and both maxima change alike.
-    """
-    half = named_orbit("inelastic")
-    whole, _ = shoot(half.p, half.state, 1, half.phase)
-    expected, found = sensitivity(half), sensitivity(whole)
-    assert found.displacement_smooth
-    for name in ("state_slopes", "displacement_slopes", "modulus_slopes"):
-        assert_allclose(getattr(found, name), getattr(expected, name), rtol=1e-8, atol=1e-9)
-
-
 def test_a_kink_of_the_displacement_is_not_smooth():
     """An unsymmetric change increases one of the two maxima of |Z1| and decreases the other."""
     half = named_orbit("design")
     path = path_of(shoot(half.p, half.state, 1, half.phase)[0])
     pushed = Variations(path).changes(np.eye(4), np.zeros((COUNT, 4)))
     assert not _displacement(path, pushed[0])[-1]
-
-
-@pytest.mark.parametrize(
-    ("block", "smooth"),
-    [
-        ([[0.5, 0.4], [-0.4, 0.5]], True),
-        ([[0.5, 0.0], [0.0, 0.4]], True),
-        ([[0.5, 0.0], [0.0, -0.5]], False),
-        ([[0.5, 0.0], [0.0, 0.5]], False),
-    ],
-)
-def test_equal_moduli_are_smooth_only_for_a_conjugate_pair(block, smooth):
-    """The modulus of a conjugate pair is smooth; that of two other equal multipliers is not."""
-    matrix = np.diag([0.0, 0.0, 0.1, 0.2])
-    matrix[:2, :2] = block
-    assert _modulus(matrix, np.zeros((1, 4, 4)))[-1] == smooth
 
 
 def test_an_orbit_that_has_not_converged_is_refused():

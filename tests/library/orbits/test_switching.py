@@ -51,17 +51,6 @@ def test_two_mirror_images_leave_where_symmetry_is_lost(lost):
     )
 
 
-@pytest.mark.parametrize("kind", ["lost", "doubling"])
-def test_size_grows_as_the_root_of_the_parameter(kind, request, monkeypatch):
-    event = request.getfixturevalue(kind)
-    event = event[0] if kind == "doubling" else event
-    away = []
-    for distance in (4e-3, 2e-3):
-        monkeypatch.setattr(switching, "DISTANCES", (distance,))
-        away.append(other_branch(event).value - event.point.value)
-    assert_allclose(away[0] / away[1], 4, rtol=0.05)
-
-
 def test_doubled_motion_is_the_one_that_simulation_finds(doubling, monkeypatch):
     event, family = doubling
     monkeypatch.setattr(switching, "DISTANCES", (4e-3,))
@@ -89,8 +78,3 @@ def test_the_branch_at_which_another_ends_is_the_one_that_it_left(doubling, monk
     met = met_branch(branch.points[-edge], "period_doubling")
     assert met.orbit.periods == 1 and met.orbit.is_same(event.point.orbit, 1e-6)
     assert_allclose(met.value, event.point.value, rtol=0, atol=1e-8)
-
-
-def test_other_events_are_refused(lost):
-    with pytest.raises(ValueError, match=r"event = 'fold'"):
-        other_branch(lost._replace(kind="fold"))

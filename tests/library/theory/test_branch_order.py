@@ -33,13 +33,6 @@ def test_roots_of_a_cubic_lie_on_three_branches():
     assert len(middle) == 1
 
 
-def test_a_jump_begins_a_branch():
-    numbers = branches_over([np.array([[0.0]]), np.array([[0.1]]), np.array([[1.0]])])
-    assert [row.tolist() for row in numbers] == [[0], [0], [1]]
-    empty = branches_over([np.empty((0, 2)), np.ones((1, 2)), np.empty((0, 2)), np.ones((1, 2))])
-    assert [row.tolist() for row in empty] == [[], [0], [], [1]]
-
-
 def test_solutions_of_harmonic_balance_are_curves():
     """Branches are smooth. Without the damper each is stable or unstable from fold to fold."""
     found = harmonic_balance_response(Oscillator(0.215), Damper(0.12, 2.0), np.linspace(1, 3, 201))

@@ -38,19 +38,6 @@ def test_multipliers_are_the_exact_ones(case):
     assert np.max(away) < (1e-10 if solution.balance.damper is None else 1e-3)
 
 
-def test_liouville(case):
-    solution, exact = case
-    balance = solution.balance
-    period = 2 * np.pi / balance.frequency
-    trace = -PAPER.damping * period
-    if balance.damper is not None:
-        damper = balance.damper
-        trace -= damper.dashpot * (1 + 1 / damper.mass_ratio) * exact.touching
-    assert np.prod(exact.multipliers[: exact.active]) == pytest.approx(np.exp(trace), rel=1e-10)
-    total = np.sum(hill.exponents(solution).values).real * period
-    assert total == pytest.approx(trace, abs=1e-7 if balance.damper is not INELASTIC else 3e-3)
-
-
 def test_eigenvalues_near_zero_are_those_of_the_whole_problem(monkeypatch):
     """The iteration for eigenvalues near zero, used for large problems, against all eigenvalues."""
     solution = solve(Balance(PAPER, INELASTIC, 2.0, 15), single_term(PAPER, INELASTIC, 2.0))
@@ -69,13 +56,6 @@ def test_all_harmonics_give_the_same_multipliers():
     assert np.sort_complex(hill.exponents(whole).multipliers(period)) == pytest.approx(
         np.sort_complex(hill.exponents(odd).multipliers(period)), abs=1e-6
     )
-
-
-def test_real_multipliers_at_the_edge_of_the_strip():
-    """Two multipliers over half a period are real, and one of them is negative."""
-    solution = solve(Balance(PAPER, DESIGN, 2.0, 7), single_term(PAPER, DESIGN, 2.0))
-    multipliers = hill.exponents(solution).multipliers(np.pi)
-    assert np.sum(np.abs(multipliers.imag) < 1e-12) == 2
 
 
 @pytest.mark.thorough

@@ -14,7 +14,6 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Oscillator
 from impact_damper.motions import strobe_map
 from impact_damper.theory import fourier, single_harmonic
-from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
 
 BALANCES = {
@@ -40,30 +39,6 @@ def arbitrary(balance, seed=1):
     if balance.damper is not None:
         series[1, balance.harmonics == balance.period] = 0.6 * balance.damper.clearance
     return balance.to_complex(balance.to_real(series))
-
-
-def test_real_unknowns_and_back(balance):
-    series = arbitrary(balance)
-    assert balance.to_complex(balance.to_real(series)) == pytest.approx(series)
-    assert len(balance.to_real(series)) == np.sum(balance.kept)
-
-
-def test_jacobian_is_the_derivative(balance):
-    series = arbitrary(balance)
-    unknowns = balance.to_real(series)
-
-    def residual(x):
-        trial = balance.to_complex(x)
-        return balance.to_real(balance.residual(trial, balance.contacts(trial)))
-
-    step = 1e-6
-    differences = np.stack(
-        [(residual(unknowns + d) - residual(unknowns - d)) / (2 * step)
-         for d in step * np.eye(len(unknowns))],
-        axis=1,
-    )  # fmt: skip
-    matrix = balance.operator(series, balance.contacts(series))
-    assert matrix == pytest.approx(differences, abs=1e-7 * np.max(np.abs(matrix)))
 
 
 @pytest.mark.parametrize("name", ["elastic", "inelastic", "asymmetric"])
@@ -99,14 +74,6 @@ def test_one_term_is_equations_7():
         assert solve(balance, series).coefficients == pytest.approx(series, abs=1e-12)
 
 
-def test_one_term_without_damper_is_the_cubic():
-    first = free_solutions(PAPER, 1.9)
-    balance = Balance(PAPER, None, 1.9, 1)
-    for amplitude, phase in zip(*first, strict=True):
-        series = np.array([[amplitude * np.exp(1j * phase) / 2]])
-        assert np.max(np.abs(balance.residual(series, np.empty((0, 3))))) < 1e-12
-
-
 @pytest.mark.thorough
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC])
 def test_approaches_the_exact_orbit(damper):
@@ -139,15 +106,6 @@ def test_subharmonic_of_the_free_oscillator():
     assert end[:2] == pytest.approx(state, abs=1e-10)
     once, _, _ = strobe_map.period_map(p, np.tile(state, 2), 1, 1e-13)
     assert np.max(np.abs(once[:2] - state)) > 0.1
-
-
-def test_all_harmonics_hold_the_symmetric_motion():
-    odd = solve(Balance(PAPER, DESIGN, 2.0, 7), single_term(PAPER, DESIGN, 2.0))
-    spread = np.zeros((2, 8), complex)
-    spread[:, 1::2] = odd.coefficients
-    whole = solve(Balance(PAPER, DESIGN, 2.0, 7, symmetric=False), spread)
-    assert whole.status == "converged"
-    assert whole.coefficients == pytest.approx(spread, abs=1e-11)
 
 
 def test_failures_say_so():

@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import minimize_scalar
 
 from chatterjee1995.stages.design_rules import QuietMotion
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.theory.straight_flight import (
-    IMPULSE,
-    TURN,
     Flight,
     elastic_ratios,
     flight_of,
@@ -61,29 +59,6 @@ def test_optima_of_sampled_straight_flights(mass_ratio, restitution):
         bounds = grid[max(k - 1, 0)], grid[min(k + 1, 99)]
         best = minimize_scalar(size, bounds=bounds, method="bounded", options={"xatol": 1e-9}).x
         assert_allclose(rule(flight), straight(mass_ratio, restitution, best)[1], rtol=2e-4)
-
-
-@pytest.mark.parametrize("mass_ratio", [0.05, 0.4])
-def test_first_harmonic_vanishes_at_pi_squared_over_eight_for_a_light_mass_alone(mass_ratio):
-    ratio = least_harmonic_ratio(Flight(mass_ratio))
-    assert_allclose(ratio, (1 + mass_ratio) * np.pi**2 / 8 - mass_ratio, rtol=1e-12)
-
-
-@pytest.mark.parametrize("loss", [0.38, 0.6, 1.0, 3.0])
-def test_smooth_minimum_with_restitution(loss):
-    """Above a loss (1 + 1/rm) (1 - e)/(1 + e) of 0.369 the minimum is smooth."""
-    mass_ratio = 0.12
-    share = loss / (1 + 1 / mass_ratio)
-    lag = brentq(lambda s: loss * np.cos(s + np.tan(s)) - np.sin(s), 0, 1.2)
-    impulse = np.pi * np.sin(lag) / (2 * loss)
-    expected = (1 + mass_ratio) * impulse - mass_ratio * np.cos(lag)
-    found = least_displacement_ratio(Flight(mass_ratio, (1 - share) / (1 + share)))
-    assert_allclose(found, expected, rtol=1e-6)
-
-
-def test_constants_of_the_kink():
-    assert_allclose(np.sin(TURN), 2 * IMPULSE / np.pi, rtol=1e-14)
-    assert_allclose(IMPULSE - 1, np.cos(TURN) - IMPULSE + 2 * IMPULSE * TURN / np.pi, rtol=1e-11)
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from impact_damper.motions.simulate import simulate
 from impact_damper.motions.steady import steady_motion
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.free_oscillator import free_folds
-from impact_damper.theory.harmonic_balance import harmonic_balance_response, optimum_clearance
+from impact_damper.theory.harmonic_balance import harmonic_balance_response
 
 FIXED = {"damping": 0.215, "mass_ratio": 0.12, "clearance": 2.0}
 RATIOS = np.linspace(0.4, 1.2, 9)
@@ -103,16 +103,6 @@ def test_free_resonance_is_followed_to_its_end_only(over_restitution):
     frequency = over_restitution["map_frequency"].values
     missing = names(over_restitution, "high_run_motion") == "not_run"
     assert np.array_equal(missing, frequency > end)
-
-
-def test_clearance_follows_the_rule_where_none_is_given():
-    fixed = {"mass_ratio": 0.12}
-    found = balance_map("damping", [0.2, 0.3], [0.98, 1.0], fixed, settling=SETTLING)
-    for value, clearance in zip(found["map_value"], found["map_clearance"], strict=True):
-        oscillator = type(PAPER)(float(value))
-        assert clearance == pytest.approx(optimum_clearance(oscillator, 0.12))
-        row = found["map_frequency"].sel(map_value=value)
-        assert row[1] == pytest.approx(peak_frequency(oscillator))
 
 
 def test_counts_add_up(over_restitution):

@@ -9,17 +9,16 @@ import pytest
 from helpers.sampling import gauss, sample
 from numpy.testing import assert_allclose
 
-from chatterjee1995.figures.design_rules import draw_design_rules
 from chatterjee1995.stages.design_rules import QuietMotion, design_rules, first_harmonic
 from chatterjee1995.tables.clearance import RULE_NAMES, SWEEPS
 from chatterjee1995.tables.clearance import design_rules as table_of
-from impact_damper.data.datasets import flag, load, save
+from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions import strobe_map
 from impact_damper.motions.steady import steady_motion
 from impact_damper.orbits.clearance_sweep import clearance_sweep
-from impact_damper.theory.optimum_clearance import CRITERIA, RULES
+from impact_damper.theory.optimum_clearance import RULES
 
 PAPER = Oscillator(0.215)
 GIVEN = {"mass_ratio": 0.25, "restitution": 0.75, "contact_stiffness": 2000.0}
@@ -60,28 +59,6 @@ def test_first_harmonic_by_quadrature_between_contacts():
     exact = 2 / np.pi * np.sum(weights * z1 * np.exp(-2j * nodes))
     assert_allclose(first_harmonic(p, y), exact, atol=1e-6)
     assert_allclose(motion.at(0.96)[1], 4 * abs(exact), rtol=1e-3)
-
-
-def test_a_motion_that_ends_before_its_minimum_and_one_that_is_not_there():
-    motion = QuietMotion(PAPER, Damper(0.12, 1.0), 2.0)
-    assert not np.isfinite(motion.at(50.0)[0]) and np.isnan(motion.at(50.0)[2])
-    assert motion.least(0, 50.0)[1] == "not_found"
-    assert motion.least(0, 0.8)[1] == "kink"
-
-    class Ending(QuietMotion):
-        def _orbit(self, ratio):
-            return (ratio, ratio, 0.5) if ratio > 0.9 else (np.inf, np.inf, np.nan)
-
-    ending = Ending(PAPER, Damper(0.12, 1.0), 2.0)
-    place, kind = ending.least(0, 1.2)
-    assert kind == "jump"
-    assert_allclose(place, 0.9, rtol=1e-3)
-
-    class Falling(QuietMotion):
-        def _orbit(self, ratio):
-            return ratio, ratio, 0.5
-
-    assert Falling(PAPER, Damper(0.12, 1.0), 2.0).least(0, 1.2)[1] == "edge"
 
 
 @pytest.mark.parametrize(("mass_ratio", "stable"), [(0.12, False), (0.4, True)])
@@ -130,17 +107,3 @@ def test_table_counts(grid, sweeps):
         assert_allclose(row["largest error, %"], np.nanmax(error))
     assert rows.loc["all grids, e = 1", "max |Z1|", RULE_NAMES["flight"]]["designs"] == 2
     assert rows.loc[SWEEPS, "max |Z1|", RULE_NAMES["flight"]]["within 1 %"] == 2
-
-
-def test_drawing(grid, tmp_path):
-    """The figure has a panel for each criterion, once over a parameter and once for the errors."""
-    wide = design_rules(PAPER, [0.12], [1.0], [1000.0, 2000.0], [1.5, 2.0])
-    drawn = draw_design_rules(design_rules=[grid, wide])
-    assert len(drawn.axes) == 2 * len(CRITERIA)
-    save(grid, tmp_path / "grid.nc")
-    assert load(tmp_path / "grid.nc").identical(grid)
-
-
-def test_grids_increase():
-    with pytest.raises(ValueError, match="restitutions"):
-        design_rules(PAPER, [0.12], [1.0, 0.9], [2000.0], [2.0])
