@@ -12,8 +12,8 @@ include: "workflow/rules/common.smk"
 
 
 pathvars:
-    results=config["results"],
-    logs=f"{config['results']}/logs",
+    results=settings.results,
+    logs=f"{settings.results}/logs",
 
 
 report: "workflow/report/workflow.rst"
@@ -21,17 +21,12 @@ report: "workflow/report/workflow.rst"
 
 include: "workflow/rules/checks.smk"
 include: "workflow/rules/kernels.smk"
-include: "workflow/rules/design.smk"
-include: "workflow/rules/responses.smk"
-include: "workflow/rules/clearance.smk"
-include: "workflow/rules/migration.smk"
-include: "workflow/rules/methods.smk"
-include: "workflow/rules/machines.smk"
+include: "workflow/rules/stages.smk"
 include: "workflow/rules/report.smk"
 
 
 onstart:
-    check_writable(Path(config["results"]))
+    check_writable(Path(settings.results))
     compile_again()
 
 

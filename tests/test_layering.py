@@ -34,6 +34,7 @@ FLOORS = (
     "chatterjee1995.claims",
     "chatterjee1995.tables",
     "chatterjee1995.figures",
+    "chatterjee1995.sections",
     "chatterjee1995.workflow",
 )
 HIGHEST = 8  # floors of rooms, if each room stands as low as its imports allow

@@ -6,8 +6,8 @@ from typing import NamedTuple
 from hypothesis import strategies as st
 from snakemake.utils import update_config
 
+from chatterjee1995.sections.configuration import without_left_out
 from chatterjee1995.variables.studies import AXES as STUDY_AXES
-from chatterjee1995.workflow.configuration import without_left_out
 from helpers import configurations
 from helpers.running import ROOT
 

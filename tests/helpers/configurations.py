@@ -2,12 +2,16 @@
 
 import yaml
 
+from chatterjee1995.sections.configuration import configuration
 from helpers.running import ROOT
-
-# If the C library libyaml is installed, its parser is used: it is ten times as fast.
-LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+from impact_damper.command.yaml_files import LOADER
 
 
 def read(path=ROOT / "config/config.yaml"):
     """Return the keys and values of a file in YAML, by default the configuration of the paper."""
     return yaml.load(path.read_bytes(), LOADER)
+
+
+def paper():
+    """Return the configuration of the paper as an object."""
+    return configuration(read(), trusted=True)

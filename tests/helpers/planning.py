@@ -1,14 +1,11 @@
 """Jobs of a configuration as the registry of stages plans them, without starting Snakemake."""
 
-import json
 from pathlib import Path
 from typing import NamedTuple
 
+from chatterjee1995.sections.configuration import configuration
+from chatterjee1995.sections.registry import CHAPTERS, STAGES
 from chatterjee1995.workflow import selection
-from chatterjee1995.workflow.registry import CHAPTERS, STAGES, TABLES
-
-# Stages whose entries are all computed by one job.
-TOGETHER = ("collisions", "design_orbit", "rigid_limit")
 
 
 class Job(NamedTuple):
@@ -20,28 +17,46 @@ class Job(NamedTuple):
 
 def job_of(stage, name):
     """Return the name of the job that computes an entry."""
-    return stage if stage in TOGETHER else f"{stage}/{name}"
+    return stage if STAGES[stage].together else f"{stage}/{name}"
 
 
-def jobs(config) -> dict:
+def jobs(given) -> dict:
     """Return the jobs of a configuration with `chunks: 1`, by names like "response/figure_08"."""
-    config = json.loads(json.dumps(config, sort_keys=True))
-    found = {}
-    for stage, record in STAGES.items():
-        names = selection.entries(config, stage)
-        given = {name: record.parameters(config, name) for name in names}
-        if stage in TOGETHER:
-            found[stage] = Job(_texts(given), frozenset())
+    config, found = configuration(given, trusted=True), {}
+    for name, stage in STAGES.items():
+        entries = selection.entries(config, name)
+        if name == "studies":
+            found |= _studies(config, entries)
             continue
-        for name in names:
-            needs = _needed(selection.read_by(config, stage, name))
-            found[f"{stage}/{name}"] = Job(_texts({"name": name} | given[name]), needs)
-        if record.page:
-            found[f"pages/{stage}"] = Job(_texts({"names": names}), _needed({stage: names}))
+        function = {"function": stage.function}
+        given = {entry: selection.job(config, name, entry) for entry in entries}
+        if stage.together:
+            given = {f"entry_{entry}": values for entry, values in given.items()}
+            found[name] = Job(_texts(function | given), frozenset())
+            continue
+        for entry in entries:
+            read = selection.read_by(config, name, entry).values()
+            needs = _needed({each: [entry] for stages in read for each in stages})
+            parameters = _texts({"name": entry} | function | given[entry])
+            found[f"{name}/{entry}"] = Job(parameters, needs)
+        if stage.page:
+            found[f"pages/{name}"] = Job(_texts({"names": entries}), _needed({name: entries}))
     for chapter in CHAPTERS:
         given = selection.chapter_values(config, chapter)
         needs = _needed(selection.chapter_data(config, chapter))
         found[f"chapter/{chapter}"] = Job(_texts(given), needs)
+    return found
+
+
+def _studies(config, entries):
+    """Return the jobs of studies, each of one chunk."""
+    found = {}
+    for entry in entries:
+        chunk = {"name": f"{entry}/1-of-1", "function": STAGES["studies"].function}
+        chunk |= config.studies[entry].chunk(config, "1-of-1")
+        found[f"study_chunks/{entry}"] = Job(_texts(chunk), frozenset())
+        needs = frozenset([f"study_chunks/{entry}"])
+        found[f"studies/{entry}"] = Job(_texts({"name": entry}), needs)
     return found
 
 
@@ -61,9 +76,11 @@ def job_of_file(config, path):
         chapters = (c for c in CHAPTERS if name in selection.figures_of(config, c))
         return f"chapter/{next(chapters)}"
     if folder == "tables":
-        return f"chapter/{next(c for c in CHAPTERS if TABLES[name] in CHAPTERS[c].TABLES)}"
+        return f"chapter/{next(c for c in CHAPTERS if name in selection.tables_of(c))}"
     if path.parent.parent.name in STAGES:
         return f"pages/{path.parent.parent.name}"
+    if path.parent.parent.name == "study_chunks":
+        return f"study_chunks/{folder}"
     return job_of(folder, name) if folder in STAGES else name
 
 

@@ -57,7 +57,7 @@ def check_writable(folder):
 
 # Only the main process checks; jobs run in other processes.
 if workflow.is_main_process:
-    check_results(Path(config["results"]))
+    check_results(Path(settings.results))
 # A warning only, because a dry run or a finished run writes nothing; `check_writable` raises later.
-if words := unwritable(Path(config["results"])):
+if words := unwritable(Path(settings.results)):
     logger.warning(words)

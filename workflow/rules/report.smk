@@ -16,8 +16,11 @@ for chapter in filter(chapter_files, CHAPTERS):
         name:
             f"chapter_{chapter}"
         input:
-            **data_by_stage(selection.chapter_data(config, chapter)),
-            code=code("chapter", *selection.chapter_modules(config, chapter)),
+            **{
+                stage: data(stage, names)
+                for stage, names in selection.chapter_data(settings, chapter).items()
+            },
+            code=code("chapter", *selection.chapter_modules(settings, chapter)),
         output:
             chapter_files(chapter),
         log:
@@ -25,8 +28,39 @@ for chapter in filter(chapter_files, CHAPTERS):
         conda:
             ENVIRONMENT
         params:
-            **chapter_parameters(chapter),
+            **{
+                key: {key: value}
+                for key, value in selection.chapter_values(settings, chapter).items()
+            },
         message:
             f"Figures and tables of the chapter {chapter}"
         script:
             "../scripts/chapter.py"
+
+
+# One job makes the pages of all machines, because starting a job takes as long as making a page.
+rule machine_pages:
+    input:
+        machines=data("machines"),
+        code=code("machine_pages"),
+        templates=sorted(map(local, (ROOT / "src/impact_damper/plot/pages/templates").glob("*.*"))),
+    output:
+        [page for page in page_files("machines") if not page.endswith("index.html")],
+        [
+            report(
+                f"<results>/machines/{name}/index.html",
+                category=CHAPTERS["machines"],
+                labels={"kind": "page", "name": name},
+            )
+            for name in selection.entries(settings, "machines")
+        ],
+    log:
+        "<logs>/machine_pages.log",
+    conda:
+        ENVIRONMENT
+    params:
+        names={"names": selection.entries(settings, "machines")},
+    message:
+        "The pages of the machines"
+    script:
+        "../scripts/machine_pages.py"

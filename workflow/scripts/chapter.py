@@ -4,9 +4,9 @@ from chatterjee1995.workflow.job import Job
 from chatterjee1995.workflow.chapter import draw_figure, make_table
 
 job = Job(snakemake)
-for key, figure in job.given.items():
-    if key.startswith("figure_"):
-        path = job.results / "figures" / key.removeprefix("figure_")
-        draw_figure(figure, job.datasets, path)
-for name in job["tables"]:
-    make_table(name, job.datasets, job.results / "tables" / name, job.given.get("drawn", ()))
+for key, given in job.given.items():
+    kind, name = key.split("_", 1)
+    if kind == "figure":
+        draw_figure(given, job.datasets, job.results / "figures" / name)
+    else:
+        make_table(name, given, job.datasets, job.results / "tables" / name)

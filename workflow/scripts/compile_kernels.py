@@ -4,8 +4,9 @@ from pathlib import Path
 
 from chatterjee1995.workflow.job import Job
 from chatterjee1995.workflow.compile_kernels import compile_all
-from chatterjee1995.workflow.sources import compiled_kernels
+from chatterjee1995.workflow.compiled import compiled_kernels
 
-job = Job(snakemake)
-compile_all(snakemake.threads, snakemake.config["comparison"]["orders"])
-Path(job.output).write_text(compiled_kernels(snakemake.config))
+Job(snakemake)
+orders = snakemake.config["comparison"]["orders"]
+compile_all(snakemake.threads, orders)
+Path(snakemake.output[0]).write_text(compiled_kernels(orders))

@@ -5,6 +5,5 @@ from impact_damper.plot.pages.machine import FIGURES, machine_page
 from impact_damper.plot.pages.render import write_page
 
 job = Job(snakemake)
-for name in job["names"]:
-    data = job.datasets["machines"][name]
+for name, data in job.datasets["machines"].items():
     write_page(machine_page(name, data), FIGURES, data, job.results / "machines" / name)

@@ -1,8 +1,4 @@
-"""Captions of figures, with the parameters of the datasets drawn as text.
-
-This module imports no NumPy, because Snakemake imports this module at every dry run, and NumPy
-loads slowly.
-"""
+"""Captions of figures, with the parameters of the datasets drawn as text."""
 
 import re
 from dataclasses import fields
@@ -15,21 +11,14 @@ from impact_damper.model.units import QUANTITIES
 MANY = 3
 
 
-def caption(figure, text) -> str:
+def caption(title, cases, text, remark) -> str:
     """Return the caption of a figure as one paragraph of reStructuredText.
 
     W and omega_l become Ω and ωl, the symbols on the axes. The bars of an absolute value are
     escaped, since reStructuredText takes text between bars for the name of a substitution.
-
-    Parameters
-    ----------
-    figure : dict
-        As `selection.figure_values` returns it.
-    text : str
-        `CAPTION` of the module that draws the kind of figure.
     """
-    head = f"{figure['title']}: {figure['cases']}." if figure["cases"] else f"{figure['title']}."
-    whole = "\n".join(part for part in (head, text.strip(), figure["remark"]) if part)
+    head = f"{title}: {cases}." if cases else f"{title}."
+    whole = "\n".join(part for part in (head, text.strip(), remark) if part)
     whole = re.sub(r"\bW(?=p?(²|\b))", "Ω", whole)
     return whole.replace("omega_l", "ωl").replace("|", r"\|")
 
@@ -37,15 +26,9 @@ def caption(figure, text) -> str:
 def cases_in_words(entries, named=False) -> str:
     """Return the parameters of the entries that a figure draws, as text.
 
-    Parameters with the same value in all entries come first. Then each entry lists its own, or, if
-    the entries differ in one parameter only, this parameter lists its values.
-
-    Parameters
-    ----------
-    entries : dict of dict of str
-        Values as text, keyed by the name of the entry, then by name or symbol of the parameter.
-    named : bool
-        Whether the text gives the name of each entry.
+    `entries` holds values as text, keyed by entry and symbol. Parameters with the same value in all
+    entries come first. Then each entry lists its own, with its name if `named`. If the entries
+    differ in one parameter only, this parameter lists its values.
     """
     first, *others = entries.values()
     shared = [item for item in first.items() if all(item in each.items() for each in others)]
@@ -68,14 +51,8 @@ def cases_in_words(entries, named=False) -> str:
 def in_words(values) -> dict:
     """Return the values of parameters as text, keyed by symbol: "= 0.215", "from 1 to 3".
 
-    A linear stiffness of zero, which most oscillators have, is left out.
-
-    Parameters
-    ----------
-    values : dict
-        Keyed by the name of the parameter. A value is a number, a list, a range with `first` and
-        `last`, or "rule" for the clearance by the paper's rule (19). Keys that are not parameters
-        are ignored.
+    A value is a number, a list, a range, or "rule" for the clearance by (19). Keys that are no
+    parameters, and a linear stiffness of zero, are left out.
     """
     return {
         symbol: _value(values[name])
@@ -85,13 +62,7 @@ def in_words(values) -> dict:
 
 
 def machine_in_words(values) -> dict:
-    """Return the values of a machine with their units, such as "12 kg", keyed by their names.
-
-    Parameters
-    ----------
-    values : dict
-        Arguments of `Machine`; a value that is text contains its unit.
-    """
+    """Return the arguments of `Machine` with their units, such as "12 kg", keyed by their names."""
     words = {}
     for each in fields(Machine):
         if each.name in values:
@@ -108,8 +79,8 @@ def _joined(items):
 
 def _value(value):
     """Return the value of a parameter as text, such as "= 0.215" or "from 1 to 3"."""
-    if isinstance(value, dict):
-        return f"from {_number(value['first'])} to {_number(value['last'])}"
+    if hasattr(value, "first"):
+        return f"from {_number(value.first)} to {_number(value.last)}"
     if isinstance(value, list) and len(value) > MANY:
         return f"from {_number(min(value))} to {_number(max(value))}"
     if isinstance(value, list):

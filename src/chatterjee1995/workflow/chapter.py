@@ -3,76 +3,46 @@
 from functools import partial
 from importlib import import_module
 
-from chatterjee1995.workflow.captions import caption
-from chatterjee1995.workflow.registry import KINDS, TABLES
+from chatterjee1995.workflow.job import imported
 from impact_damper.data.whole_files import whole
 
 
-def make_table(name, datasets, path, drawn=()) -> None:
-    """Write a table as CSV and Markdown, with its caption.
+def make_table(name, given, datasets, path) -> None:
+    """Write a table as CSV and Markdown, with its caption, to `path` without suffix.
 
-    Parameters
-    ----------
-    name : str
-        Name of a table in the registry.
-    datasets : dict
-        Datasets, keyed by stage and by entry of the configuration. May contain more stages than the
-        table reads.
-    path : pathlib.Path
-        Name of the files, without suffix.
-    drawn : sequence of str
-        Names of the figures that the run draws, for a table that shows figures.
+    `given` is what `selection.table_values` returns, and `datasets` are keyed by stage and entry.
     """
     from impact_damper.data import table_files
 
-    table = TABLES[name]
-    module = import_module(table.module)
-    read = {stage: datasets.get(stage, {}) for stage in table.stages}
-    frame = getattr(module, name)(read)
+    module = import_module(given["module"])
+    frame = getattr(module, name)({stage: datasets.get(stage, {}) for stage in given["stages"]})
     # A module has its own function `document` for Markdown, or it lists the columns in `SHOWN`.
-    document = getattr(module, "document", None) or partial(
-        table_files.for_people,
-        title=table.caption.removesuffix("."),
-        heads=module.SHOWN[name],
-        csv_name=f"{name}.csv",
-        cells=getattr(module, "CELLS", {}),
-        rows=getattr(module, "ROWS", {}).get(name),
-    )
-    if table.pictures:
-        document = partial(document, drawn=drawn)
+    if "drawn" in given:
+        document = partial(module.document, drawn=given["drawn"])
+    else:
+        document = partial(
+            table_files.for_people,
+            title=given["caption"].removesuffix("."),
+            heads=module.SHOWN[name],
+            csv_name=f"{name}.csv",
+            cells=getattr(module, "CELLS", {}),
+            rows=getattr(module, "ROWS", {}).get(name),
+        )
     table_files.save_table(frame, f"{path}.csv", f"{path}.md", document)
-    _write(f"{path}.rst", table.caption)
+    _write(f"{path}.rst", given["caption"])
 
 
-def draw_figure(figure, datasets, path) -> None:
-    """Draw a figure as PDF and PNG, and write its caption.
+def draw_figure(given, datasets, path) -> None:
+    """Draw a figure as PDF and PNG, with its caption, to `path` without suffix.
 
-    Parameters
-    ----------
-    figure : dict
-        As `selection.figure_values` returns it.
-    datasets : dict
-        Datasets, keyed by stage and by entry of the configuration.
-    path : pathlib.Path
-        Name of the files, without suffix.
+    `given` is what `selection.figure_values` returns, and `datasets` are keyed by stage and entry.
     """
     from impact_damper.plot.panels.style import save_figure
 
-    kind = KINDS[figure["kind"]]
-    module = import_module(kind.source)
-    if kind.stages:
-        draw = getattr(module, f"draw_{kind.name}")
-        drawing = draw(
-            **{
-                stage: [datasets[stage][name] for name in names]
-                for stage, names in figure["drawn"].items()
-            }
-        )
-    else:
-        (name,) = figure["data"]
-        drawing = getattr(module, name)()
-    save_figure(drawing, path)
-    _write(f"{path}.rst", caption(figure, module.CAPTION))
+    drawn = given["drawn"].items()
+    draw = imported(given["function"])
+    save_figure(draw(**{k: [datasets[k][name] for name in names] for k, names in drawn}), path)
+    _write(f"{path}.rst", given["caption"])
 
 
 def _write(path, text):

@@ -1,20 +1,24 @@
 """A job of the workflow: its log, its end, its timing, and its parameters as objects.
 
-Every script of `workflow/scripts/` first makes a `Job` from the variable `snakemake`, which
-Snakemake defines. Scripts import this module before all others, because it makes garbage collection
-rarer, which speeds up the other imports.
+Scripts import this module before all others, because it makes garbage collection rarer, which
+speeds up the other imports.
 """
 
 import atexit
 import gc
+import inspect
+import json
 import os
 import resource
+import shutil
 import sys
 import threading
 import time
 from collections import ChainMap
 from contextlib import suppress
 from functools import cached_property
+from importlib import import_module
+from operator import attrgetter
 from pathlib import Path
 
 # Collect garbage only after 10 000 new objects, more than by default: objects made by imports stay
@@ -28,77 +32,48 @@ LOOK = 0.5
 MEGABYTE = 2**20 if sys.platform == "darwin" else 2**10
 
 
-class Entry:
-    """Parameters of one entry of the configuration, as objects of the package.
-
-    Parameters
-    ----------
-    given : mapping
-        Parameters keyed by name, as returned by `Stage.parameters` of the registry.
-    output : str
-        File of the dataset.
-    """
-
-    def __init__(self, given, output):
-        self.given, self.output = given, output
-
-    def __getitem__(self, key):
-        return self.given[key]
-
-    @property
-    def oscillator(self):
-        """The oscillator, a `system.parameters.Oscillator`."""
-        from impact_damper.model.parameters import Oscillator
-
-        return Oscillator(**self["oscillator"])
-
-    @property
-    def damper(self):
-        """The damper, or None.
-
-        The clearance `rule` is replaced by the value of equation (19) of the paper.
-        """
-        from impact_damper.model.parameters import Damper
-        from impact_damper.theory.design_rule import rule_clearance
-
-        given = self["damper"]
-        if given is None:
-            return None
-        if given["clearance"] == "rule":
-            given = given | {"clearance": rule_clearance(self.oscillator, given["mass_ratio"])}
-        return Damper(**given)
-
-    @property
-    def settling(self):
-        """Length and accuracy of runs, a `system.settling.Settling`."""
-        from impact_damper.model.settling import Settling
-
-        return Settling(**self["settling"])
-
-    def grid(self, key):
-        """Return evenly spaced values of a range given as first, last and count."""
-        import numpy as np
-
-        return np.linspace(*self[key])
-
-    def powers(self, key):
-        """Return values with a constant ratio, of a range given as first, last and count."""
-        import numpy as np
-
-        return np.geomspace(*self[key])
-
-    def counts(self, key):
-        """Return the values of `powers` rounded to whole numbers."""
-        return [int(value) for value in self.powers(key).round()]
-
-    def save(self, data):
-        """Write a dataset to the output."""
-        from impact_damper.data.datasets import save
-
-        save(data, self.output)
+# Objects and arrays that parameters of jobs stand for, such as {"linspace": [0.6, 2.6, 41]}.
+MADE = {
+    "Oscillator": "impact_damper.model.parameters:Oscillator",
+    "Damper": "impact_damper.model.parameters:Damper",
+    "Settling": "impact_damper.model.settling:Settling",
+    "Machine": "impact_damper.model.machine:Machine",
+    "HertzContact": "impact_damper.model.hertz:HertzContact.of_ball",
+    "linspace": "numpy:linspace",
+    "geomspace": "numpy:geomspace",
+    "counts": "chatterjee1995.workflow.job:counts",
+    "ladder": "chatterjee1995.stages.harmonic_convergence:ladder",
+    "loads": "chatterjee1995.stages.contact_model:spread_loads",
+}
 
 
-class Job(Entry):
+def imported(name):
+    """Return the object with a name such as "numpy:linspace"."""
+    module, path = name.split(":")
+    return attrgetter(path)(import_module(module))
+
+
+def made(value):
+    """Return a parameter of a job with the objects and arrays that it stands for."""
+    if isinstance(value, list):
+        return [made(each) for each in value]
+    if not isinstance(value, dict):
+        return value
+    (name, *others) = value or [None]
+    if name in MADE and not others:
+        function, given = imported(MADE[name]), value[name]
+        return function(**given) if isinstance(given, dict) else function(*given)
+    return {key: made(each) for key, each in value.items()}
+
+
+def counts(first, last, points):
+    """Return whole numbers with a nearly constant ratio."""
+    import numpy as np
+
+    return np.geomspace(first, last, points).round().astype(int).tolist()
+
+
+class Job:
     """A job that Snakemake has started.
 
     Creating the object redirects all output to the log, and makes the process end soon after
@@ -113,8 +88,9 @@ class Job(Entry):
     """
 
     def __init__(self, snakemake):
-        super().__init__(ChainMap(*snakemake.params), snakemake.output[0])
         self.snakemake = snakemake
+        # Each parameter is a dictionary with one key, see `parameters` in the rules.
+        self.given = ChainMap(*snakemake.params)
         log = Path(snakemake.log[0])
         depth = log.parts[::-1].index("logs")
         self.results = log.parents[depth]
@@ -125,27 +101,57 @@ class Job(Entry):
         atexit.register(_write_timing, timing.with_suffix(".tsv"))
         atexit.register(gc.freeze)  # avoids a last garbage collection at the end of the process
 
-    @property
-    def running(self):
-        """Keywords `workers` and `progress` for functions that use threads."""
-        return {"workers": self.snakemake.threads, "progress": self["name"]}
+    def run(self):
+        """Compute and save the dataset of each entry of the job."""
+        from impact_damper.data.datasets import save
 
-    def entries(self):
-        """Yield the entries of a job that computes several; their files lie side by side."""
-        for name, given in self.given.items():
-            path = Path(self.output).with_name(f"{name}.nc")
-            yield Entry(given, path)
+        for path in map(Path, self.snakemake.output):
+            given = self.given.get(f"entry_{path.stem}", self.given)
+            steps = path.with_suffix("") / "steps"
+            data = self.computed(given, {"name": path.stem, "folder": steps, "progress": path.stem})
+            save(data, path)
+            # Finished steps of a design, from which an interrupted job continues.
+            shutil.rmtree(steps, ignore_errors=True)
+
+    def computed(self, given, offered):
+        """Return what the stage's function makes of its parameters and of the files of the job.
+
+        Of `offered`, and of the number of threads, it gets those that it has arguments for.
+        """
+        function = imported(self.given["function"])
+        taken = inspect.signature(function).parameters
+        offered = offered | {"workers": self.snakemake.threads}
+        arguments = {key: value for key, value in offered.items() if key in taken}
+        arguments |= {
+            key: made(value) for key, value in given.items() if key not in ("function", "name")
+        }
+        for key, files in self.snakemake.input.items():
+            if key not in ("code", "kernels"):
+                arguments[key] = _content(files)
+        system = [arguments.pop("system")] if "system" in arguments else []
+        return function(*system, **arguments)
 
     @cached_property
     def datasets(self):
-        """All datasets among the inputs, keyed by stage and by name of the entry."""
+        """All datasets among the inputs, keyed by stage and by entry, with the entry's name."""
         from impact_damper.data.datasets import load
 
         found = {}
         for path in map(Path, self.snakemake.input):
             if path.suffix == ".nc":
-                found.setdefault(path.parent.name, {})[path.stem] = load(path)
+                found.setdefault(path.parent.name, {})[path.stem] = load(path).assign_attrs(
+                    name=path.stem
+                )
         return found
+
+
+def _content(files):
+    """Return the datasets in a list of files, or the content of a JSON file."""
+    from impact_damper.data.datasets import load
+
+    if isinstance(files, str):
+        return json.loads(Path(files).read_text())
+    return list(map(load, files))
 
 
 def _report_file_errors():

@@ -1,12 +1,7 @@
-"""Selection of the entries of a configuration for each stage, figure, table and chapter.
+"""Entries of a configuration that a stage, a figure, a table or a chapter of the report uses."""
 
-The sections of the configuration have named entries. A stage makes a dataset of each entry of its
-section. A chapter is a part of the report with its own stages, figures and tables.
-"""
-
-from chatterjee1995.workflow.captions import cases_in_words, in_words, machine_in_words
-from chatterjee1995.workflow.registry import CHAPTERS, KINDS, PAPER, STAGES, TABLES, section_of
-from chatterjee1995.workflow.registry.values import oscillator
+from chatterjee1995.sections.registry import KINDS, PAPER, STAGES, TABLES, section_of
+from chatterjee1995.workflow.captions import caption, cases_in_words, in_words, machine_in_words
 
 # Key of an entry that holds several values of a parameter -> name of the parameter.
 SWEPT = {
@@ -20,19 +15,23 @@ SWEPT = {
 
 
 def entries(config, stage) -> list:
-    """Return the names of the entries for which a stage is run."""
-    section = config[STAGES[stage].section]
-    return [name for name, entry in section.items() if stage in entry.get("stages", [stage])]
+    """Return the names of the entries for which a stage is run, in alphabetic order."""
+    section = getattr(config, STAGES[stage].section)
+    return sorted(k for k, entry in section.items() if stage in getattr(entry, "stages", [stage]))
+
+
+def job(config, stage, name) -> dict:
+    """Return the parameters of the job of an entry, except its name."""
+    entry = getattr(config, STAGES[stage].section)[name]
+    return STAGES[stage].job(entry, config)
 
 
 def read_by(config, stage, name) -> dict:
-    """Return the entries whose datasets the job of an entry reads, keyed by stage."""
-    return {earlier: [name] for earlier in STAGES[stage].reads if name in entries(config, earlier)}
-
-
-def table_data(config, table) -> dict:
-    """Return the entries whose datasets a table summarises, keyed by stage."""
-    return {stage: entries(config, stage) for stage in TABLES[table].stages}
+    """Return the stages whose datasets of the same entry a job reads, by keyword."""
+    return {
+        key: [each for each in stages if name in entries(config, each)]
+        for key, stages in STAGES[stage].reads.items()
+    }
 
 
 def figure_data(config, name) -> dict:
@@ -41,81 +40,93 @@ def figure_data(config, name) -> dict:
     A figure that draws branches of orbits with a damper also draws the branches of the same
     oscillators without a damper; these curves are added for the stage `branches`.
     """
-    figure = config["figures"][name]
-    kind, found = KINDS[figure["kind"]], {}
+    figure = config.figures[name]
+    kind, found = KINDS[figure.kind], {}
     for stage in kind.stages:
-        drawn = list(figure["data"])
+        drawn = list(figure.data)
         if stage == "branches" and kind.damper:
-            drawn += _free_curves(config, drawn)
+            oscillators = {config.curves[each].oscillator for each in drawn}
+            drawn += [
+                each
+                for each, curve in sorted(config.curves.items())
+                if curve.oscillator in oscillators and not curve.has_damper()
+            ]
         found[stage] = [each for each in drawn if each in entries(config, stage)]
     return found
 
 
-def _free_curves(config, chosen):
-    """Return the curves without a damper whose oscillator is also in one of the chosen curves."""
-    curves = config["curves"]
-    wanted = {curves[name]["oscillator"] for name in chosen}
-    return [
-        name
-        for name, curve in curves.items()
-        if curve["oscillator"] in wanted and "mass_ratio" not in curve
-    ]
-
-
 def figures_of(config, chapter) -> list:
     """Return the names of the figures of a chapter."""
-    kinds = {kind.name for kind in CHAPTERS[chapter].KINDS}
-    return [name for name, figure in config["figures"].items() if figure["kind"] in kinds]
+    return sorted(k for k, each in config.figures.items() if KINDS[each.kind].chapter == chapter)
+
+
+def tables_of(chapter) -> list:
+    """Return the names of the tables of a chapter."""
+    return [table.name for table in TABLES.values() if table.chapter == chapter]
 
 
 def figure_values(config, name) -> dict:
-    """Return the entry of a figure in the configuration, with two further keys.
+    """Return what the job of a chapter needs to draw a figure."""
+    figure = config.figures[name]
+    kind = KINDS[figure.kind]
+    cases = {each: _case(config, section_of(kind.name), each) for each in figure.data}
+    words = cases_in_words(cases, kind.named)
+    text = config.captions.figures[kind.name]
+    return {
+        "function": f"{kind.source}:{f'draw_{kind.name}' if kind.stages else figure.data[0]}",
+        "drawn": figure_data(config, name),
+        "caption": caption(figure.title, words, text, figure.remark),
+    }
 
-    `cases` holds the parameters of the entries drawn, as text for the caption. `drawn` holds the
-    result of `figure_data`.
-    """
-    figure = config["figures"][name]
-    cases = {each: _case(config, figure["kind"], each) for each in figure["data"]}
-    words = cases_in_words(cases, KINDS[figure["kind"]].named)
-    return figure | {"cases": words, "drawn": figure_data(config, name)}
+
+def table_values(config, name) -> dict:
+    """Return what the job of a chapter needs to make a table."""
+    table = TABLES[name]
+    values = {
+        "module": table.source,
+        "stages": list(table.stages),
+        "caption": config.captions.tables[name],
+    }
+    if table.pictures:
+        values["drawn"] = sorted(each for chapter in PAPER for each in figures_of(config, chapter))
+    return values
 
 
 def chapter_values(config, chapter) -> dict:
-    """Return the parameters of the job of a chapter: its figures, and the names of its tables.
-
-    A chapter with a table that shows figures also gets the names of all figures of the paper's
-    chapters.
-    """
-    tables = CHAPTERS[chapter].TABLES
-    values = {f"figure_{name}": figure_values(config, name) for name in figures_of(config, chapter)}
-    if any(table.pictures for table in tables):
-        values["drawn"] = sorted(name for each in PAPER for name in figures_of(config, each))
-    return values | {"tables": [table.name for table in tables]}
-
-
-def _case(config, kind, name):
-    """Return the parameters of an entry as text, keyed by symbol or name; {} for a schematic."""
-    section = section_of(kind)
-    if section is None:
-        return {}
-    entry = config[section][name]
-    values = oscillator(config, entry["oscillator"]) if "oscillator" in entry else {}
-    values |= entry | {swept: entry[key] for key, swept in SWEPT.items() if key in entry}
-    return machine_in_words(entry["machine"]) if section == "machines" else in_words(values)
+    """Return the parameters of the job of a chapter: one for each figure and table."""
+    figures = {
+        f"figure_{name}": figure_values(config, name) for name in figures_of(config, chapter)
+    }
+    return figures | {f"table_{name}": table_values(config, name) for name in tables_of(chapter)}
 
 
 def chapter_data(config, chapter) -> dict:
     """Return the entries whose datasets a chapter reads, keyed by stage."""
-    parts = [figure_data(config, name) for name in figures_of(config, chapter)]
-    parts += [table_data(config, table.name) for table in CHAPTERS[chapter].TABLES]
-    stages = dict.fromkeys(stage for part in parts for stage in part)
+    read = [figure_data(config, name) for name in figures_of(config, chapter)]
+    read += [
+        {stage: entries(config, stage) for stage in TABLES[name].stages}
+        for name in tables_of(chapter)
+    ]
+    stages = dict.fromkeys(stage for each in read for stage in each)
     return {
-        stage: sorted({name for part in parts for name in part.get(stage, [])}) for stage in stages
+        stage: sorted({name for each in read for name in each.get(stage, [])}) for stage in stages
     }
 
 
 def chapter_modules(config, chapter) -> list:
-    """Return the modules of the package that make the figures and tables of a chapter."""
-    drawn = {config["figures"][name]["kind"] for name in figures_of(config, chapter)}
-    sources = {KINDS[kind].source for kind in drawn}
-    return sorted(sources | {table.module for table in CHAPTERS[chapter].TABLES})
+    """Return the modules that make the figures and tables of a chapter."""
+    drawn = {KINDS[config.figures[name].kind].source for name in figures_of(config, chapter)}
+    return sorted(drawn | {TABLES[name].source for name in tables_of(chapter)})
+
+
+def _case(config, section, name):
+    """Return the parameters of an entry as text, keyed by symbol or name; {} for a schematic."""
+    if section is None:
+        return {}
+    entry = getattr(config, section)[name]
+    if section == "machines":
+        return machine_in_words(entry.machine.values())
+    values = {key: value for key, value in entry if value is not None}
+    if "oscillator" in values:
+        values = config.oscillators[values["oscillator"]].values() | values
+    return in_words(values | {each: values[key] for key, each in SWEPT.items() if key in values})

@@ -9,7 +9,7 @@ import pytest
 from helpers.made_up_design import made_up_design
 from matplotlib.figure import Figure
 
-from chatterjee1995.workflow.registry.machines import PAGE
+from chatterjee1995.sections.machines import PAGE
 from impact_damper.data.variables import VARIABLES
 from impact_damper.plot.pages.blocks import percent, share_with_interval, shown
 from impact_damper.plot.pages.machine import FIGURES, machine_page

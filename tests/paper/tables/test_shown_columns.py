@@ -8,19 +8,19 @@ from importlib import import_module
 
 import pandas as pd
 import pytest
-import yaml
+from helpers import configurations
 from helpers.made_up import world
 from helpers.made_up_design import made_up_design
-from helpers.running import ROOT
 
 from chatterjee1995.methods.labels import method_in_words
+from chatterjee1995.sections.registry import TABLES
 from chatterjee1995.workflow import selection
 from chatterjee1995.workflow.chapter import make_table
-from chatterjee1995.workflow.registry import TABLES
 from impact_damper.data.table_files import for_people, in_words
 
 # The table of claims has its own layout and is not tested here.
-NAMES = [name for name, table in TABLES.items() if table.module != "chatterjee1995.claims.verdicts"]
+NAMES = [name for name, table in TABLES.items() if not table.pictures]
+CONFIG = configurations.paper()
 # Tables for which the invented datasets have all variables. The columns of other tables are tested
 # together with the stages that make their data.
 INVENTED = (
@@ -41,7 +41,7 @@ def data():
 
 
 def heads(name):
-    return import_module(TABLES[name].module).SHOWN[name]
+    return import_module(TABLES[name].source).SHOWN[name]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -53,16 +53,16 @@ def test_at_most_nine_columns_with_different_heads(name):
 
 
 def test_every_list_of_columns_belongs_to_a_table():
-    modules = {TABLES[name].module for name in NAMES}
-    listed = [name for path in modules for name in import_module(f"{path}").SHOWN]
+    modules = {TABLES[name].source for name in NAMES}
+    listed = [name for path in modules for name in import_module(path).SHOWN]
     assert sorted(listed) == sorted(NAMES)
 
 
 @pytest.mark.parametrize("name", INVENTED)
 def test_markdown_is_a_title_a_note_and_the_chosen_columns_of_the_csv(name, data, tmp_path):
-    make_table(name, data, tmp_path / name)
+    make_table(name, selection.table_values(CONFIG, name), data, tmp_path / name)
     lines = (tmp_path / f"{name}.md").read_text().splitlines()
-    assert lines[0] == "# " + TABLES[name].caption.removesuffix(".")
+    assert lines[0] == "# " + CONFIG.captions.tables[name].removesuffix(".")
     assert f"`{name}.csv`" in lines[2]
     found = [head.strip() for head in lines[4].replace(r"\|", "/").strip("|").split("|")]
     assert found == [head.replace("|", "/") for head in heads(name).values()]
@@ -71,7 +71,7 @@ def test_markdown_is_a_title_a_note_and_the_chosen_columns_of_the_csv(name, data
 @pytest.mark.parametrize("name", INVENTED)
 def test_cells_for_people_have_no_internal_names(name, data, tmp_path):
     """Words with an underscore are internal names, which only the CSV file may have."""
-    make_table(name, data, tmp_path / name)
+    make_table(name, selection.table_values(CONFIG, name), data, tmp_path / name)
     rows = [line for line in (tmp_path / f"{name}.md").read_text().splitlines() if line[0:1] == "|"]
     assert [row for row in rows if re.search(r"\w_\w", row)] == []
 
@@ -90,20 +90,17 @@ def test_cells_in_words():
 
 
 def test_a_table_without_data_says_so(tmp_path):
-    make_table("optimum", {}, tmp_path / "optimum")
+    make_table("optimum", selection.table_values(CONFIG, "optimum"), {}, tmp_path / "optimum")
     lines = (tmp_path / "optimum.md").read_text().splitlines()
     assert lines[4:] == ["The configuration has no data for this table."]
 
 
 def test_claims_show_the_figures_that_the_run_draws(tmp_path):
-    make_table("claims", {}, tmp_path / "claims", ["figure_06"])
+    given = selection.table_values(CONFIG, "claims")
+    assert "figure_05a" in given["drawn"] and "machines" not in given["drawn"]
+    make_table("claims", given | {"drawn": ["figure_06"]}, {}, tmp_path / "claims")
     shown = re.findall(r"figures/(\w+)\.png", (tmp_path / "claims.md").read_text())
     assert set(shown) == {"figure_06"}
-    config = yaml.safe_load((ROOT / "config/config.yaml").read_text())
-    del config["figures"]["figure_06"]
-    values = selection.chapter_values(config, "claims")
-    assert "figure_05a" in values["drawn"] and "figure_06" not in values["drawn"]
-    assert "drawn" not in selection.chapter_values(config, "responses")
 
 
 def test_a_table_for_people_shows_the_chosen_rows_and_counts_all():

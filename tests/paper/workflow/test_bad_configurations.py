@@ -13,7 +13,7 @@ from helpers.broken import GONE, MAPPINGS, SMALL, at, broken, changed, junk, pla
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from chatterjee1995.workflow.configuration import check_configuration
+from chatterjee1995.sections.configuration import configuration
 from impact_damper.command.messages import dotted
 from impact_damper.command.yaml_files import LOADER, ConfigurationError, check_file
 
@@ -24,12 +24,12 @@ TEXT = yaml.safe_dump(SMALL)
 def problems(config):
     """Return the lines with which a configuration is refused."""
     with pytest.raises(ConfigurationError) as caught:
-        check_configuration(config)
+        configuration(config)
     return str(caught.value).split("\n")
 
 
 def test_the_small_configuration_is_accepted():
-    check_configuration(SMALL)
+    configuration(SMALL)
 
 
 @settings(max_examples=100)
@@ -50,7 +50,7 @@ def test_what_is_broken_is_told(made):
 def test_nothing_at_any_place_is_worse_than_rejected(path, value):
     """A random value is refused, or it is accepted and has the type of the valid value."""
     try:
-        check_configuration(changed(path, value).config())
+        configuration(changed(path, value).config())
     except ConfigurationError as error:
         assert all(ALLOWED.search(line) for line in str(error).split("\n"))
     else:

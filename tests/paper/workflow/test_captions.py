@@ -1,13 +1,15 @@
 """Parameters as text in the captions of figures."""
 
 from dataclasses import fields
+from types import SimpleNamespace
 
 from chatterjee1995.workflow.captions import caption, cases_in_words, in_words
 from impact_damper.model.parameters import Damper, Oscillator
 
 
 def test_numbers_ranges_lists_and_the_rule_are_told_in_the_order_of_the_fields():
-    values = {"frequency": {"first": 1.0, "last": 3.0}, "clearance": "rule", "damping": 0.215}
+    span = SimpleNamespace(first=1.0, last=3.0)
+    values = {"frequency": span, "clearance": "rule", "damping": 0.215}
     assert list(in_words(values).items()) == [
         ("h", "= 0.215"), ("d0", "by (19)"), ("W", "from 1 to 3")
     ]  # fmt: skip
@@ -34,8 +36,9 @@ def test_shared_parameters_are_told_once():
 
 
 def test_captions_use_the_symbol_of_the_axes():
-    figure = {"title": "Response", "cases": "h = 0.2, W from 1 to 3", "remark": "At W = 2, Wp = 3."}
-    words = caption(figure, "Against W; W² in |Z1|.")
+    words = caption(
+        "Response", "h = 0.2, W from 1 to 3", "Against W; W² in |Z1|.", "At W = 2, Wp = 3."
+    )
     assert words == (
         "Response: h = 0.2, Ω from 1 to 3.\nAgainst Ω; Ω² in \\|Z1\\|.\nAt Ω = 2, Ωp = 3."
     )

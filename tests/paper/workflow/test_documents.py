@@ -4,7 +4,7 @@ import re
 
 from helpers.running import ROOT
 
-from chatterjee1995.workflow.registry import STAGES
+from chatterjee1995.sections.registry import STAGES
 
 
 def test_the_table_of_stages_has_every_stage():

@@ -1,9 +1,9 @@
-"""Each stage, table and kind of figure in the registry has its rule, script, functions and entries.
+"""Each stage, table and kind of figure of the registry has its function, entries and test.
 
-After its records are in the registry, this test names the files that a new stage still lacks.
+After its record stands in a file of `sections`, this test names the files that it still lacks.
 """
 
-import ast
+import inspect
 import re
 from importlib import import_module, util
 
@@ -11,65 +11,63 @@ import pytest
 from helpers import configurations
 from helpers.running import ROOT
 
+from chatterjee1995.sections.registry import KINDS, STAGES, TABLES
 from chatterjee1995.workflow import selection
-from chatterjee1995.workflow.models import ENTRIES
-from chatterjee1995.workflow.registry import CHAPTERS, KINDS, STAGES, TABLES
 
-CONFIG = configurations.read()
-PACKAGE = "src/impact_damper"
+CONFIG = configurations.paper()
 
 
-def module_of(name, path):
-    """Return the module with a path such as "tables.contact", which must exist, and its file."""
-    file = f"{PACKAGE}/{path.replace('.', '/')}.py"
-    assert util.find_spec(f"impact_damper.{path}"), f"{file}: {name} needs this module"
-    return import_module(f"impact_damper.{path}"), file
+def found(name, user):
+    """Return the object with a name such as "module:function", and the file of the module."""
+    module, function = name.split(":")
+    file = f"src/{module.replace('.', '/')}.py"
+    assert util.find_spec(module), f"{file}: {user} needs this module"
+    assert hasattr(import_module(module), function), f"{file}: {user} needs {function}"
+    return getattr(import_module(module), function), file
 
 
-@pytest.mark.parametrize("name", STAGES)
-def test_a_stage_has_a_rule_a_script_and_a_section(name):
-    (chapter,) = [key for key, each in CHAPTERS.items() if STAGES[name] in each.STAGES]
-    rules = ROOT / f"workflow/rules/{chapter}.smk"
-    script = ROOT / f"workflow/scripts/{name}.py"
-    assert f"rule {name}:\n" in rules.read_text(), f"workflow/rules/{rules.name}: no rule {name}"
-    assert script.exists(), f"workflow/scripts/{name}.py: {name} needs this script"
-    section = STAGES[name].section
-    assert section in ENTRIES, f"{PACKAGE}/workflow/models/: no SECTIONS has {section}"
-    entries = section in CONFIG and list(selection.entries(CONFIG, name))
-    assert entries, f"config/config.yaml: no entry of {section}"
+@pytest.mark.parametrize("name", sorted(STAGES))
+def test_a_stage_has_a_function_that_takes_its_parameters(name):
+    stage = STAGES[name]
+    function, file = found(stage.function, name)
+    entries = selection.entries(CONFIG, name)
+    assert entries, f"config/config.yaml: no entry of {stage.section}"
+    signature = inspect.signature(function)
+    offered = {"name", "folder", "progress", "workers"} & set(signature.parameters)
+    for entry in entries:
+        if name == "studies":
+            given = getattr(CONFIG, stage.section)[entry].chunk(CONFIG, "1-of-1")
+        else:
+            given = selection.job(CONFIG, name, entry)
+        system = [given.pop("system")] if "system" in given else []
+        keys = given.keys() | stage.reads.keys() | stage.files.keys() | offered
+        try:
+            signature.bind(*system, **dict.fromkeys(keys))
+        except TypeError as error:
+            raise AssertionError(f"{file}: {function.__name__}{signature}: {error}") from None
 
 
-@pytest.mark.parametrize("name", STAGES)
-def test_a_script_imports_what_exists(name):
-    for node in ast.walk(ast.parse((ROOT / f"workflow/scripts/{name}.py").read_text())):
-        if isinstance(node, ast.ImportFrom) and node.module.startswith("impact_damper."):
-            file = f"src/{node.module.replace('.', '/')}.py"
-            assert util.find_spec(node.module), f"{file}: the script {name} needs this module"
-            for alias in node.names:
-                known = hasattr(import_module(node.module), alias.name)
-                assert known, f"{file}: the script {name} needs {alias.name}"
-
-
-@pytest.mark.parametrize("name", TABLES)
+@pytest.mark.parametrize("name", sorted(TABLES))
 def test_a_table_has_a_function_and_columns(name):
-    module, file = module_of(name, TABLES[name].module)
-    assert hasattr(module, name), f"{file}: no function {name}"
-    columns = hasattr(module, "document") or name in module.SHOWN
+    table = TABLES[name]
+    _, file = found(f"{table.source}:{name}", f"the table {name}")
+    columns = table.pictures or name in import_module(table.source).SHOWN
     assert columns, f"{file}: SHOWN lacks {name}"
+    assert set(table.stages) <= STAGES.keys()
 
 
-@pytest.mark.parametrize("name", KINDS)
-def test_a_kind_of_figure_has_a_function_a_caption_and_an_entry(name):
-    module, file = module_of(name, KINDS[name].source)
-    assert hasattr(module, "CAPTION"), f"{file}: no CAPTION"
-    if KINDS[name].stages:
-        assert hasattr(module, f"draw_{name}"), f"{file}: no function draw_{name}"
-    drawn = {figure["kind"] for figure in CONFIG["figures"].values()}
-    assert name in drawn, f"config/config.yaml: no entry of figures has the kind {name}"
+@pytest.mark.parametrize("name", sorted(KINDS))
+def test_a_kind_of_figure_has_a_function_and_an_entry(name):
+    kind = KINDS[name]
+    drawn = [figure for figure in CONFIG.figures.values() if figure.kind == name]
+    assert drawn, f"config/config.yaml: no entry of figures has the kind {name}"
+    functions = [f"draw_{name}"] if kind.stages else [each.data[0] for each in drawn]
+    for function in functions:
+        found(f"{kind.source}:{function}", f"the kind {name}")
 
 
 @pytest.mark.parametrize("name", sorted({*STAGES, *TABLES}))
 def test_tests_name_each_stage_and_table(name):
     texts = (path.read_text() for path in (ROOT / "tests").rglob("test_*.py"))
-    named = any(re.search(rf"\b{name}\b", text) for text in texts)
-    assert named, f"tests/stages/test_{name}.py: no test names {name}"
+    named = any(re.search(rf"\b(draw_)?{name}\b", text) for text in texts)
+    assert named, f"tests/paper/stages/test_{name}.py: no test names {name}"

@@ -8,7 +8,7 @@ import time
 import pytest
 from faults.project import DELETE, Project
 
-from chatterjee1995.workflow.sources import compiled_kernels
+from chatterjee1995.workflow.compiled import compiled_kernels
 
 pytestmark = pytest.mark.workflow
 
@@ -60,7 +60,7 @@ def test_kernels_that_were_edited_are_compiled_before_the_first_job(first):
     project, told = first
     assert told.count(COMPILING) == 1
     assert told.index(COMPILING) < told.index("Harmonic balance of the curve")
-    expected = compiled_kernels({"comparison": {"orders": []}})
+    expected = compiled_kernels([])
     assert (project.folder / KERNELS).read_text() == expected
 
 
@@ -79,7 +79,7 @@ def test_a_file_that_is_cut_off_is_told_and_made_again(finished):
 
 
 def test_a_dry_run_sees_an_edit_after_the_clock_was_set_back_and_compiles_nothing(finished):
-    path, script = finished.folder / FILE, finished.folder / "workflow/scripts/harmonic_balance.py"
+    path, script = finished.folder / FILE, finished.folder / "workflow/scripts/stage.py"
     marker = finished.folder / KERNELS
     text, compiled = script.read_text(), marker.read_text()
     for edited in ("", "# A word.\n"):

@@ -14,7 +14,7 @@ from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
 
 from chatterjee1995.workflow import job
-from chatterjee1995.workflow.sources import compiled_kernels
+from chatterjee1995.workflow.compiled import compiled_kernels
 
 pytestmark = pytest.mark.workflow
 
@@ -22,7 +22,6 @@ STUB = """
 from pathlib import Path
 from netCDF4 import Dataset
 
-from impact_damper.workflow import job
 for path in snakemake.output:
     with Dataset(path, "w") as file:
         file.checkout = str(Path.cwd())
@@ -41,7 +40,7 @@ def checkout(folder):
     config = configurations.read(folder / "config/config.yaml")
     marker = folder / "results/kernels.compiled"
     marker.parent.mkdir()
-    marker.write_text(compiled_kernels(config))
+    marker.write_text(compiled_kernels(config["comparison"]["orders"]))
     return folder
 
 
@@ -106,7 +105,7 @@ def test_what_differs_is_not_shared(shared, edit):
         return yaml.safe_dump(config)
 
     first, second, cache = shared
-    edit("src/impact_damper/stages/harmonic_balance.py", lambda text: text + "# A word.\n")
+    edit("src/impact_damper/theory/harmonic_balance.py", lambda text: text + "# A word.\n")
     edit("config/config.yaml", others)
     found = run(second, cache, DESIGN, OTHER, "results/branches/again.nc", BRANCHES)
     assert found == [str(second)] * 3 + [str(first)]

@@ -8,8 +8,8 @@ from helpers.running import ROOT, snakemake
 from snakemake.common.configfile import load_configfile
 from snakemake.utils import update_config
 
-from chatterjee1995.workflow.configuration import check_configuration, without_left_out
-from chatterjee1995.workflow.registry import CHAPTERS, PAPER, STAGES
+from chatterjee1995.sections.configuration import configuration
+from chatterjee1995.sections.registry import CHAPTERS, PAPER, STAGES
 from impact_damper.command.yaml_files import ConfigurationError
 
 pytestmark = pytest.mark.workflow
@@ -95,7 +95,7 @@ def test_a_broken_file_is_told_as_snakemake_reads_it(name, text, line, tmp_path)
     config = configurations.read()
     update_config(config, load_configfile(mine))
     with pytest.raises(ConfigurationError, match=rf"(?m)^{line}"):
-        check_configuration(without_left_out(config))
+        configuration(config)
 
 
 def test_a_key_that_stands_twice_is_told(tmp_path):

@@ -1,0 +1,1 @@
+"""Sections of the configuration: keys, bounds, and the parameters of the jobs, by subject."""

@@ -1,0 +1,145 @@
+"""Harmonic balance: its convergence, and maps of its errors."""
+
+from typing import ClassVar
+
+from chatterjee1995.sections.records import Kind, Stage, Table
+from chatterjee1995.sections.system import (
+    BOUNDS,
+    CLEARANCE_OR_RULE,
+    COMMON,
+    CONTACT_STIFFNESS,
+    DAMPER,
+    FREQUENCY,
+    NEEDED,
+    OSCILLATOR,
+    Entry,
+    MaybeWithDamper,
+    given,
+    keys_of,
+    limits,
+    range_of,
+)
+from impact_damper.command.messages import dotted, missing, problem
+from impact_damper.command.values import choice, count, number
+from impact_damper.model.bounds import FREQUENCY_RANGE, HARMONIC_RANGE, plain
+from impact_damper.model.parameters import Oscillator
+from impact_damper.theory.design_rule import peak_frequency, rule_clearance
+
+# Parameters that may change from row to row of a map.
+MAPPED = ("damping", "mass_ratio", "clearance", "restitution")
+
+
+class HarmonicConvergence(MaybeWithDamper):
+    """Motions by harmonic balance with a rising number of harmonics, and their errors."""
+
+    whole: ClassVar = (*NEEDED, "contact_stiffness")
+
+    contact_stiffness: CONTACT_STIFFNESS = None
+    frequency: FREQUENCY
+    highest: count("highest harmonic; the work grows with its cube", **HARMONIC_RANGE)
+    highest_cold: count(
+        "highest harmonic of a cold start (Newton's method begun from the solution with one "
+        "harmonic)",
+        **HARMONIC_RANGE | {"least": 0},
+    )
+
+    def job(self, config) -> dict:
+        cold = min(self.highest, self.highest_cold)
+        balances = {
+            "frequency": self.frequency,
+            "harmonics": {"ladder": [self.highest]},
+            "cold": {"ladder": [cold]} if cold else [],
+        }
+        return self.system(config) | balances
+
+
+class BalanceMap(
+    keys_of(OSCILLATOR, needed=["linear_frequency"]), keys_of(DAMPER, without=[COMMON]), Entry
+):
+    """Maps of the errors of harmonic balance, over frequency and another parameter."""
+
+    parameter: choice("parameter that changes from row to row", *MAPPED)
+    values: range_of(
+        number("value of the parameter that changes, within its bounds", above=0, most=1000)
+    )
+    frequency_ratios: range_of(number("forcing over peak frequency", **FREQUENCY_RANGE))
+    clearance: CLEARANCE_OR_RULE = None
+
+    def contradictions(self, path, config):
+        least, most = BOUNDS[self.parameter]["least"], BOUNDS[self.parameter]["most"]
+        for end in ("first", "last"):
+            value = getattr(self.values, end)
+            if not least <= value <= most:
+                bounds = f"from {plain(least)} to {plain(most)}"
+                reason = f"must be {bounds} (bounds of {self.parameter})"
+                yield problem((*path, "values", end), value, reason)
+        for key in MAPPED:
+            value = getattr(self, key)
+            if key == self.parameter and value is not None:
+                reason = "must be left out (it changes from row to row)"
+                yield problem((*path, key), value, reason)
+            elif key != self.parameter and value is None:
+                yield missing((*path, key), f"needed where {self.parameter} changes")
+
+    def workload(self, path, config):
+        fixed = given(self, [*OSCILLATOR, *DAMPER])
+        for end in (self.values.first, self.values.last):
+            row = fixed | {self.parameter: end}
+            oscillator = Oscillator(**{key: row[key] for key in OSCILLATOR if key in row})
+            try:
+                peak = peak_frequency(oscillator)
+                if row["clearance"] == "rule":
+                    row["clearance"] = rule_clearance(oscillator, row["mass_ratio"])
+            except ValueError as error:
+                yield f"{dotted(path)}: no clearance by `rule`, or no peak: {error}"
+                continue
+            yield from limits(
+                path,
+                ("mass_ratio", row["mass_ratio"]),
+                config.contact_stiffness,
+                self.frequency_ratios.first * peak,
+                ("clearance", row["clearance"]),
+                config,
+            )
+
+    def job(self, config) -> dict:
+        # Without a clearance the stage takes the clearance of the paper's rule (19) in each row.
+        values = given(self, [*OSCILLATOR, *DAMPER]).items()
+        fixed = {key: value for key, value in values if value != "rule"}
+        points = config.points
+        return {
+            "parameter": self.parameter,
+            "values": self.values.even(points.map_values),
+            "frequency_ratios": self.frequency_ratios.even(points.map_frequencies),
+            "fixed": {COMMON: config.contact_stiffness} | fixed,
+        } | config.settling.job()
+
+
+SECTIONS = {"harmonic_convergence": HarmonicConvergence, "balance_map": BalanceMap}
+STAGES = (
+    Stage(
+        "harmonic_convergence",
+        "harmonic_convergence",
+        HarmonicConvergence.job,
+        "chatterjee1995.stages.harmonic_convergence:harmonic_convergence",
+        "Harmonic balance with many harmonics against the exact orbit, for {name}",
+    ),
+    Stage(
+        "balance_map",
+        "balance_map",
+        BalanceMap.job,
+        "chatterjee1995.stages.balance_map:balance_map",
+        "Harmonic balance against exact motions, the map {name}",
+        priority=1,
+    ),
+)
+KINDS = (
+    Kind(
+        "harmonic_convergence", "design", "harmonic_convergence", ("harmonic_convergence",), most=5
+    ),
+    Kind("balance_map", "methods", "balance_map", ("balance_map",), most=1),
+)
+TABLES = (
+    Table("harmonic_convergence", "design", "design", ("harmonic_convergence",)),
+    Table("balance_map", "methods", "balance_map", ("balance_map",)),
+)

@@ -1,0 +1,184 @@
+"""Optimum clearance: sweeps, design rules, and studies over a grid of dampers and frequencies."""
+
+import math
+from typing import ClassVar
+
+from chatterjee1995.sections.records import PANELS, Kind, Stage, Table
+from chatterjee1995.sections.system import (
+    BOUNDS,
+    CLEARANCE,
+    COMMON,
+    CONTACT_STIFFNESS,
+    DAMPER,
+    FREQUENCY,
+    MASS_RATIO,
+    MEANINGS,
+    NEEDED,
+    PARAMETERS,
+    RESTITUTION,
+    WithOscillator,
+    damper_values,
+    keys_of,
+    range_of,
+)
+from impact_damper.command.messages import dotted, problem
+from impact_damper.command.section import increasing
+from impact_damper.command.values import number_or_range, several, starts_of
+from impact_damper.model.bounds import MOST_RUNS
+
+# Axes of the grid of a study, as the stage numbers its cells.
+AXES = ("mass_ratio", "clearance", "frequency", "restitution")
+
+# Largest number of cells of a study.
+MOST_CELLS = 10**8
+
+
+class Optimum(keys_of(DAMPER, needed=NEEDED, without=["clearance", COMMON]), WithOscillator):
+    """Sweeps of the clearance at one frequency, each with its optimum."""
+
+    frequency: FREQUENCY
+    clearances: range_of(CLEARANCE)
+    starts: starts_of("at each clearance, in place of `search.sweep_starts`") = None
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        runs = (self.starts or 0) * config.points.clearances
+        if runs > MOST_RUNS:
+            reason = f"with points.clearances makes {runs}: must be at most {MOST_RUNS} in all"
+            yield problem((*path, "starts"), self.starts, f"{reason} (a job keeps them in memory)")
+
+    def job(self, config) -> dict:
+        sweep = {
+            "damper": damper_values(self, config),
+            "frequency": self.frequency,
+            "clearances": self.clearances.even(config.points.clearances),
+        }
+        search = config.search.job(config, self.starts or config.search.sweep_starts)
+        return self.system(config) | sweep | search | config.settling.job()
+
+
+class DesignRules(WithOscillator):
+    """Grids of dampers and frequencies on which rules for the clearance are compared."""
+
+    mass_ratios: several(
+        MASS_RATIO,
+        "rm, increasing, at most one for each distinct line style",
+        least=1,
+        most=5,
+    )
+    restitutions: several(RESTITUTION, "e, increasing", least=1)
+    contact_stiffnesses: several(CONTACT_STIFFNESS, "r1, increasing", least=1)
+    frequencies: several(FREQUENCY, "W, increasing, above the linear frequency", least=1)
+
+    counts: ClassVar = ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies")
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        for key in self.counts:
+            yield from increasing((*path, key), getattr(self, key), "a grid ascends")
+        known = config.oscillators.get(self.oscillator)
+        if known and self.frequencies[0] <= known.linear_frequency:
+            linear = known.linear_frequency
+            reason = f"must lie above the linear frequency {linear!r} (the rules hold above it)"
+            yield problem((*path, "frequencies"), self.frequencies, reason)
+
+    def job(self, config) -> dict:
+        return self.system(config) | {key: getattr(self, key) for key in self.counts}
+
+
+def axis(name):
+    """Return the type of an axis of the grid: a value, or a range with its number of points."""
+    several = range_of(PARAMETERS[name], points=True)
+    return number_or_range(several, f"{MEANINGS[name]}, one value or an even range", **BOUNDS[name])
+
+
+class Study(WithOscillator):
+    """Outcomes of random starts over a grid of mass ratio, clearance, frequency and restitution."""
+
+    mass_ratio: axis("mass_ratio")
+    clearance: axis("clearance")
+    frequency: axis("frequency")
+    restitution: axis("restitution")
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        if self.cells() < config.chunks:
+            reason = f"must be at most {self.cells()} (the cells of {dotted(path)})"
+            yield problem(("chunks",), config.chunks, reason)
+
+    def workload(self, path, config):
+        yield from super().workload(path, config)
+        cells = self.cells()
+        if cells > MOST_CELLS:
+            reason = f"must be at most {MOST_CELLS} (combinations of the points of its four axes)"
+            yield f"{dotted(path)}: cells = {cells}: {reason}"
+        elif cells > config.chunks * MOST_RUNS:
+            reason = f"must be at least {math.ceil(cells / MOST_RUNS)} with the {cells} cells of "
+            reason += f"{dotted(path)} (a job keeps its results in memory, {MOST_RUNS} at most)"
+            yield problem(("chunks",), config.chunks, reason)
+
+    def cells(self) -> int:
+        """Return the number of combinations of the points of the axes."""
+        return math.prod(points(getattr(self, key)) for key in AXES)
+
+    def chunk(self, config, chunk) -> dict:
+        """Return the parameters of the job of a chunk, such as "2-of-4"."""
+        number, count = map(int, chunk.split("-of-"))
+        grid = {
+            "axes": {key: even(getattr(self, key)) for key in AXES},
+            "cells": [self.cells() * (number - 1) // count, self.cells() * number // count],
+            "contact_stiffness": config.contact_stiffness,
+        }
+        search = config.search.job(config, config.search.study_starts)
+        return self.system(config) | grid | search | config.settling.job()
+
+    def job(self, config) -> dict:
+        """Return the parameters of the job that joins the chunks."""
+        return {}
+
+
+def points(given) -> int:
+    """Return the number of points of an axis, which is a number or a range."""
+    return getattr(given, "points", 1)
+
+
+def even(given) -> dict:
+    """Return the values of an axis, which is a number or a range, as a parameter of a job."""
+    return given.even() if hasattr(given, "even") else {"linspace": [given, given, 1]}
+
+
+SECTIONS = {"optimum": Optimum, "design_rules": DesignRules, "studies": Study}
+STAGES = (
+    Stage(
+        "optimum",
+        "optimum",
+        Optimum.job,
+        "impact_damper.orbits.clearance_sweep:clearance_sweep",
+        "Largest displacement against clearance, and its optimum, for {name}",
+    ),
+    Stage(
+        "design_rules",
+        "design_rules",
+        DesignRules.job,
+        "chatterjee1995.stages.design_rules:design_rules",
+        "Rules for the clearance against the optimum of the motion, on the grid {name}",
+        priority=1,
+    ),
+    Stage(
+        "studies",
+        "studies",
+        Study.job,
+        "chatterjee1995.stages.studies:study_chunk",
+        "The study {name}",
+    ),
+)
+KINDS = (
+    Kind("optimum", "clearance", PANELS + "optimum", ("optimum",)),
+    Kind("clearance_shares", "clearance", PANELS + "shares", ("optimum",)),
+    Kind("design_rules", "clearance", "design_rules", ("design_rules",), named=True),
+    Kind("studies", "clearance", "studies", ("studies",), most=1),
+)
+TABLES = (
+    Table("optimum", "clearance", "clearance", ("optimum",)),
+    Table("design_rules", "clearance", "clearance", ("design_rules", "optimum")),
+)

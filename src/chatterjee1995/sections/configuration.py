@@ -1,0 +1,191 @@
+"""The whole configuration: its check before any job starts, with a line for each problem."""
+
+from pydantic import ValidationError, create_model
+
+from chatterjee1995.sections.methods import Comparison
+from chatterjee1995.sections.registry import KINDS, SECTIONS, section_of
+from chatterjee1995.sections.report import Captions, Figure
+from chatterjee1995.sections.system import CONTACT_STIFFNESS, RADIUS, Oscillators, too_many
+from impact_damper.command.messages import problem
+from impact_damper.command.section import Section, parts
+from impact_damper.command.values import count, entries, number, points_of, starts_of, text
+from impact_damper.command.yaml_files import ConfigurationError, problems_of
+from impact_damper.model.bounds import (
+    FURTHER_RANGE,
+    LIFETIME_RANGE,
+    LIMIT_RANGE,
+    PATIENCE_RANGE,
+    PERIODS_RANGE,
+    RUNS_RANGE,
+    SEED_RANGE,
+    TOLERANCE_RANGE,
+    WATCHED_RANGE,
+)
+
+ENTRIES = {"oscillators": Oscillators} | SECTIONS | {"figures": Figure}
+
+# Keys whose product is the number of runs of a job.
+COUNTS = (
+    ("points.free", "search.starts"),
+    ("points.simulated", "search.starts"),
+    ("points.clearances", "search.sweep_starts"),
+    ("points.scanned", "search.scan_starts"),
+    ("points.scanned", "controller.releases"),
+    ("points.map_frequencies", "points.map_values"),
+)
+SEED = count("seed of all random draws", **SEED_RANGE)
+RESULTS = text(
+    "folder below the working directory, without spaces or leading dots",
+    pattern="[A-Za-z0-9_][A-Za-z0-9_.-]*(/[A-Za-z0-9_][A-Za-z0-9_.-]*)*",
+)
+
+
+class Points(Section):
+    """Numbers of points of grids."""
+
+    harmonic_balance: points_of("frequencies at which equations of harmonic balance are solved")
+    free: points_of("frequencies of simulated motions without a damper")
+    simulated: points_of("frequencies of simulated motions with a damper")
+    clearances: points_of("clearances of the sweep for an optimum")
+    scanned: points_of("frequencies of a release scan")
+    map_frequencies: points_of("frequencies of a map of harmonic balance")
+    map_values: points_of("values of the other parameter of a map of harmonic balance")
+
+
+class Search(Section):
+    """Random starts (initial states) from which motions are searched for."""
+
+    starts: starts_of("at each frequency of a response")
+    sweep_starts: starts_of("at each clearance of the sweep for an optimum")
+    scan_starts: starts_of("at each frequency of a release scan")
+    study_starts: starts_of("in each cell of a study")
+    radius: RADIUS
+    life_runs: count("runs that measure how long a chaotic motion lasts", least=0, most=1000)
+    life_periods: count("forcing cycles of the runs `life_runs`", **LIFETIME_RANGE)
+
+    def job(self, config, starts) -> dict:
+        """Return the parameters of a search from `starts` random states."""
+        return {"starts": starts, "radius": self.radius, "seed": config.seed}
+
+
+class Settling(Section):
+    """Length and tolerance of runs."""
+
+    tolerance: number("local error allowed in a step of the integrator", **TOLERANCE_RANGE)
+    patience: count(
+        "forcing cycles after which a motion that is certainly chaotic is stopped",
+        **PATIENCE_RANGE,
+    )
+    limit: count("forcing cycles after which every other motion is stopped", **LIMIT_RANGE)
+    further: count(
+        "largest number of forcing cycles for which an undecided motion is continued",
+        **FURTHER_RANGE,
+    )
+    watched: count(
+        "forcing cycles over which a motion that has not settled is measured", **WATCHED_RANGE
+    )
+
+    def job(self) -> dict:
+        """Return the settings as a parameter of a job."""
+        return {"settling": {"Settling": dict(self)}}
+
+    def contradictions(self, path, config):
+        if self.limit < self.patience:
+            reason = f"must be at least settling.patience = {self.patience} (it comes later)"
+            yield problem((*path, "limit"), self.limit, reason)
+
+
+class Controller(Section):
+    """The migration controller, which switches the damper (the paper's figure 17), and its runs."""
+
+    trials: count("runs of each case", **RUNS_RANGE)
+    periods: count("forcing cycles of a run after which no switching begins", **PERIODS_RANGE)
+    releases: count(
+        "releases of each motion with damper, and number of long runs that measure lifetimes",
+        **RUNS_RANGE,
+    )
+    lifetime: count("forcing cycles of the long runs", **LIFETIME_RANGE)
+
+
+class Settings(Section):
+    """Settings that hold for all stages."""
+
+    results: RESULTS
+    seed: SEED
+    contact_stiffness: CONTACT_STIFFNESS
+    chunks: count("number of jobs into which a study is divided", least=1, most=100000)
+    points: Points
+    search: Search
+    settling: Settling
+    controller: Controller
+    comparison: Comparison
+    captions: Captions
+
+    def workload(self, path, config):
+        for keys in COUNTS:
+            yield from too_many(path, self, keys)
+
+
+Configuration = create_model(
+    "Configuration",
+    __base__=Settings,
+    **{name: entries(model) for name, model in ENTRIES.items()},
+)
+
+
+def configuration(given, trusted=False):
+    """Return the configuration as an object.
+
+    With `trusted` only types are checked, as in a job, whose Snakemake process reads again what the
+    first process has checked.
+
+    Raises
+    ------
+    ConfigurationError
+        With a line for each problem: the key, its value, what is allowed and why.
+    """
+    try:
+        found = Configuration.model_validate(without_left_out(given), context=trusted)
+    except ValidationError as error:
+        raise ConfigurationError("\n".join(problems_of(error))) from None
+    lines = []
+    if not trusted:
+        lines = [x for path, part in parts(found) for x in part.contradictions(path, found)]
+        lines = lines or [
+            line
+            for path, part in parts(found)
+            if hasattr(part, "workload")
+            for line in part.workload(path, found)
+        ]
+    if lines:
+        raise ConfigurationError("\n".join(dict.fromkeys(lines)))
+    return found
+
+
+def without_left_out(given):
+    """Return a configuration without the entries that are set to null.
+
+    A second configuration file removes an entry of the first file in this way. Figures then draw
+    their remaining entries; a figure without remaining entries is removed too.
+    """
+    if not isinstance(given, dict):
+        return given
+    kept = {key: _present(value) for key, value in given.items()}
+    figures = kept.get("figures")
+    for name, figure in list(figures.items()) if isinstance(figures, dict) else []:
+        kind = figure.get("kind") if isinstance(figure, dict) else None
+        section = section_of(kind) if isinstance(kind, str) and kind in KINDS else None
+        entries, data = given.get(section), isinstance(figure, dict) and figure.get("data")
+        if isinstance(entries, dict) and isinstance(data, list):
+            left_out = [key for key, entry in entries.items() if entry is None]
+            figures[name] = figure | {"data": [key for key in data if key not in left_out]}
+            if data and not figures[name]["data"]:
+                del figures[name]
+    return kept
+
+
+def _present(section):
+    """Return a section without entries that are None."""
+    if not isinstance(section, dict):
+        return section
+    return {name: entry for name, entry in section.items() if entry is not None}

@@ -1,0 +1,181 @@
+"""Frequency responses: curves over frequency, and single motions."""
+
+from chatterjee1995.sections.records import PANELS, Kind, Stage, Table
+from chatterjee1995.sections.system import (
+    CLEARANCE_OR_RULE,
+    FREQUENCY,
+    MaybeWithDamper,
+    WithDamper,
+)
+from impact_damper.command.messages import dotted, problem
+from impact_damper.command.values import choice, several
+
+# Stages of an entry of `curves`, and which of them need a damper.
+STAGES_OF_CURVES = ("harmonic_balance", "design_orbit", "response", "subharmonic", "branches")
+NEED_DAMPER = ("design_orbit", "subharmonic")
+# The three numbers under figure 4 of the paper, and relative velocity 0. A start at rest would lead
+# to a motion without contact.
+START = [1.0, 0.5, 0.0, 0.0]
+
+
+class Curve(MaybeWithDamper):
+    """Response curves over frequency, of an oscillator with or without a damper."""
+
+    clearance: CLEARANCE_OR_RULE = None
+    stages: several(
+        choice("", *STAGES_OF_CURVES), "stages to compute for the curve", least=1, distinct=True
+    )
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        starts, stages = config.search.starts, (*path, "stages")
+        if "subharmonic" in self.stages and starts < 2:
+            reason = f"must be at least 2 with {dotted(stages)} subharmonic (half are switched on)"
+            yield problem(("search", "starts"), starts, reason)
+        if "branches" in self.stages and "response" not in self.stages:
+            reason = "must hold response with branches (orbits are followed from the motions found)"
+            yield problem(stages, self.stages, reason)
+        if not self.has_damper():
+            for stage in sorted(set(NEED_DAMPER) & set(self.stages)):
+                reason = f"must not hold {stage} without a damper (mass_ratio and so on)"
+                yield problem(stages, self.stages, reason)
+        if "harmonic_balance" in self.stages and self.restitution not in (None, 1):
+            reason = "must be 1 with the stage harmonic_balance (it knows elastic contact only)"
+            yield problem((*path, "restitution"), self.restitution, reason)
+        if self.clearance == "rule" and set(self.stages) - {"harmonic_balance", "design_orbit"}:
+            reason = "must be a number with stages other than harmonic_balance and design_orbit"
+            reason = f"{reason} (see table harmonic_balance)"
+            yield problem((*path, "clearance"), self.clearance, reason)
+
+    def span(self, config):
+        """Return the range of frequencies of the curve."""
+        return config.oscillators[self.oscillator].frequencies
+
+    def harmonic_balance(self, config) -> dict:
+        points = config.points.harmonic_balance
+        return self.system(config) | {"frequencies": self.span(config).even(points)}
+
+    def design_orbit(self, config) -> dict:
+        search = config.search.job(config, config.search.sweep_starts)
+        return self.system(config) | search | config.settling.job()
+
+    def subharmonic(self, config) -> dict:
+        points = config.points.simulated if self.has_damper() else config.points.free
+        frequencies = {"frequencies": self.span(config).even(points)}
+        search = config.search.job(config, config.search.starts)
+        return self.system(config) | frequencies | search | config.settling.job()
+
+    def response(self, config) -> dict:
+        lives = {key: getattr(config.search, key) for key in ("life_runs", "life_periods")}
+        return self.subharmonic(config) | lives
+
+    def branches(self, config) -> dict:
+        span = self.span(config)
+        return self.system(config) | {"frequencies": [span.first, span.last]}
+
+
+class Motion(WithDamper):
+    """Steady motions at one frequency."""
+
+    frequency: FREQUENCY
+
+    def job(self, config) -> dict:
+        run = {"frequency": self.frequency, "state": START, "samples": 4000}
+        return self.system(config) | run | config.settling.job()
+
+
+class Collision(WithDamper):
+    """Shares of random starts that lead to a collision, including starts beyond the walls."""
+
+    frequency: FREQUENCY
+
+    def job(self, config) -> dict:
+        drawn = {"radius": config.search.radius, "seed": config.seed}
+        return self.system(config) | {"frequency": self.frequency} | drawn
+
+
+SECTIONS = {"curves": Curve, "motion": Motion, "collisions": Collision}
+STAGES = (
+    Stage(
+        "harmonic_balance",
+        "curves",
+        Curve.harmonic_balance,
+        "impact_damper.theory.harmonic_balance:harmonic_balance",
+        "Harmonic balance of the curve {name}",
+    ),
+    Stage(
+        "design_orbit",
+        "curves",
+        Curve.design_orbit,
+        "chatterjee1995.stages.design_orbit:design_orbit",
+        "Exact quiet orbits at the design points of curves",
+        together=True,
+    ),
+    Stage(
+        "response",
+        "curves",
+        Curve.response,
+        "impact_damper.motions.response:frequency_response",
+        "Motions over frequency, of the curve {name}",
+        priority=2,
+    ),
+    Stage(
+        "subharmonic",
+        "curves",
+        Curve.subharmonic,
+        "chatterjee1995.stages.subharmonic:subharmonic_suppression",
+        "Runs from the one-third subharmonic, for the curve {name}",
+        priority=2,
+    ),
+    Stage(
+        "branches",
+        "curves",
+        Curve.branches,
+        "impact_damper.orbits.all_branches:complete_branches",
+        "Branches of periodic orbits of the curve {name}",
+        reads={"motions": ("response", "subharmonic")},
+        priority=1,
+    ),
+    Stage(
+        "motion",
+        "motion",
+        Motion.job,
+        "impact_damper.motions.steady:steady_orbit",
+        "Steady motion {name}",
+    ),
+    Stage(
+        "collisions",
+        "collisions",
+        Collision.job,
+        "impact_damper.motions.response:collisions",
+        "Starts that lead to collisions",
+        together=True,
+    ),
+)
+KINDS = (
+    Kind("harmonic_balance", "design", PANELS + "harmonic_balance", ("harmonic_balance",)),
+    Kind("free", "responses", "free", ("branches",), damper=False),
+    Kind("motion", "responses", PANELS + "motion", ("motion",)),
+    Kind(
+        "response",
+        "responses",
+        PANELS + "response",
+        ("response", "harmonic_balance", "subharmonic", "branches"),
+    ),
+    Kind("branches", "responses", PANELS + "branches", ("branches",)),
+    Kind("shares", "responses", PANELS + "shares", ("response",)),
+)
+TABLES = (
+    Table("harmonic_balance", "design", "design", ("harmonic_balance", "design_orbit")),
+    Table(
+        "outcomes",
+        "responses",
+        "motions",
+        ("response", "subharmonic", "optimum", "studies", "balance_map"),
+    ),
+    Table("quasi_periodic", "responses", "motions", ("response",)),
+    Table("chaos", "responses", "motions", ("response", "branches")),
+    Table("subharmonic", "responses", "responses", ("branches", "subharmonic")),
+    Table("orbits", "responses", "branches", ("branches",)),
+    Table("bifurcations", "responses", "branches", ("branches",)),
+)

@@ -1,0 +1,340 @@
+"""The contact model, rigid walls, and integrators compared on test cases (scenes)."""
+
+from typing import ClassVar
+
+from chatterjee1995.sections.records import Kind, Stage, Table
+from chatterjee1995.sections.system import (
+    BOUNDS,
+    COMMON,
+    CONTACT_STIFFNESS,
+    DAMPER,
+    FREQUENCIES,
+    FREQUENCY,
+    NEEDED,
+    RADIUS,
+    RESTITUTION,
+    RUN_PERIODS,
+    MaybeWithDamper,
+    WithDamper,
+    WithOscillator,
+    damper_values,
+    keys_of,
+    range_of,
+)
+from impact_damper.command.messages import problem
+from impact_damper.command.section import Section, increasing
+from impact_damper.command.values import choice, count, number, points_of, several
+from impact_damper.model.bounds import (
+    FARTHEST,
+    HARMONIC_RANGE,
+    LOAD_RANGE,
+    METHOD_TOLERANCE_RANGE,
+    MOST_STEPS_RANGE,
+    PERIODS_RANGE,
+    RUNS_RANGE,
+    STEPS_RANGE,
+)
+
+STEPS = range_of(count("steps in a forcing cycle", **STEPS_RANGE))
+TOLERANCES = range_of(number("tolerance of a method", **METHOD_TOLERANCE_RANGE), points=True)
+GEOMETRIC = range_of(number("end of a geometric grid", least=1e-14, most=1e9), points=True)
+# Quantities whose errors are compared, and averages that are compared for a chaotic motion.
+ERRORS = ("amplitude", "state", "contact_time", "contacts")
+STATISTICS = ("contact_rate", "displacement", "exponent")
+# Highest harmonic of the balance from which Newton's method for an exact orbit starts.
+START_HARMONICS = 15
+COMPONENT = number("component of a state", least=-FARTHEST, most=FARTHEST)
+DECREASING = several(
+    number("tolerance of a method", **METHOD_TOLERANCE_RANGE), "decreasing tolerances", least=1
+)
+ORDER = count("order of the series", least=6, most=60)
+
+
+class ContactCells(Section):
+    """Cells of the map along restitution and load."""
+
+    restitutions: points_of("cells of the map along restitution")
+    loads: points_of("cells of the map along load")
+
+
+class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON]), WithOscillator):
+    """One contact in closed form over restitution and load, and contacts of simulated motions."""
+
+    restitutions: several(RESTITUTION, "increasing restitutions of the motions", least=2)
+    frequencies: several(FREQUENCY, "increasing frequencies of the motions", least=1)
+    periods: count("forcing cycles over which contacts are logged", **PERIODS_RANGE)
+    cells: ContactCells
+    smallest_restitution: number("smallest e of the map", **BOUNDS["restitution"])
+    largest_load: number(
+        "largest load: acceleration divided by natural frequency and approach speed", **LOAD_RANGE
+    )
+
+    counts: ClassVar = ("cells.restitutions", "cells.loads")
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        if self.smallest_restitution == 1:
+            reason = "must be less than 1 (where the map ends)"
+            yield problem((*path, "smallest_restitution"), 1, reason)
+        for key in ("restitutions", "frequencies"):
+            yield from increasing((*path, key), getattr(self, key), "motions are run in order")
+
+    def job(self, config) -> dict:
+        cells = self.cells
+        values = {
+            "frequencies": self.frequencies,
+            "restitutions": {"linspace": [self.smallest_restitution, 1, cells.restitutions]},
+            "loads": {"loads": [self.largest_load, cells.loads]},
+            "used": self.restitutions,
+            "starts": config.search.scan_starts,
+            "periods": self.periods,
+            "seed": config.seed,
+        }
+        damper = {"damper": damper_values(self, config)}
+        return self.system(config) | damper | values | config.settling.job()
+
+
+class RigidCells(Section):
+    """Cells of the map along frequency and contact stiffness."""
+
+    frequencies: points_of("cells of the map along frequency")
+    stiffnesses: points_of("cells of the map along contact stiffness")
+
+
+class RigidLimit(WithDamper):
+    """The quiet motion between rigid walls compared with the one between compliant walls."""
+
+    frequency: FREQUENCY
+    frequencies: FREQUENCIES
+    stiffnesses: range_of(CONTACT_STIFFNESS)
+    cells: RigidCells
+
+    counts: ClassVar = ("cells.frequencies", "cells.stiffnesses")
+
+    def job(self, config) -> dict:
+        values = {
+            "frequency": self.frequency,
+            "frequencies": self.frequencies.even(self.cells.frequencies),
+            "stiffnesses": self.stiffnesses.geometric(self.cells.stiffnesses),
+            "starts": config.search.scan_starts,
+            "seed": config.seed,
+        }
+        return self.system(config) | values | config.settling.job()
+
+
+class MissedContacts(WithOscillator):
+    """Contacts that barely touch the wall (near grazing), found or missed by integrators."""
+
+    frequency: FREQUENCY
+    passages: count("random flights without contact, each over one forcing cycle", **RUNS_RANGE)
+    radius: RADIUS
+    depths: GEOMETRIC
+    tolerances: TOLERANCES
+    steps: STEPS
+
+    counts: ClassVar = ("passages", "depths.points", "tolerances.points")
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        yield from close_steps(path, self)
+
+    def job(self, config) -> dict:
+        keys = ("frequency", "passages", "radius")
+        values = {key: getattr(self, key) for key in keys} | {
+            "depths": self.depths.geometric(),
+            "tolerances": self.tolerances.geometric(),
+            "steps": {"counts": [self.steps.first, self.steps.last, self.tolerances.points]},
+            "seed": config.seed,
+        }
+        return self.system(config) | values
+
+
+class StableSteps(WithDamper):
+    """The quiet motion by fixed-step methods, over contact stiffness and step."""
+
+    frequency: FREQUENCY
+    stiffnesses: range_of(CONTACT_STIFFNESS, points=True)
+    scaled_steps: GEOMETRIC
+    most_steps: count(
+        "largest number of steps in a forcing cycle; cells with more are not run",
+        **MOST_STEPS_RANGE,
+    )
+    periods: RUN_PERIODS
+
+    counts: ClassVar = ("stiffnesses.points", "scaled_steps.points")
+
+    def job(self, config) -> dict:
+        values = {key: getattr(self, key) for key in ("frequency", "most_steps", "periods")} | {
+            "stiffnesses": self.stiffnesses.geometric(),
+            "scaled_steps": self.scaled_steps.geometric(),
+        }
+        return self.system(config) | values
+
+
+def close_steps(path, entry):
+    """Yield a line if the range `steps` holds fewer different whole numbers than tolerances.
+
+    Methods with fixed steps are compared at as many numbers of steps as others at tolerances.
+    """
+    span, points = entry.steps, entry.tolerances.points
+    ratio = span.last / span.first
+    numbers = {round(span.first * ratio ** (k / (points - 1))) for k in range(points)}
+    if len(numbers) < points:
+        reason = f"must be so far from first = {span.first} that {points} whole numbers fit"
+        yield problem(
+            (*path, "steps", "last"), span.last, f"{reason} (as many as tolerances.points)"
+        )
+
+
+def state(meaning):
+    """Return the type of a state: displacement and velocity of Z1 and Z2."""
+    return several(COMPONENT, f"Z1, Z1', Z2, Z2': {meaning}", least=4, most=4)
+
+
+class Accuracy(Section):
+    """The accuracy required on a scene: a quantity, and its largest acceptable error."""
+
+    quantity: choice("quantity whose error is judged", *ERRORS, *STATISTICS)
+    within: number("largest error accepted, 0 for a number of contacts", least=0, most=1)
+
+
+class Scene(MaybeWithDamper):
+    """Motions on which the errors and the work of methods and models are compared."""
+
+    frequency: FREQUENCY
+    state: state("first state, at W T = pi/2")
+    periods: RUN_PERIODS
+    motion: choice(
+        "steady (a periodic orbit with the period of the forcing), transient or chaotic",
+        "steady",
+        "transient",
+        "chaotic",
+    )
+    accuracy: Accuracy
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        chaotic, batch = self.motion == "chaotic", config.comparison.batch
+        if chaotic and not self.has_damper():
+            reason = "must have a damper (free motions are not chaotic here)"
+            yield problem((*path, "motion"), self.motion, reason)
+        if chaotic and self.periods < 2 * batch:
+            reason = f"must be at least twice comparison.batch = {batch} (errors need two batches)"
+            yield problem((*path, "periods"), self.periods, reason)
+        if chaotic != (self.accuracy.quantity in STATISTICS):
+            reason = f"must be another quantity (the motion is {self.motion})"
+            yield problem((*path, "accuracy", "quantity"), self.accuracy.quantity, reason)
+
+    def job(self, config) -> dict:
+        keys = ("frequency", "state", "periods", "motion")
+        values = {key: getattr(self, key) for key in keys} | {"accuracy": dict(self.accuracy)}
+        settings = config.comparison.model_dump()
+        return self.system(config) | values | {"settings": settings}
+
+
+class Comparison(Section):
+    """Settings of the methods that are compared on the scenes."""
+
+    taylor: DECREASING
+    merson: DECREASING
+    scipy: DECREASING
+    orders: several(
+        several(ORDER, "in flight and in contact", least=2, most=2),
+        "orders of the Taylor series in flight and in contact, compared with the package's own",
+        distinct=True,
+    )
+    evaluations: count(
+        "evaluations of the equations of motion per forcing cycle after which a run of SciPy's "
+        "methods is given up",
+        least=1,
+        most=1000000,
+    )
+    harmonics: count(
+        "highest harmonic (Newton's method for the exact orbit begins with "
+        f"{START_HARMONICS} harmonics)",
+        **HARMONIC_RANGE | {"least": START_HARMONICS},
+    )
+    batch: count(
+        "forcing cycles of a batch, a part of a chaotic run (errors follow from the scatter of the "
+        "averages of batches)",
+        least=1,
+        most=100000,
+    )
+    scipy_periods: count(
+        "forcing cycles of a chaotic run by SciPy's methods, at least two batches",
+        **PERIODS_RANGE | {"least": 2},
+    )
+
+    def contradictions(self, path, config):
+        for key in ("taylor", "merson", "scipy"):
+            values = getattr(self, key)
+            if sorted(set(values), reverse=True) != values:
+                reason = "must decrease (each is run once, the loosest first)"
+                yield problem((*path, key), values, reason)
+        if self.scipy_periods < 2 * self.batch:
+            reason = f"must be at least twice batch = {self.batch} (errors need two batches)"
+            yield problem((*path, "scipy_periods"), self.scipy_periods, reason)
+
+
+SECTIONS = {
+    "contact_model": ContactModel,
+    "rigid_limit": RigidLimit,
+    "missed_contacts": MissedContacts,
+    "stable_steps": StableSteps,
+    "scenes": Scene,
+}
+STAGES = (
+    Stage(
+        "contact_model",
+        "contact_model",
+        ContactModel.job,
+        "chatterjee1995.stages.contact_model:contact_model",
+        "Contact model and contacts of motions, {name}",
+    ),
+    Stage(
+        "rigid_limit",
+        "rigid_limit",
+        RigidLimit.job,
+        "chatterjee1995.stages.rigid_limit:rigid_limit",
+        "Rigid impacts against compliant contact",
+        together=True,
+    ),
+    Stage(
+        "missed_contacts",
+        "missed_contacts",
+        MissedContacts.job,
+        "chatterjee1995.methods.missed_contacts:missed_contacts",
+        "Contacts near grazing that integrators miss, {name}",
+        priority=1,
+    ),
+    Stage(
+        "stable_steps",
+        "stable_steps",
+        StableSteps.job,
+        "chatterjee1995.methods.stable_steps:stable_steps",
+        "Largest stable steps of fixed-step methods, {name}",
+    ),
+    Stage(
+        "accuracy",
+        "scenes",
+        Scene.job,
+        "chatterjee1995.stages.accuracy:accuracy",
+        "Errors of methods against counted work, {name}",
+        files={"references": "workflow/resources/references.json"},
+        priority=1,
+    ),
+)
+KINDS = (
+    Kind("contact_model", "methods", "contact_model", ("contact_model",)),
+    Kind("rigid_limit", "methods", "rigid_limit", ("rigid_limit",)),
+    Kind("missed_contacts", "methods", "missed_contacts", ("missed_contacts",), most=1),
+    Kind("stable_steps", "methods", "stable_steps", ("stable_steps",)),
+    Kind("accuracy", "methods", "accuracy", ("accuracy",), named=True),
+)
+TABLES = (
+    Table("contact_model", "methods", "contact", ("contact_model",)),
+    Table("rigid_limit", "methods", "contact", ("rigid_limit",)),
+    Table("missed_contacts", "methods", "integrators", ("missed_contacts",)),
+    Table("stable_steps", "methods", "integrators", ("stable_steps",)),
+    Table("models", "methods", "accuracy", ("accuracy",)),
+)

@@ -1,0 +1,147 @@
+"""Migration control, from one motion to another by switching the damper, and basins."""
+
+from chatterjee1995.sections.records import PANELS, Kind, Stage, Table
+from chatterjee1995.sections.system import (
+    COMMON,
+    DAMPER,
+    FREQUENCIES,
+    FREQUENCY,
+    NEEDED,
+    Entry,
+    MaybeWithDamper,
+    WithDamper,
+    WithOscillator,
+    damper_values,
+    keys_of,
+)
+from impact_damper.command.section import increasing
+from impact_damper.command.values import count, entries, number, several
+from impact_damper.model.bounds import (
+    FARTHEST,
+    FASTEST,
+    PERIODS_RANGE,
+    RUNS_RANGE,
+    SCAN_LIFETIME_RANGE,
+)
+
+
+class Migration(WithDamper):
+    """Cases of migration control."""
+
+    frequency: FREQUENCY
+    longest_hold: count(
+        "forcing cycles after which the damper is switched off at the latest",
+        **PERIODS_RANGE,
+    )
+
+    def job(self, config) -> dict:
+        run = {"frequency": self.frequency, "longest_hold": self.longest_hold, "seed": config.seed}
+        return self.system(config) | dict(config.controller) | run | config.settling.job()
+
+
+class ReleaseScan(WithDamper):
+    """Motions to which the oscillator settles after the damper is switched off (release)."""
+
+    frequencies: FREQUENCIES
+    lifetime: count(
+        "forcing cycles within which motions that have not settled are released",
+        **SCAN_LIFETIME_RANGE,
+    )
+
+    def job(self, config) -> dict:
+        scan = {
+            "frequencies": self.frequencies.even(config.points.scanned),
+            "releases": config.controller.releases,
+            "lifetime": self.lifetime,
+        }
+        search = config.search.job(config, config.search.scan_starts)
+        return self.system(config) | scan | search | config.settling.job()
+
+
+class Basins(MaybeWithDamper):
+    """Planes of states of the primary mass, and the motions to which they lead."""
+
+    frequency: FREQUENCY
+    displacement: number("half width of the plane in Z1", above=0, most=FARTHEST)
+    velocity: number("half width of the plane in Z1'", above=0, most=FASTEST)
+    cells: count("states on each axis of the plane", least=2, most=10**4)
+
+    def job(self, config) -> dict:
+        keys = ("frequency", "displacement", "velocity", "cells")
+        plane = {key: getattr(self, key) for key in keys}
+        return self.system(config) | plane | config.settling.job()
+
+
+class PolicyDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), Entry):
+    """One of the dampers to compare."""
+
+
+class ReleasePolicies(WithOscillator):
+    """Policies of migration compared for several dampers, over frequency."""
+
+    dampers: entries(PolicyDamper)
+    frequencies: several(FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)
+    trials: count("trials of each policy", **RUNS_RANGE)
+    tested: count("releases that test which states are predicted to lead to the goal", **RUNS_RANGE)
+    cells: count("cells on each axis of the coarse grid of a basin", least=4, most=4096)
+
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
+        yield from increasing((*path, "frequencies"), self.frequencies, "frequencies of a curve")
+
+    def job(self, config) -> dict:
+        dampers = [each for _, each in sorted(self.dampers.items())]
+        values = {"dampers": [{"Damper": damper_values(each, config)} for each in dampers]}
+        values |= {key: getattr(self, key) for key in ("frequencies", "trials", "tested", "cells")}
+        return self.system(config) | values | {"seed": config.seed} | config.settling.job()
+
+
+SECTIONS = {
+    "migration": Migration,
+    "release_scan": ReleaseScan,
+    "basins": Basins,
+    "release_policies": ReleasePolicies,
+}
+STAGES = (
+    Stage(
+        "migration",
+        "migration",
+        Migration.job,
+        "impact_damper.motions.migration:trials",
+        "Migration control, the case {name}",
+        priority=1,
+    ),
+    Stage(
+        "release_scan",
+        "release_scan",
+        ReleaseScan.job,
+        "chatterjee1995.stages.release_scan:release_scan",
+        "Motions after the damper is switched off, over frequency, the scan {name}",
+    ),
+    Stage(
+        "basins",
+        "basins",
+        Basins.job,
+        "impact_damper.orbits.basins:basins",
+        "Motions to which the states of a plane lead, the plane {name}",
+    ),
+    Stage(
+        "release_policies",
+        "release_policies",
+        ReleasePolicies.job,
+        "chatterjee1995.stages.release_policies:release_policies",
+        "Policies of migration, the dampers {name}",
+        priority=1,
+    ),
+)
+KINDS = (
+    Kind("migration", "migration", PANELS + "migration", ("migration",)),
+    Kind("release", "migration", "release", ("migration",)),
+    Kind("basins", "migration", PANELS + "basins", ("basins",), damper=False, most=4),
+    Kind("release_policies", "migration", "release_policies", ("release_policies",), most=1),
+)
+TABLES = (
+    Table("migration", "migration", "migration", ("migration",)),
+    Table("release_scan", "migration", "migration", ("release_scan",)),
+    Table("release_policies", "migration", "policies", ("release_policies",)),
+)

@@ -1,0 +1,68 @@
+"""All stages, kinds of figures and tables, by name.
+
+Rules, targets, the check of the configuration and the tests take their lists from here. Every dry
+run imports this module, so it must not import modules that load slowly.
+"""
+
+from chatterjee1995.sections import (
+    balance,
+    clearance,
+    curves,
+    machines,
+    methods,
+    migration,
+)
+from chatterjee1995.sections.records import Kind, Table
+
+SCHEMATIC = Kind("schematic", "design", "schematics", (), most=1)
+CLAIMS = (
+    Table(
+        "claims",
+        "claims",
+        "chatterjee1995.claims.verdicts",
+        (
+            "harmonic_balance",
+            "design_orbit",
+            "branches",
+            "response",
+            "motion",
+            "collisions",
+            "optimum",
+            "subharmonic",
+            "migration",
+            "release_scan",
+            "release_policies",
+        ),
+        pictures=True,
+    ),
+)
+SUBJECTS = (curves, balance, clearance, migration, methods, machines)
+# Chapters of the report with their titles. One job draws the figures and makes the tables of one.
+CHAPTERS = {
+    "design": "Models and harmonic balance",
+    "responses": "Frequency responses",
+    "clearance": "Optimum clearance",
+    "migration": "Migration control",
+    "methods": "Methods compared",
+    "claims": "Claims of the paper",
+    "machines": "Dampers for machines in SI units",
+}
+SECTIONS = {name: model for subject in SUBJECTS for name, model in subject.SECTIONS.items()}
+STAGES = {stage.name: stage for subject in SUBJECTS for stage in subject.STAGES}
+KINDS = {kind.name: kind for each in SUBJECTS for kind in each.KINDS} | {"schematic": SCHEMATIC}
+TABLES = {table.name: table for each in SUBJECTS for table in (*each.TABLES, *CLAIMS)}
+
+
+def section_of(kind) -> str | None:
+    """Return the section whose entries a kind of figure draws; None for schematics."""
+    stages = KINDS[kind].stages
+    return STAGES[stages[0]].section if stages else None
+
+
+def is_paper(chapter) -> bool:
+    """Return whether a chapter belongs to the paper, not to a stage beside it."""
+    shown = [each for each in (*KINDS.values(), *TABLES.values()) if each.chapter == chapter]
+    return all(STAGES[stage].paper for each in shown for stage in each.stages)
+
+
+PAPER = [chapter for chapter in CHAPTERS if is_paper(chapter)]

@@ -1,5 +1,0 @@
-"""Print the reference of the configuration."""
-
-from chatterjee1995.workflow.models.reference import reference
-
-print(reference(), end="")
