@@ -4,7 +4,7 @@ A cell of a map is one frequency and one value of the other parameter; a row is 
 other parameter. In each cell two solutions of the harmonic balance, equation (7) of the paper, are
 compared with motions. The quiet solution has the smallest amplitude |a| of the primary mass, below
 half of the resonance amplitude without damper. The high solution has the largest |a|, at least this
-half (`stages.balance_map`). The quiet run and the high run are simulations that start from these two
+half (`stages.balance_map`). The quiet run and the high run are simulations from these two
 solutions.
 """
 

@@ -33,15 +33,10 @@ PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 class Event(NamedTuple):
     """An event of a branch.
 
-    Attributes
-    ----------
-    kind : str
-        fold, symmetry_breaking, period_doubling, neimark_sacker, grazing or merging. At a grazing a
-        contact appears or vanishes in flight; at a merging two contacts with one wall become one.
-    point : Point
-        Point of the branch at the event.
-    before, after : str
-        `Orbit.sequence`, the walls touched, before and after the event along the branch.
+    kind: fold, symmetry_breaking, period_doubling, neimark_sacker, grazing or merging. At a grazing
+        a contact appears or vanishes in flight; at a merging two contacts with one wall become one.
+    point: Point of the branch at the event.
+    before, after: `Orbit.sequence`, the walls touched, before and after the event along the branch.
     """
 
     kind: str

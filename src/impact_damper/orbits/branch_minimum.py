@@ -18,13 +18,9 @@ NEAR_MINIMUM = 1.1
 class Branch(NamedTuple):
     """A branch of motions of period 1 along a sweep of the clearance.
 
-    Attributes
-    ----------
-    parameters : numpy.ndarray, shape (n, packed.COUNT)
-    states : numpy.ndarray, shape (n, 4)
-        State of the motion at W T = pi/2, NaN where the motion is absent.
-    displacements : numpy.ndarray, shape (n,)
-        max |Z1|, NaN where the motion is absent.
+    parameters: Packed parameters, shape (n, packed.COUNT).
+    states: State of the motion at W T = pi/2, NaN where the motion is absent; shape (n, 4).
+    displacements: max |Z1|, NaN where the motion is absent; shape (n,).
     """
 
     parameters: np.ndarray

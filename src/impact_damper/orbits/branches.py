@@ -50,22 +50,15 @@ CLEAR_STEP = 1e-4
 class Branch:
     """A branch of orbits.
 
-    Attributes
-    ----------
-    family : callable
-        Maps the parameter to packed parameters.
-    points : list of Point
-        Points in order along the branch, including the points of events.
-    events : list of (int, Event)
-        Events, each with the index of its point.
-    ends : tuple of str
-        Reasons why the branch ends before the first and after the last point. "range_ends": at an
+    family: Maps the parameter to packed parameters.
+    points: Points in order along the branch, including the points of events.
+    events: Events, each with the index of its point.
+    ends: Reasons why the branch ends before the first and after the last point. "range_ends": at an
         end of the range of the parameter. "closed": the branch is a closed curve.
         "symmetry_breaking", "period_doubling": at a branch of more symmetry. "contact_lost": at a
         motion without contacts. "lost": Newton's method fails. "point_limit": after the largest
         number of orbits. "unstable": after the largest number of unstable orbits in a row.
-    lost : int
-        Number of events that could not be located.
+    lost: Number of events that could not be located.
     """
 
     family: Callable[[float], np.ndarray]

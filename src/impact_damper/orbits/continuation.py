@@ -60,21 +60,14 @@ ASIDE, FAILING = 0.2, 2.0
 class Point(NamedTuple):
     """A point of a branch.
 
-    Attributes
-    ----------
-    value : float
-        The parameter.
-    orbit : Orbit
-    x : numpy.ndarray, shape (m n + 1,)
-        The unknowns: Z1, Z1' and, with a damper, Z2, Z2' at the beginning of each segment; then
-        the parameter.
-    tangent : numpy.ndarray, shape (m n + 1,)
-        Tangent of the branch, of length 1 in the metric of the problem.
-    problem : Problem
-        The equations that the unknowns solve.
-    bend, twist : numpy.ndarray, shape (m n + 1,), or float
-        Estimates of the first and second derivative of the tangent with respect to the length of
-        the branch. They improve the first guess of the next point.
+    value: The parameter.
+    orbit: Orbit.
+    x: The unknowns: Z1, Z1' and, with a damper, Z2, Z2' at the beginning of each segment; then the
+        parameter; shape (m n + 1,).
+    tangent: Tangent of the branch, of length 1 in the metric of the problem; shape (m n + 1,).
+    problem: The equations that the unknowns solve.
+    bend, twist: Estimates of the first and second derivative of the tangent with respect to the
+        length of the branch. They improve the first guess of the next point; shape (m n + 1,).
     """
 
     value: float
@@ -94,23 +87,17 @@ class Problem:
     distance of two points: its square is the mean over the segments of the squared distance of
     their states, plus the squared difference of the parameter.
 
-    Attributes
-    ----------
-    family : callable
-        Maps the parameter to packed parameters.
-    periods : int
-        Period of the orbits in forcing cycles.
-    phases : numpy.ndarray, shape (m + 1,)
-        Phases W T at which the segments begin, and at which the last segment ends, radian.
-    loose : numpy.ndarray, shape (2,)
-        Z2 - Z1 and Z2' - Z1'. Without a damper they have no effect and are kept constant.
-    damped : bool
-        Whether there is a damper.
-    symmetric : bool
-        If True, only symmetric orbits are found, by the map over half the period. This map is
-        regular where an orbit loses its symmetry. The map over the whole period is singular there.
-    rough : float
-        Largest norm of the derivative of a segment at the time when the orbit was cut.
+    family: Maps the parameter to packed parameters.
+    periods: Period of the orbits in forcing cycles.
+    phases: Phases W T at which the segments begin, and at which the last segment ends, radian;
+        shape (m + 1,).
+    loose: Z2 - Z1 and Z2' - Z1'. Without a damper they have no effect and are kept constant; shape
+        (2,).
+    damped: Whether there is a damper.
+    symmetric: If True, only symmetric orbits are found, by the map over half the period. This map
+        is regular where an orbit loses its symmetry. The map over the whole period is singular
+        there.
+    rough: Largest norm of the derivative of a segment at the time when the orbit was cut.
     """
 
     family: Callable[[float], np.ndarray]

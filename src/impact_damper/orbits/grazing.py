@@ -64,19 +64,12 @@ def at_height(problem, x, turn, height, direction, exact=True):
 class Passage(NamedTuple):
     """Points of a branch through a grazing.
 
-    Attributes
-    ----------
-    points : list of Point
-        In order along the branch. The first point is the one before the grazing, with the orbit cut
-        into new segments.
-    heights : list of float
-        Heights of the extremum at the points.
-    turns : list of Turn
-        The extremum at the points.
-    grazing : int
-        Index of the point closest to the grazing, on the side with more contacts.
-    kind : str
-        "grazing" if a contact appears or vanishes in flight, "merging" if it parts in two or two
+    points: In order along the branch. The first point is the one before the grazing, with the orbit
+        cut into new segments.
+    heights: Heights of the extremum at the points.
+    turns: The extremum at the points.
+    grazing: Index of the point closest to the grazing, on the side with more contacts.
+    kind: "grazing" if a contact appears or vanishes in flight, "merging" if it parts in two or two
         contacts become one.
     """
 
@@ -203,22 +196,14 @@ class Found(NamedTuple):
 class Turn(NamedTuple):
     """An extremum of Z2.
 
-    Attributes
-    ----------
-    segment : int
-        Index of the segment of the orbit.
-    phase : float
-        W T, radian.
-    outer : bool
-        True if |Z2| has a maximum, False if it has a minimum.
-    height : float
-        |Z2| - d0.
-    gradient : numpy.ndarray, shape (4 m + 1,)
-        Derivative of the height by the unknowns: the states at the beginnings of the m segments,
-        and the parameter.
-    by_parameter : numpy.ndarray, shape (4,)
-        Derivative of the state at the end of the segment by the parameter, without the change of
-        sign at the end of a symmetric orbit's half period.
+    segment: Index of the segment of the orbit.
+    phase: W T, radian.
+    outer: True if |Z2| has a maximum, False if it has a minimum.
+    height: |Z2| - d0.
+    gradient: Derivative of the height by the unknowns: the states at the beginnings of the m
+        segments, and the parameter; shape (4 m + 1,).
+    by_parameter: Derivative of the state at the end of the segment by the parameter, without the
+        change of sign at the end of a symmetric orbit's half period; shape (4,).
     """
 
     segment: int

@@ -34,25 +34,14 @@ def follow_line(
 class Grid:
     """The orbits found so far in the cells of a grid.
 
-    Parameters
-    ----------
-    points : array, shape (*shape, m)
-        Parameters of the cells.
-    correct, shortest
-        As in `follow_line`.
-    axes : sequence of int, optional
-        Axes of the grid in the order in which orbits are followed along them; by default the
+    points: Parameters of the cells; shape (*shape, m).
+    correct, shortest: As in `follow_line`.
+    axes: Axes of the grid in the order in which orbits are followed along them; by default the
         first axis first.
-    extrapolating : bool
-        As in `follow_line`. Its argument `behind` is the orbit of the neighbouring cell on the
-        opposite side, if this orbit is known.
-
-    Attributes
-    ----------
-    orbits : dict
-        Orbits, keyed by cell, a tuple of indices.
-    status : dict
-        Status of the last search in each cell to which an orbit was followed, keyed by cell.
+    extrapolating: As in `follow_line`. Its argument `behind` is the orbit of the neighbouring cell
+        on the opposite side, if this orbit is known.
+    orbits: Orbits, keyed by cell, a tuple of indices.
+    status: Status of the last search in each cell to which an orbit was followed, keyed by cell.
     """
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):

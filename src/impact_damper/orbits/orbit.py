@@ -30,37 +30,25 @@ CONTACTS = 64
 class Orbit:
     """A periodic orbit.
 
-    Attributes
-    ----------
-    p : numpy.ndarray, shape (packed.COUNT,)
-        Packed parameters.
-    periods : int
-        Period n in forcing cycles.
-    phase : float
-        Phase W T of the state, radian, with the forcing frequency W.
-    state : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' at this phase. Z1 is the displacement of the primary mass, and Z2 its
-        displacement relative to the loose mass.
-    monodromy : numpy.ndarray, shape (4, 4)
-        Derivative of the map over n cycles.
-    root : numpy.ndarray, shape (4, 4), or None
-        For a symmetric orbit of odd n, the derivative of the map over n/2 cycles followed by a
-        change of sign. It is called root because its square is the monodromy matrix.
-    residual : float
-        Largest difference between the state and the state a period later.
-    touching : float
-        Time in contact during a period.
-    converged : bool
-        Whether the residual is at most `segments.RESIDUAL` times the largest component of the
-        state, or times 1 if all components are smaller. If not, the state is the best state that
-        Newton's method found.
-    maps : int
-        How often Newton's method integrated over the period.
-    chain : segments.Chain or None
-        Segments of an orbit that was found by multiple shooting. The state is that at the beginning
-        of the first segment. The monodromy matrix and its root are products of the derivatives of
-        the segments. Their small entries are inaccurate, because rounding errors are relative to
-        the largest entry. All other properties are computed from the segments, without this loss.
+    p: Packed parameters; shape (packed.COUNT,).
+    periods: Period n in forcing cycles.
+    phase: Phase W T of the state, radian, with the forcing frequency W.
+    state: Z1, Z1', Z2, Z2' at this phase. Z1 is the displacement of the primary mass, and Z2 its
+        displacement relative to the loose mass; shape (4,).
+    monodromy: Derivative of the map over n cycles; shape (4, 4).
+    root: For a symmetric orbit of odd n, the derivative of the map over n/2 cycles followed by a
+        change of sign. It is called root because its square is the monodromy matrix; shape (4, 4).
+    residual: Largest difference between the state and the state a period later.
+    touching: Time in contact during a period.
+    converged: Whether the residual is at most `segments.RESIDUAL` times the largest component of
+        the state, or times 1 if all components are smaller. If not, the state is the best state
+        that Newton's method found.
+    maps: How often Newton's method integrated over the period.
+    chain: Segments of an orbit that was found by multiple shooting. The state is that at the
+        beginning of the first segment. The monodromy matrix and its root are products of the
+        derivatives of the segments. Their small entries are inaccurate, because rounding errors are
+        relative to the largest entry. All other properties are computed from the segments, without
+        this loss.
     """
 
     p: np.ndarray

@@ -47,17 +47,12 @@ class Path:
 
     N = m POINTS is the number of points of all steps.
 
-    Attributes
-    ----------
-    p : numpy.ndarray, shape (packed.COUNT,)
-        Packed parameters.
-    sides : numpy.ndarray, shape (m,)
-        Wall touched in each step, -1 or 1, or 0 in flight.
-    begins, lengths : numpy.ndarray, shape (m,)
-        Times at which steps begin, and their lengths.
-    series : numpy.ndarray, shape (m, TERMS, 2, 5)
-        Coefficients of the Taylor series, from the beginning of each step, of Z1 and Z2, and of
-        their derivatives with respect to the four numbers of the first state.
+    p: Packed parameters; shape (packed.COUNT,).
+    sides: Wall touched in each step, -1 or 1, or 0 in flight; shape (m,).
+    begins, lengths: Times at which steps begin, and their lengths; shape (m,).
+    series: Coefficients of the Taylor series, from the beginning of each step, of Z1 and Z2, and of
+        their derivatives with respect to the four numbers of the first state; shape (m, TERMS, 2,
+        5).
     """
 
     p: np.ndarray

@@ -25,16 +25,10 @@ SYMMETRIC = 1e-6
 class CompliantOrbit(NamedTuple):
     """A symmetric orbit with two contacts in a forcing cycle, stable or unstable.
 
-    Attributes
-    ----------
-    parameters : numpy.ndarray, shape (COUNT,)
-        Packed parameters.
-    state : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' at the strobe, W T = pi/2, where W is the forcing frequency.
-    multiplier : complex
-        Dominant Floquet multiplier, with an imaginary part that is not negative.
-    displacement : float
-        max |Z1|.
+    parameters: Packed parameters; shape (COUNT,).
+    state: Z1, Z1', Z2, Z2' at the strobe, W T = pi/2, where W is the forcing frequency; shape (4,).
+    multiplier: Dominant Floquet multiplier, with an imaginary part that is not negative.
+    displacement: max |Z1|.
     """
 
     parameters: np.ndarray
@@ -70,18 +64,14 @@ NEAR = 4
 class QuietOrbits(NamedTuple):
     """Quiet orbits on a grid of rows and columns; NaN in cells without one.
 
-    Attributes
-    ----------
-    multiplier : numpy.ndarray of complex, shape (rows, columns)
-        Multiplier of the root with the largest modulus; its imaginary part is not negative.
-    displacement, harmonic : numpy.ndarray, shape (rows, columns)
-        max |Z1|, and amplitude of the first harmonic of Z1.
-    end : numpy.ndarray, shape (rows, 2)
-        Smallest and largest column at which each row has an orbit, as a fractional number if the
-        orbits end between two columns.
-    end_event : numpy.ndarray, shape (rows, 2)
-        Reasons why the orbits end there: "map_ends", "no_orbit", "fold", "contacts_change" or
-        "not_converged".
+    multiplier: Multiplier of the root with the largest modulus; its imaginary part is not negative;
+        shape (rows, columns).
+    displacement, harmonic: max |Z1|, and amplitude of the first harmonic of Z1; shape (rows,
+        columns).
+    end: Smallest and largest column at which each row has an orbit, as a fractional number if the
+        orbits end between two columns; shape (rows, 2).
+    end_event: Reasons why the orbits end there: "map_ends", "no_orbit", "fold", "contacts_change"
+        or "not_converged"; shape (rows, 2).
     """
 
     multiplier: np.ndarray

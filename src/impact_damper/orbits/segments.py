@@ -37,23 +37,15 @@ CONTACTS, TURNS = 64, 256
 class Chain:
     """A chain of m segments.
 
-    Attributes
-    ----------
-    p : numpy.ndarray, shape (packed.COUNT,)
-        Packed parameters.
-    phases : numpy.ndarray, shape (m + 1,)
-        Phases W T at which the segments begin, and at which the last segment ends, radian.
-    states : numpy.ndarray, shape (m, 4)
-        States at the beginnings of the segments.
-    sign : int
-        -1 if the chain is half of a symmetric orbit, else 1.
-    ends : numpy.ndarray, shape (m, 4)
-        States at the ends of the segments, by integration from `states`.
-    factors : numpy.ndarray, shape (m, 4, 4)
-        Derivatives of the ends with respect to the states, in the order of time. The last factor is
-        multiplied by `sign`.
-    touching : float
-        Time in contact.
+    p: Packed parameters; shape (packed.COUNT,).
+    phases: Phases W T at which the segments begin, and at which the last segment ends, radian;
+        shape (m + 1,).
+    states: States at the beginnings of the segments; shape (m, 4).
+    sign: -1 if the chain is half of a symmetric orbit, else 1.
+    ends: States at the ends of the segments, by integration from `states`; shape (m, 4).
+    factors: Derivatives of the ends with respect to the states, in the order of time. The last
+        factor is multiplied by `sign`; shape (m, 4, 4).
+    touching: Time in contact.
     """
 
     p: np.ndarray

@@ -35,12 +35,9 @@ from impact_damper.orbits.paths import INTEGRALS, POINTS, Path, follow_path
 class Variations:
     """The variations of a motion.
 
-    Attributes
-    ----------
-    path : Path
-    directions : numpy.ndarray, shape (COUNT, k), or None
-        Changes of the parameters by which the variations are taken. None means that each parameter
-        is changed alone, by 1.
+    path: Path.
+    directions: Changes of the parameters by which the variations are taken. None means that each
+        parameter is changed alone, by 1; shape (COUNT, k).
     """
 
     path: Path
@@ -192,28 +189,18 @@ EQUAL = 1e-6
 class Sensitivity:
     """Derivatives of an orbit with respect to its packed parameters.
 
-    Attributes
-    ----------
-    orbit : Orbit
-    state_slopes : numpy.ndarray, shape (4, packed.COUNT)
-        Derivatives of the state at the phase of the orbit.
-    maximum_displacement : float
-        max |Z1|.
-    displacement_slopes : numpy.ndarray, shape (packed.COUNT,)
-        Derivatives of max |Z1|.
-    displacement_smooth : bool
-        Whether max |Z1| is differentiable. It has a kink if |Z1| is largest at two phases with
-        different derivatives.
-    modulus : float
-        Modulus of the largest Floquet multiplier.
-    modulus_slopes : numpy.ndarray, shape (packed.COUNT,)
-        Derivatives of the modulus.
-    modulus_smooth : bool
-        Whether the modulus is differentiable. It has a kink if two multipliers that are not a
-        conjugate pair have the largest modulus, or if a real multiplier is double.
-    matrix_slopes : numpy.ndarray, shape (packed.COUNT, n, n)
-        Total derivatives of R_y, which is the root of the orbit (`Orbit.root`) or, without a root,
-        its monodromy matrix. n is `Orbit.active`.
+    orbit: Orbit.
+    state_slopes: Derivatives of the state at the phase of the orbit; shape (4, packed.COUNT).
+    maximum_displacement: max |Z1|.
+    displacement_slopes: Derivatives of max |Z1|; shape (packed.COUNT,).
+    displacement_smooth: Whether max |Z1| is differentiable. It has a kink if |Z1| is largest at two
+        phases with different derivatives.
+    modulus: Modulus of the largest Floquet multiplier.
+    modulus_slopes: Derivatives of the modulus; shape (packed.COUNT,).
+    modulus_smooth: Whether the modulus is differentiable. It has a kink if two multipliers that are
+        not a conjugate pair have the largest modulus, or if a real multiplier is double.
+    matrix_slopes: Total derivatives of R_y, which is the root of the orbit (`Orbit.root`) or,
+        without a root, its monodromy matrix. n is `Orbit.active`; shape (packed.COUNT, n, n).
     """
 
     orbit: Orbit

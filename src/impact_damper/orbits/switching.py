@@ -36,14 +36,9 @@ MEETING = 1e-3
 class _Leaving(NamedTuple):
     """The beginning of the other branch.
 
-    Attributes
-    ----------
-    problem : Problem
-        Equations of the other branch.
-    x : numpy.ndarray
-        Unknowns of the problem at the bifurcation.
-    direction : numpy.ndarray
-        Direction in which the other branch begins.
+    problem: Equations of the other branch.
+    x: Unknowns of the problem at the bifurcation.
+    direction: Direction in which the other branch begins.
     """
 
     problem: Problem

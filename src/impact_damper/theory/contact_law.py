@@ -18,18 +18,13 @@ EXIT_RULES = ("zero_penetration", "no_tension")
 class Exit(NamedTuple):
     """End of a contact.
 
-    Attributes
-    ----------
-    outcome : str
-        "released" if the loose mass separates from the wall. "falls_back" if the rule `no_tension`
-        ends the contact, but the load drives the loose mass back before u = 0. "no_release" if the
-        contact does not end.
-    duration : float
-        s = wn t at the end of the contact, infinite if the contact does not end.
-    departure : float
-        The realised restitution: speed at u = 0 divided by approach speed. If the contact ends
-        before u = 0, the loose mass flies under the load until u = 0. NaN unless the outcome is
-        "released".
+    outcome: "released" if the loose mass separates from the wall. "falls_back" if the rule
+        `no_tension` ends the contact, but the load drives the loose mass back before u = 0.
+        "no_release" if the contact does not end.
+    duration: s = wn t at the end of the contact, infinite if the contact does not end.
+    departure: The realised restitution: speed at u = 0 divided by approach speed. If the contact
+        ends before u = 0, the loose mass flies under the load until u = 0. NaN unless the outcome
+        is "released".
     """
 
     outcome: str
@@ -40,14 +35,9 @@ class Exit(NamedTuple):
 class Tension(NamedTuple):
     """Pull of the wall on the loose mass at the end of a contact; NaN if the contact does not end.
 
-    Attributes
-    ----------
-    time : float
-        Time in which the wall pulls divided by the duration of the contact.
-    impulse : float
-        Impulse of the pull divided by the impulse of the push.
-    peak : float
-        Largest pull divided by the largest push.
+    time: Time in which the wall pulls divided by the duration of the contact.
+    impulse: Impulse of the pull divided by the impulse of the push.
+    peak: Largest pull divided by the largest push.
     """
 
     time: float

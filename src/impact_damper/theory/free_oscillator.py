@@ -20,12 +20,8 @@ ROUNDING = 1e-9
 class FreeSolutions(NamedTuple):
     """Solutions without the damper at one frequency.
 
-    Attributes
-    ----------
-    amplitude : numpy.ndarray, shape (count,)
-        a > 0, ascending. Without forcing the only solution is 0.
-    phase : numpy.ndarray, shape (count,)
-        t1 in (-pi, pi], phase of Z1 relative to the forcing.
+    amplitude: a > 0, ascending. Without forcing the only solution is 0; shape (count,).
+    phase: t1 in (-pi, pi], phase of Z1 relative to the forcing; shape (count,).
     """
 
     amplitude: np.ndarray
@@ -42,12 +38,8 @@ class Point(NamedTuple):
 class Resonance(NamedTuple):
     """The free resonance branch at one frequency.
 
-    Attributes
-    ----------
-    amplitude : float
-        a. At a frequency beyond the end of the branch, the amplitude at this end.
-    phase : float or None
-        t1. None at a frequency beyond the end of the branch.
+    amplitude: a. At a frequency beyond the end of the branch, the amplitude at this end.
+    phase: t1. None at a frequency beyond the end of the branch.
     """
 
     amplitude: float

@@ -26,14 +26,10 @@ EDGE = 1e-2
 class Exponents(NamedTuple):
     """Floquet exponents of a harmonic-balance solution.
 
-    Attributes
-    ----------
-    values : numpy.ndarray of complex, shape (4,)
-        Per unit time T, by ascending real part; NaN unless the status is "found". Without a damper
-        the shape is (2,).
-    status : str
-        "found"; "not_separated" if the strip |Im lambda| < s/2 holds another number of eigenvalues;
-        "not_converged" if the iteration for the eigenvalues near zero failed.
+    values: Per unit time T, by ascending real part; NaN unless the status is "found". Without a
+        damper the shape is (2,).
+    status: "found"; "not_separated" if the strip |Im lambda| < s/2 holds another number of
+        eigenvalues; "not_converged" if the iteration for the eigenvalues near zero failed.
     """
 
     values: np.ndarray

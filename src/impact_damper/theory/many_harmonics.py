@@ -22,19 +22,13 @@ from impact_damper.theory.free_oscillator import main_solutions
 class Balance:
     """The equations of harmonic balance for one oscillator, damper and forcing frequency.
 
-    Attributes
-    ----------
-    oscillator : Oscillator
-    damper : Damper or None
-    frequency : float
-        W, dimensionless.
-    highest : int
-        N, the highest retained harmonic of the base frequency.
-    period : int
-        n, period of the motion in forcing cycles; the base frequency is nu = W/n.
-    symmetric : bool
-        If True, only odd harmonics are retained, for motions with Z(T + half a period) = -Z(T);
-        then n and N must be odd. If False, all harmonics from 0 to N are retained.
+    oscillator: Oscillator.
+    damper: Damper or None.
+    frequency: W, dimensionless.
+    highest: N, the highest retained harmonic of the base frequency.
+    period: n, period of the motion in forcing cycles; the base frequency is nu = W/n.
+    symmetric: If True, only odd harmonics are retained, for motions with Z(T + half a period) =
+        -Z(T); then n and N must be odd. If False, all harmonics from 0 to N are retained.
     """
 
     oscillator: object
@@ -190,19 +184,13 @@ LEAST_DAMPING = 1e-4
 class Solution(NamedTuple):
     """Last iterate of Newton's method, which is a solution if the status is "converged".
 
-    Attributes
-    ----------
-    balance : Balance
-    coefficients : numpy.ndarray of complex, shape (2, m)
-        Fourier coefficients c_k, k >= 0, of Z1 and Z2 (see `fourier`). Without a damper the
-        coefficients of Z1 only, shape (1, m).
-    status : str
-        "converged"; "stalled" if even the shortest admitted step fails the test of `solve`; or
+    balance: Balance.
+    coefficients: Fourier coefficients c_k, k >= 0, of Z1 and Z2 (see `fourier`). Without a damper
+        the coefficients of Z1 only, shape (1, m).
+    status: "converged"; "stalled" if even the shortest admitted step fails the test of `solve`; or
         "iteration_limit" if the number of steps was reached.
-    iterations : int
-        Number of steps of Newton's method.
-    residual : float
-        Largest modulus of an entry of the residual, in the real form of `Balance.to_real`.
+    iterations: Number of steps of Newton's method.
+    residual: Largest modulus of an entry of the residual, in the real form of `Balance.to_real`.
     """
 
     balance: Balance

@@ -18,14 +18,9 @@ from impact_damper.theory.roots import polynomial_roots, smooth_roots
 class Solutions(NamedTuple):
     """Solutions of the balance at one frequency, arrays of shape (count,).
 
-    Attributes
-    ----------
-    amplitude : numpy.ndarray
-        a, signed amplitude of Z1: negative in antiphase to Z2.
-    relative_amplitude : numpy.ndarray
-        b > 0, amplitude of Z2.
-    phase : numpy.ndarray
-        t1 in (-pi, pi], phase of Z2 relative to the forcing; also the phase of Z1 if a > 0.
+    amplitude: a, signed amplitude of Z1: negative in antiphase to Z2.
+    relative_amplitude: b > 0, amplitude of Z2.
+    phase: t1 in (-pi, pi], phase of Z2 relative to the forcing; also the phase of Z1 if a > 0.
     """
 
     amplitude: np.ndarray
@@ -36,16 +31,11 @@ class Solutions(NamedTuple):
 class RigidSolutions(NamedTuple):
     """Solutions for rigid walls (r1 to infinity, b = d0), arrays of shape (count,).
 
-    Attributes
-    ----------
-    tangent : numpy.ndarray
-        D = tan(t1/2), a root of (14).
-    amplitude, phase : numpy.ndarray
-        a and t1 as in `Solutions`.
-    pulling : numpy.ndarray of bool
-        True where a > d0. There the contact force would be tensile, so (7) has no such solution.
-    residual : numpy.ndarray
-        Residual of (13a), left side minus right side.
+    tangent: D = tan(t1/2), a root of (14).
+    amplitude, phase: a and t1 as in `Solutions`.
+    pulling: True where a > d0. There the contact force would be tensile, so (7) has no such
+        solution.
+    residual: Residual of (13a), left side minus right side.
     """
 
     tangent: np.ndarray

@@ -31,16 +31,10 @@ class Flight(NamedTuple):
     of the forced response, impulses 4 q/pi at the phase s, and walls farther out by the depth of a
     contact.
 
-    Attributes
-    ----------
-    mass_ratio, restitution : float
-        rm and e, dimensionless.
-    contact : float
-        k, phase that an elastic contact lasts, divided by pi; 0 for rigid walls.
-    damping : float
-        g = h/W.
-    stiffness : float
-        l = omega_l/W, below 1.
+    mass_ratio, restitution: rm and e, dimensionless.
+    contact: k, phase that an elastic contact lasts, divided by pi; 0 for rigid walls.
+    damping: g = h/W.
+    stiffness: l = omega_l/W, below 1.
     """
 
     mass_ratio: float

@@ -139,16 +139,10 @@ def _no_band():
 class _Look(NamedTuple):
     """The solutions of (7) and the free motions at one frequency.
 
-    Attributes
-    ----------
-    count : int
-        Number of solutions of (7).
-    stable : numpy.ndarray
-        |a| of the stable solutions, ascending.
-    resonance : float
-        Amplitude of the free resonance branch; NaN beyond its end.
-    least_free : float
-        Smallest amplitude of a free motion.
+    count: Number of solutions of (7).
+    stable: |a| of the stable solutions, ascending.
+    resonance: Amplitude of the free resonance branch; NaN beyond its end.
+    least_free: Smallest amplitude of a free motion.
     """
 
     count: int

@@ -18,10 +18,7 @@ FREQUENCIES = np.linspace(0.3, 1.7, 1401)
 class Tuning(NamedTuple):
     """A tuned mass damper.
 
-    Attributes
-    ----------
-    mass_ratio, frequency, damping_ratio : float
-        m, f and z.
+    mass_ratio, frequency, damping_ratio: m, f and z.
     """
 
     mass_ratio: float
