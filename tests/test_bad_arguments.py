@@ -48,12 +48,12 @@ span = st.sampled_from(
 )
 span |= st.sampled_from([(math.nan, 3.0), (1.0, math.inf), ("1", "3"), (1.0, 1e9), (1e-9, 3.0)])
 
-motion = {"oscillator": no_oscillator, "damper": no_damper, "frequency": positive}
+motion = {"system": no_oscillator, "damper": no_damper, "frequency": positive}
 # None is allowed as radius: the starts are then scaled by the motions without the damper.
 radius = positive.filter(lambda value: value is not None)
 search = {"starts": count, "radius": radius, "seed": seed, "workers": count}
-search |= {"settling": no_settling, "oscillator": no_oscillator}
-GOOD = {"oscillator": OSCILLATOR, "damper": DAMPER}
+search |= {"settling": no_settling, "system": no_oscillator}
+GOOD = {"system": OSCILLATOR, "damper": DAMPER}
 MOVING = GOOD | {"frequency": 2.0, "state": STATE}
 
 # For each public function valid arguments, and for each argument wrong values.
@@ -142,28 +142,22 @@ FUNCTIONS = {
     ),
     "harmonic_balance_response": (
         GOOD | {"frequencies": [2.0]},
-        {"oscillator": no_oscillator, "damper": no_damper, "frequencies": increasing},
+        {"system": no_oscillator, "damper": no_damper, "frequencies": increasing},
     ),
     "suppression_band": (
         GOOD,
-        {"oscillator": no_oscillator, "damper": no_damper | st.none()},
+        {"system": no_oscillator, "damper": no_damper | st.none()},
     ),
     "optimum_clearance": (
-        {"oscillator": OSCILLATOR, "mass_ratio": 0.1},
-        {"oscillator": no_oscillator, "mass_ratio": positive},
+        {"system": OSCILLATOR, "mass_ratio": 0.1},
+        {"system": no_oscillator, "mass_ratio": positive},
     ),
     "clearance_sweep": (
-        {"oscillator": OSCILLATOR, "damper": {"mass_ratio": 0.12}, "frequency": 2.0}
+        {"system": OSCILLATOR, "damper": {"mass_ratio": 0.12}, "frequency": 2.0}
         | {"clearances": [1.9, 2.0], "starts": 1},
         search
         | {"frequency": positive, "clearances": increasing | st.just([2.0])}
-        | {"damper": no_damper | st.sampled_from([None, DAMPER, {"mass": 0.1}, {"clearance": 1}])},
-    ),
-    "subharmonic_suppression": (
-        GOOD | {"frequencies": [1.8, 2.0], "starts": 2},
-        search
-        | {"starts": count | st.just(1), "damper": no_damper | st.none()}
-        | {"frequencies": increasing | st.just([2.0])},
+        | {"damper": no_damper | st.sampled_from([None, {"mass": 0.1}, {"clearance": 1}])},
     ),
     "basins": (
         GOOD | {"frequency": 1.95, "cells": 2},
@@ -194,15 +188,9 @@ FUNCTIONS = {
     ),
     "complete_branches": (
         GOOD | {"frequencies": (1.9, 2.1), "motions": []},
-        {"oscillator": no_oscillator, "damper": no_damper}
+        {"system": no_oscillator, "damper": no_damper}
         | {"frequencies": span.filter(lambda ends: ends != (2.5, 2.9))}
         | {"motions": st.sampled_from([None, 3, "motions", [1], [DAMPER], {}])},
-    ),
-    "harmonic_convergence": (
-        GOOD | {"frequency": 2.0, "harmonics": [1, 3]},
-        motion
-        | {"harmonics": increasing | st.sampled_from([[2, 4], [1.5, 3], [0, 1], [1, 10**6]])}
-        | {"cold": no_sequences | st.sampled_from([[5], [-1], [math.nan]])},
     ),
 }
 
@@ -239,5 +227,5 @@ def test_an_inelastic_damper_has_no_harmonic_balance():
 
 
 def test_a_contact_too_fast_for_the_forcing_is_told():
-    with pytest.raises(ValueError, match="contact_stiffness = 1e.09: with mass_ratio = 1e-06 and"):
+    with pytest.raises(ValueError, match="contact_stiffness = 1e9: with mass_ratio = 1e-6 and"):
         idm.simulate(OSCILLATOR, idm.Damper(1e-6, 1.0, 1.0, 1e9), 2.0)

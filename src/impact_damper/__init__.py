@@ -18,7 +18,6 @@ Motions
     simulate                    one motion from a given state
     steady_motion               the motion to which a state leads
     frequency_response          all motions found at each frequency
-    subharmonic_suppression     the one-third subharmonic without and with a damper
     basins                      the motion to which each state of a plane leads
     migrate                     from the resonance to a small motion, by switching the damper
 
@@ -26,7 +25,7 @@ Periodic orbits, stable or not
     periodic_orbit, orbit_branch, complete_branches
 
 Harmonic balance
-    harmonic_balance_response, suppression_band, optimum_clearance, harmonic_convergence
+    harmonic_balance_response, suppression_band, optimum_clearance
 
 Design
     clearance_sweep             the clearance with the smallest quiet motion
@@ -54,7 +53,6 @@ _HOMES = {
     "simulate": "motions.simulate",
     "steady_motion": "motions.steady",
     "frequency_response": "motions.response",
-    "subharmonic_suppression": "chatterjee1995.stages.subharmonic",
     "basins": "orbits.basins",
     "migrate": "motions.migration",
     "periodic_orbit": "orbits.orbit_branch",
@@ -63,29 +61,11 @@ _HOMES = {
     "harmonic_balance_response": "theory.harmonic_balance",
     "suppression_band": "theory.suppression_band",
     "optimum_clearance": "theory.harmonic_balance",
-    "harmonic_convergence": "chatterjee1995.stages.harmonic_convergence",
     "clearance_sweep": "orbits.clearance_sweep",
     "design_damper": "design.design_damper",
     "decode": "data.datasets",
 }
 
-# Functions that also take a machine in place of the oscillator, with all arguments in SI units.
-_OF_MACHINES = {
-    "simulate",
-    "steady_motion",
-    "frequency_response",
-    "harmonic_balance_response",
-    "suppression_band",
-    "optimum_clearance",
-    "clearance_sweep",
-    "subharmonic_suppression",
-    "basins",
-    "migrate",
-    "periodic_orbit",
-    "orbit_branch",
-    "complete_branches",
-    "harmonic_convergence",
-}
 
 __all__ = list(_HOMES)
 
@@ -99,8 +79,6 @@ def __getattr__(name):
         words = nearest(name, _HOMES)
         raise AttributeError(f"module 'impact_damper' has no attribute {name!r}{words}")
     found = getattr(import_module(f"impact_damper.{_HOMES[name]}"), name)
-    if name in _OF_MACHINES:
-        found = import_module("impact_damper.data.arguments").takes_machine(found)
     if not isinstance(found, type):
         found = import_module("impact_damper.model.names").names_arguments(found)
     # Once loaded, a name is found without this function.

@@ -4,8 +4,7 @@ import json
 
 import numpy as np
 
-from impact_damper.data.datasets import flag
-from impact_damper.data.results import shown_variable
+from impact_damper.data.datasets import flag, shown_variable
 from impact_damper.design.labelled import labelled
 
 FREQUENCY = np.linspace(26.0, 34.0, 5)

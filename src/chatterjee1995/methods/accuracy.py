@@ -14,10 +14,11 @@ from chatterjee1995.methods.integrators import runs_of_accuracy
 from chatterjee1995.methods.integrators.taylor import taylor
 from chatterjee1995.methods.labels import ERRORS, START_HARMONICS, STATISTICS
 from impact_damper.data.datasets import dataset, flag
+from impact_damper.model.arguments import Model, read_state
 from impact_damper.model.bounds import PERIODS_RANGE, check_count
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper, Oscillator, describe, pick
-from impact_damper.motions.simulate import COMPONENTS, check_state
+from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.strobe_map import strobe_time
 
 # Length of the reference run of a chaotic motion, divided by the length of the compared runs.
@@ -61,7 +62,7 @@ class ComparisonScene(NamedTuple):
     def check(self):
         """Raise TypeError or ValueError if an attribute is not of its kind or out of range."""
         check_count("periods", self.periods, **PERIODS_RANGE)
-        check_state(self.state, self.damper)
+        read_state(Model(self.oscillator, self.damper), self.state)
         quantity = self.accuracy["quantity"]
         allowed = STATISTICS if self.motion == "chaotic" else ERRORS
         if quantity not in allowed:

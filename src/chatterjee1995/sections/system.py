@@ -5,7 +5,6 @@ is not a key: linear machines on a shaker are entries of `machines`.
 """
 
 import math
-from dataclasses import fields
 from typing import ClassVar
 
 from pydantic import create_model
@@ -21,16 +20,17 @@ from impact_damper.model.bounds import (
     PERIODS_RANGE,
     RADIUS_RANGE,
 )
-from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.parameters import Damper, Oscillator, parameters_in
 from impact_damper.theory.design_rule import rule_clearance
 
 BOUNDS, MEANINGS = (
-    {each.name: each.metadata[key] for part in (Oscillator, Damper) for each in fields(part)}
+    {each.name: each.metadata[key] for part in (Oscillator, Damper) for each in parameters_in(part)}
     for key in ("bounds", "meaning")
 )
 BOUNDS["frequency"], MEANINGS["frequency"] = FREQUENCY_RANGE, "W, forcing frequency"
 OSCILLATOR, DAMPER = (
-    [each.name for each in fields(part) if each.name != "shaker"] for part in (Oscillator, Damper)
+    [each.name for each in parameters_in(part) if each.name != "shaker"]
+    for part in (Oscillator, Damper)
 )
 PARAMETERS = {name: number(MEANINGS[name], **BOUNDS[name]) for name in BOUNDS}
 

@@ -112,11 +112,10 @@ def simulate(
     """Integrate one motion, without the damper if no gap is given."""
     import numpy as np
 
-    from impact_damper.data.arguments import takes_machine
     from impact_damper.motions import simulate as motions
 
     given = read(machine_file)
-    motion = takes_machine(motions.simulate)(
+    motion = motions.simulate(
         machine(given),
         damper(given, gap),
         quantity(frequency),
@@ -146,7 +145,6 @@ def response(
     """Find all motions over the band, without the damper if no gap is given."""
     import numpy as np
 
-    from impact_damper.data.arguments import takes_machine
     from impact_damper.data.datasets import is_settled
     from impact_damper.model.units import si_value
     from impact_damper.motions.response import frequency_response
@@ -154,7 +152,7 @@ def response(
     given = read(machine_file)
     band = given["band"]
     ends = (si_value("band", band[end], "frequency") for end in ("first", "last"))
-    found = takes_machine(frequency_response)(
+    found = frequency_response(
         machine(given),
         damper(given, gap),
         np.linspace(*ends, band["points"]),

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -9,13 +10,17 @@ import xarray as xr
 
 from impact_damper.data.variables import VARIABLES
 from impact_damper.data.whole_files import BrokenFileError, check_length, whole_netcdf
+from impact_damper.model.arguments import PHASES, STATE, STATE_UNITS
 from impact_damper.model.bounds import shown
+from impact_damper.model.families import facts_of
+from impact_damper.model.machine import Machine, describe_si
 from impact_damper.model.parameters import Damper, Oscillator, pick
+from impact_damper.model.units import QUANTITIES
 
 SOURCE = "impact-damper"
 
-# Coordinates with the forcing phases of states; a state taken from a dataset keeps them.
-PHASES = ("state_phase", "orbit_phase")
+# Kinds that are the same in all units; a mixed number stays in the scales of the machine.
+PURE = ("number", "angle", "mixed")
 # Largest number of values read at once from an open file.
 PIECE = 2**14
 
@@ -40,18 +45,30 @@ def variable(name, data, dims=None) -> xr.Variable:
     return xr.Variable(entry.dims if dims is None else dims, data, attributes)
 
 
-def dataset(data, coordinates, parameters, title) -> xr.Dataset:
+def shown_variable(name, values, dims=None):
+    """Return a registered variable whose values are in the unit of datasets of machines.
+
+    This is mm for displacements, otherwise the SI unit of the kind.
+    """
+    found = variable(name, values, dims)
+    found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
+    return found
+
+
+def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
     """Return a dataset of registered variables.
 
     Parameters
     ----------
     data, coordinates : dict
-        Arrays keyed by registered name. A value may also be a pair (dims, array), where `dims`
-        replaces the registered dimensions.
+        Dimensionless arrays keyed by registered name. A value may also be a pair (dims, array),
+        where `dims` replaces the registered dimensions.
     parameters : dict
         Parameters from which the data were computed; stored as a JSON attribute.
     title : str
         One line that describes the dataset.
+    model : Model, optional
+        If it is a machine, the dataset is converted by `in_si`.
 
     Returns
     -------
@@ -82,7 +99,76 @@ def dataset(data, coordinates, parameters, title) -> xr.Dataset:
             "parameters": json.dumps(parameters, sort_keys=True),
         },
     )
-    return found.set_coords([name for name in PHASES if name in found])
+    found = found.set_coords([name for name in PHASES if name in found])
+    if model is None or model.machine is None:
+        return found
+    return in_si(found, model.machine, model.machine_damper)
+
+
+def in_si(data, machine, damper=None) -> xr.Dataset:
+    """Return a dataset of the dimensionless equations in the units of a machine.
+
+    Each variable has the unit in its attribute `units`: mm, m/s, Hz, s, N and others. States are in
+    m and m/s, so that functions accept them. Clearances are on each side. The attribute `machine`
+    holds machine and damper in SI units, with `gap` as the full play; `scales` holds the scales,
+    and `parameters` the dimensionless parameters.
+    """
+    scales = machine.scales
+    found = _converted(data, lambda values, unit: values * unit, scales)
+    for name in found.variables:
+        _name_unit(found[name], _kind(name, data))
+    texts = {
+        "machine": describe_si(machine, damper),
+        "scales": {name: getattr(scales, name) for name in ("length", "time", "mass")},
+    }
+    return found.assign_attrs(
+        {name: json.dumps(value, sort_keys=True) for name, value in texts.items()}
+    )
+
+
+def from_si(data, scales) -> xr.Dataset:
+    """Return a dataset in the units of a user converted to these scales."""
+    return _converted(data, lambda values, unit: values / unit, scales) if scales.si else data
+
+
+def _converted(data, convert, scales):
+    """Return a dataset with each variable converted by the unit of its kind."""
+    found = {}
+    for name, each in data.variables.items():
+        kind = _kind(name, data)
+        if kind == "state":
+            unit = np.array([scales.unit(part) for part in STATE])
+        elif kind in PURE:
+            continue
+        else:
+            unit = scales.unit(kind) * QUANTITIES[kind].factor
+        found[name] = each.copy(data=convert(each.values, unit))
+    coordinates = {name: found.pop(name) for name in list(found) if name in data.coords}
+    return data.assign(found).assign_coords(coordinates)
+
+
+def _kind(name, data):
+    """Return the kind of a variable; for a followed value, the kind of the parameter."""
+    kind = VARIABLES[name].kind
+    if kind != "followed":
+        return kind
+    # the coordinate of a sweep is its parameter
+    swept = "clearance" if "clearance" in data.coords else "frequency"
+    _, kind, _ = facts_of(parameters_of(data).get("parameter", swept))
+    return kind
+
+
+def _name_unit(variable, kind):
+    """Set the attributes of a converted variable in place."""
+    if kind == "state":
+        variable.attrs["units"] = STATE_UNITS
+    elif kind == "mixed":
+        variable.attrs["long_name"] += ", in the scales of the machine"
+    elif kind not in PURE:
+        variable.attrs["units"] = QUANTITIES[kind].label
+        variable.attrs.pop("symbol", None)
+    if kind == "clearance":
+        variable.attrs["long_name"] += ", on each side"
 
 
 def flag(name, meaning) -> int:
@@ -170,6 +256,18 @@ def damper_of(data, **others) -> Damper:
     are not among its parameters.
     """
     return Damper(**pick(Damper, parameters_of(data)), **others)
+
+
+def system_of(data) -> tuple:
+    """Return the system and the damper, or None, that a dataset was computed for."""
+    if "machine" not in data.attrs:
+        return oscillator_of(data), damper_of(data) if has_damper(data) else None
+    made = json.loads(data.attrs["machine"])
+    machine = Machine(**{each.name: made.get(each.name, each.default) for each in fields(Machine)})
+    if "damper_mass" not in made:
+        return machine, None
+    contact = {name: made[name] for name in ("gap", "restitution", "contact_stiffness")}
+    return machine, machine.damper(mass=made["damper_mass"], **contact)
 
 
 def has_damper(data) -> bool:

@@ -10,8 +10,7 @@ W T is the phase of the forcing.
 import numpy as np
 import xarray as xr
 
-from impact_damper.data.datasets import flag, touches_no_wall
-from impact_damper.data.results import from_si
+from impact_damper.data.datasets import flag, from_si, touches_no_wall
 from impact_damper.data.shares import wilson_intervals
 from impact_damper.design.costs import measured_costs, pressure_costs
 from impact_damper.design.labelled import SIDES, labelled
@@ -65,7 +64,7 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     reached = by_chance | (placed & ~alone)
     untouched = np.where(placed & alone & ~by_chance, sizes, -np.inf).max(axis=1)
     columns = np.argmax(np.where(reached, sizes, -np.inf), axis=1)
-    states = from_si(response, task.machine)["state"].values
+    states = from_si(response, task.scales)["state"].values
     rows = []
     for k, (column, frequency) in enumerate(zip(columns, task.grid, strict=True)):
         settled = response["outcome"].values[k, column] == flag("outcome", "settled")

@@ -5,16 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from impact_damper.data.arguments import takes_machine
-from impact_damper.data.datasets import dataset, flag, is_settled
-from impact_damper.data.results import shown_variable
+from impact_damper.data.datasets import dataset, flag, is_settled, shown_variable
 from impact_damper.model.bounds import shown
 from impact_damper.model.dampers import MachineDamper
 from impact_damper.model.machine import Machine, describe_si
 from impact_damper.motions.simulate import COMPONENTS, simulate
 from impact_damper.motions.steady import steady_motion
 
-_simulate, _steady_motion = map(takes_machine, (simulate, steady_motion))
 # Search for the stiffness.
 # MOST_MOTIONS: largest number of motions that are computed.
 # AGREED: the search has converged when the relative change of the stiffness is smaller.
@@ -78,7 +75,7 @@ def hertz_stiffness(machine, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, s
     while status == "not_consistent" and count < MOST_MOTIONS:
         count += 1
         linear = replace(damper, contact=None, contact_stiffness=stiffness)
-        steady = _steady_motion(machine, linear, frequency, state, settling=settling)
+        steady = steady_motion(machine, linear, frequency, state, settling=settling)
         if not is_settled(steady):
             rests = float(steady["contacts"]) == 0
             status = "no_contact" if rests else "not_settled"
@@ -114,7 +111,7 @@ def _fastest_impact(machine, damper, frequency, steady):
     The returned state (m, m/s) is at the beginning of a forcing cycle. `steady` is the dataset from
     `steady_motion`. Its state is a quarter of a forcing cycle after the beginning of a cycle.
     """
-    run = _simulate(
+    run = simulate(
         machine,
         damper,
         frequency,

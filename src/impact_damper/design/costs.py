@@ -21,13 +21,12 @@ the mass ratio.
 
 import numpy as np
 
-from impact_damper.data.arguments import takes_machine
-from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.results import shown_variable
+from impact_damper.data.datasets import dataset, flag, shown_variable
 from impact_damper.design.panels import integrals, largest, logged, sampled
 from impact_damper.kernel.equation import energy, forcing_amplitude, spring
 from impact_damper.kernel.single import side_of
-from impact_damper.model.bounds import check_count, check_number, shown
+from impact_damper.model.arguments import read_forced, read_state
+from impact_damper.model.bounds import check_count, shown
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.machine import check_fit
 from impact_damper.model.packed import (
@@ -36,10 +35,7 @@ from impact_damper.model.packed import (
     DAMPING,
     DASHPOT,
     FREQUENCY,
-    pack,
 )
-from impact_damper.model.parameters import check_damper, describe
-from impact_damper.motions.simulate import check_state
 from impact_damper.motions.strobe_map import strobe_time
 
 # If the first state is in a contact, the next flight is sought within PATIENCE forcing cycles.
@@ -125,17 +121,14 @@ def pressure_costs(machine, damper, contact, speed) -> dict:
     }
 
 
-@takes_machine
-def _costs(oscillator, damper, frequency, state, periods, *, start=None):
+def _costs(machine, damper, frequency, state, periods, *, start=None):
     """Return the dataset of `measured_costs`; the arguments are those of `motion_costs`."""
-    check_damper(damper)
-    p = pack(oscillator, damper, frequency)
-    y = check_state(state, damper)
+    model = read_forced(machine, damper, frequency)
+    p, y = model.pack(), read_state(model, state)
     check_count("periods", periods, most=MOST_PERIODS)
-    begin = strobe_time(p) if start is None else check_number("start", start)
-    parameters = describe(oscillator, damper)
-    parameters |= {"frequency": float(frequency), "periods": int(periods)}
-    return dataset(measured_costs(p, y, begin, periods), {}, parameters, "Costs of a motion")
+    begin = strobe_time(p) if start is None else model.scales.read("start", start, "time")
+    made = model.describe() | {"periods": int(periods)}
+    return dataset(measured_costs(p, y, begin, periods), {}, made, "Costs of a motion", model)
 
 
 def measured_costs(p, y, begin, periods) -> dict:

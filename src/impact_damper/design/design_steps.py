@@ -10,8 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from impact_damper.data.arguments import takes_machine
-from impact_damper.data.results import shown_variable
+from impact_damper.data.datasets import shown_variable
 from impact_damper.data.variables import VARIABLES
 from impact_damper.design import choose, cliff, compare, deviations, labelled, operating
 from impact_damper.design.absorber_responses import SHARES, absorber_responses
@@ -28,7 +27,6 @@ from impact_damper.model.settling import Settling
 from impact_damper.motions.response import frequency_response
 from impact_damper.orbits.all_branches import complete_branches
 
-_complete_branches, _response = map(takes_machine, (complete_branches, frequency_response))
 # A swept sine changes the frequency at the rate SWEEP (damping ratio x natural frequency in Hz)^2
 # Hz/s, or faster if it would last longer than MOST_SWEPT cycles.
 SWEEP, MOST_SWEPT = 4.0, 6000
@@ -149,10 +147,10 @@ class DesignSteps(NamedTuple):
         searched = {"starts": task.starts, "seed": task.seed, "settling": settling}
         searched |= self.running("Response")
         damper = task.damper(1e-3 * gap)
-        motions = _response(task.machine, damper, task.grid, **searched)
-        orbits = _complete_branches(task.machine, damper, span, [motions])
-        alone = _response(task.machine, None, task.grid, **searched)
-        alone = _complete_branches(task.machine, None, span, [alone])
+        motions = frequency_response(task.machine, damper, task.grid, **searched)
+        orbits = complete_branches(task.machine, damper, span, [motions])
+        alone = frequency_response(task.machine, None, task.grid, **searched)
+        alone = complete_branches(task.machine, None, span, [alone])
         bare = {new: shown_variable(new, alone[old].values) for old, new in BARE.items()}
         # The motions have a variable `branch`, so the dimension `branch` of the orbits is renamed.
         # All steps get the same coordinate `frequency`.

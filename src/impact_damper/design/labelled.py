@@ -8,8 +8,7 @@ classes that are turned into datasets here explain their attributes.
 import numpy as np
 import xarray as xr
 
-from impact_damper.data.datasets import SOURCE, flag
-from impact_damper.data.results import shown_variable
+from impact_damper.data.datasets import SOURCE, flag, shown_variable
 from impact_damper.data.shares import BOUNDS
 from impact_damper.design.choose import Comparison
 from impact_damper.design.masses import is_best

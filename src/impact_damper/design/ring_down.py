@@ -8,8 +8,7 @@ import math
 import numpy as np
 from scipy.special import ellipk
 
-from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.results import in_si
+from impact_damper.data.datasets import dataset, flag, in_si
 from impact_damper.design.swept_sine import EQUIPMENT, TOLERANCE
 from impact_damper.kernel.equation import energy
 from impact_damper.model.bounds import FARTHEST

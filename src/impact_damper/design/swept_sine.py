@@ -12,8 +12,7 @@ import math
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.results import in_si
+from impact_damper.data.datasets import dataset, flag, in_si
 from impact_damper.model.bounds import shown
 from impact_damper.model.machine import check_fit
 from impact_damper.model.packed import FORCE, FREQUENCY, UNBALANCE, pack

@@ -21,6 +21,7 @@ RESTITUTION_RANGE = {
     "most": 1.0,
     "why": "below, the dashpot nears critical damping",
 }
+AMPLITUDE_RANGE = {"least": 0.0, "most": 1e6}
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
 # Largest ratio of the natural frequency of the contact to the forcing frequency. While the loose
 # mass stays in contact, a run takes about this number of integration steps in a forcing cycle.
@@ -67,14 +68,15 @@ STEPS_RANGE = {"least": 1, "most": 10**5}
 MOST_STEPS_RANGE = {"least": 1, "most": 10**7}
 
 
-def parameter(bounds, symbol, meaning, **default):
-    """Return a dataclass field for a number within `bounds`.
+def parameter(bounds, kind, symbol, meaning, *, machine=None, **default):
+    """Return a dataclass field for a dimensionless number within `bounds`.
 
     The field's metadata keep the facts about a parameter in one place. `check_parameters` reads the
-    bounds, tables and captions read the symbol, and the configuration reads the bounds and the
-    meaning. The stored meaning begins with the symbol.
+    bounds, errors read the kind (a key of `units.QUANTITIES`) and the name for a machine, tables
+    and captions read the symbol, and the configuration reads the bounds and the meaning.
     """
-    metadata = {"bounds": bounds, "symbol": symbol, "meaning": f"{symbol}, {meaning}"}
+    metadata = {"bounds": bounds, "kind": kind, "symbol": symbol, "machine": machine}
+    metadata["meaning"] = f"{symbol}, {meaning}"
     return field(metadata=metadata, **default)
 
 
@@ -89,6 +91,8 @@ def check_parameters(part):
         As `check_number`, if a field is not a number or out of range.
     """
     for each in fields(part):
+        if "bounds" not in each.metadata:
+            continue
         value = getattr(part, each.name)
         number = check_number(each.name, value, **each.metadata["bounds"])
         if hasattr(value, "ndim"):  # a number of NumPy or xarray

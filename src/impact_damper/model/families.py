@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from impact_damper.model.bounds import shown
-from impact_damper.model.checks import check_span
+from impact_damper.model.arguments import read_span
+from impact_damper.model.bounds import FREQUENCY_RANGE, shown
 from impact_damper.model.names import nearest
 from impact_damper.model.packed import DASHPOT, FORCE, SHAKER, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
@@ -27,6 +27,53 @@ PARAMETERS = {
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
 # Index in the packed array (see `packed`) of each part of the forcing amplitude.
 FORCING = {"force": FORCE, "unbalance": UNBALANCE, "shaker": SHAKER}
+
+
+def facts_of(parameter) -> tuple:
+    """Return name for a machine, kind and bounds of a parameter."""
+    owner = PARAMETERS[parameter]
+    if owner is None:
+        return parameter, "frequency", FREQUENCY_RANGE
+    facts = owner.__dataclass_fields__[parameter].metadata
+    return facts["machine"] or parameter, facts["kind"], facts["bounds"]
+
+
+def read_followed(model, parameter, span) -> tuple:
+    """Return the arguments `parameter` and `span` of a branch, dimensionless.
+
+    Parameters
+    ----------
+    model : Model
+    parameter : str
+        A key of PARAMETERS, or its name for a machine.
+    span : sequence of two values
+        Least and greatest value of the parameter, in the unit of the user.
+
+    Returns
+    -------
+    str, (float, float)
+
+    Raises
+    ------
+    TypeError, ValueError
+        If there is no such parameter, an end of the span is out of the bounds of the parameter, or
+        the span does not hold the value of the model.
+    """
+    scales, damper = model.scales, model.damper
+    names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}
+    if not isinstance(parameter, str) or parameter not in names:
+        allowed = ", ".join(names) + nearest(parameter, names)
+        raise ValueError(f"parameter = {shown(parameter)}: must be one of {allowed}")
+    name = names[parameter]
+    owner, (_, kind, bounds) = PARAMETERS[name], facts_of(name)
+    if owner is Damper and damper is None:
+        raise ValueError(f"parameter = {parameter!r}: there is no damper to change")
+    least, most = read_span(scales, "span", span, kind, **bounds)
+    part = {None: model, Oscillator: model.oscillator, Damper: damper}[owner]
+    if not least <= getattr(part, name) <= most:
+        told = scales.told(parameter, getattr(part, name), kind)
+        raise ValueError(f"span = {shown(span)}: must hold {told}")
+    return name, (least, most)
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
@@ -55,25 +102,15 @@ def family_of(oscillator, damper, frequency, parameter, span):
     Raises
     ------
     ValueError
-        If there is no such parameter, if its value lies outside the span, or if an end of the span
-        is out of the bounds of the parameter.
+        If the contact is too stiff at an end of the span.
     """
-    pack(oscillator, damper, frequency)
-    if not isinstance(parameter, str) or parameter not in PARAMETERS:
-        allowed = ", ".join(PARAMETERS) + nearest(parameter, PARAMETERS)
-        raise ValueError(f"parameter = {shown(parameter)}: must be one of {allowed}")
-    owner = PARAMETERS[parameter]
-    if owner is Damper and damper is None:
-        raise ValueError(f"parameter = {parameter!r}: there is no damper to change")
-    part = {None: None, Oscillator: oscillator, Damper: damper}[owner]
-    value = frequency if owner is None else getattr(part, parameter)
-    least, most = check_span("span", span)
-    if not least <= value <= most:
-        raise ValueError(f"span = {shown(span)}: must hold {parameter} = {value:g}")
+    part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
+    value = frequency if part is None else getattr(part, parameter)
+    least, most = span
     pack_at = _pack_by(oscillator, damper, frequency, parameter)
     try:
-        for bound in (least, most):
-            if owner is not None:
+        for bound in span:
+            if part is not None:
                 replace(part, **{parameter: bound})
             pack_at(bound)
     except ValueError as error:

@@ -152,7 +152,8 @@ class Machine:
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
-        return Scales(length, math.sqrt(self.mass / (stiffness + cubic * length**2)), self.mass)
+        time = math.sqrt(self.mass / (stiffness + cubic * length**2))
+        return Scales(length, time, self.mass, si=True)
 
     def _static_deflection(self):
         """Return the deflection under the force, m.
@@ -215,6 +216,7 @@ class Machine:
             force=scales.from_si(force, "force"),
             unbalance=scales.from_si(unbalance, "unbalance"),
             shaker=scales.from_si(shaker, "shaker"),
+            scales=scales,
         )
 
     def forcing(self, frequency=None) -> tuple[float, float, float]:
@@ -243,7 +245,7 @@ class Machine:
     def check_frequency(self, name, value) -> float:
         """Return a forcing frequency in Hz, or raise an error that names the allowed range."""
         bounds = self.scales.range_to_si(FREQUENCY_RANGE, "frequency")
-        return check_si(name, value, "frequency", **bounds, why=FREQUENCY_RANGE["why"])
+        return check_si(name, value, "frequency", **bounds)
 
     def damper(self, *, mass, gap=None, clearance_each_side=None, **contact) -> MachineDamper:
         """Return a damper for this machine.

@@ -14,6 +14,7 @@ import numpy as np
 from impact_damper.model.bounds import MOST_STIFF
 from impact_damper.model.checks import check_frequency
 from impact_damper.model.parameters import check_damper, check_oscillator
+from impact_damper.model.text import number
 
 NAMES = (
     "FREQUENCY",
@@ -96,11 +97,13 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     check_damper(damper)
     natural = math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
     if natural > MOST_STIFF * frequency:
+        told = oscillator.scales.told
         raise ValueError(
-            f"contact_stiffness = {damper.contact_stiffness:g}: with mass_ratio = "
-            f"{damper.mass_ratio:g} and frequency = {frequency:g}: must be so small that the "
-            f"contact is at most {MOST_STIFF:g} times as fast as the forcing (otherwise a run "
-            f"takes too many steps)"
+            f"{told('contact_stiffness', damper.contact_stiffness, 'stiffness')}: with "
+            f"{told('mass_ratio', damper.mass_ratio, 'number')} and "
+            f"{told('frequency', frequency, 'frequency')}: must be so small that the contact is at "
+            f"most {number(MOST_STIFF)} times as fast as the forcing (otherwise a run takes too "
+            "many steps)"
         )
     p[CLEARANCE] = damper.clearance
     p[CONTACT_STIFFNESS] = damper.contact_stiffness

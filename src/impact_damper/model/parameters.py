@@ -10,9 +10,10 @@ run.
 """
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 
 from impact_damper.model.bounds import (
+    AMPLITUDE_RANGE,
     CLEARANCE_RANGE,
     DAMPING_RANGE,
     MASS_RATIO_RANGE,
@@ -20,15 +21,22 @@ from impact_damper.model.bounds import (
     STIFFNESS_RANGE,
     check_parameters,
     parameter,
-    plain,
     shown,
 )
 from impact_damper.model.names import names_arguments
+from impact_damper.model.scales import UNITLESS, Scales
 
 # Fields of `Oscillator` that are 0 for a linear spring, and the highest power of Z1 in the force of
 # the spring.
 NONLINEAR = ("cubic",)
 SPRING_POWER = 3
+
+
+def _told(part, scales, name):
+    """Return a parameter as "name = value", in the unit of the user."""
+    facts = part.__dataclass_fields__[name].metadata
+    shown_name = facts["machine"] or name if scales.si else name
+    return scales.told(shown_name, getattr(part, name), facts["kind"])
 
 
 def check_oscillator(oscillator):
@@ -72,6 +80,10 @@ class Oscillator:
         acceleration has the same amplitude a at each frequency, as on a shaker. Then V = omega_l^2
         a, and Z1 is the displacement in a frame at rest. Allowed only with a linear spring.
 
+    scales : Scales
+        Scales of the machine that the oscillator describes, in whose units errors are told; all 1
+        by default.
+
     Raises
     ------
     TypeError, ValueError
@@ -84,37 +96,51 @@ class Oscillator:
     (0.0, 1.0)
     """
 
-    damping: float = parameter(DAMPING_RANGE, "h", "damping")
+    damping: float = parameter(DAMPING_RANGE, "damping", "h", "damping")
     linear_frequency: float = parameter(
-        {"least": 0.0, "most": 100.0}, "omega_l", "0 for a purely cubic spring", default=0.0
+        {"least": 0.0, "most": 100.0},
+        "frequency",
+        "omega_l",
+        "0 for a purely cubic spring",
+        machine="natural_frequency",
+        default=0.0,
     )
     cubic: float = parameter(
-        {"least": -1e6, "most": 1e6}, "k3", "coefficient of the cubic spring", default=1.0
+        {"least": -1e6, "most": 1e6},
+        "cubic_stiffness",
+        "k3",
+        "coefficient of the cubic spring",
+        machine="cubic_stiffness",
+        default=1.0,
     )
     force: float = parameter(
-        {"least": 0.0, "most": 1e6}, "F", "amplitude of the external force", default=1.0
+        AMPLITUDE_RANGE, "force", "F", "amplitude of the external force", default=1.0
     )
     unbalance: float = parameter(
-        {"least": 0.0, "most": 1e6}, "U", "adds U W^2 to the amplitude of the force", default=0.0
+        AMPLITUDE_RANGE, "unbalance", "U", "adds U W^2 to the amplitude of the force", default=0.0
     )
     shaker: float = parameter(
-        {"least": 0.0, "most": 1e6}, "V", "adds V/W^2 to the amplitude of the force", default=0.0
+        AMPLITUDE_RANGE, "shaker", "V", "adds V/W^2 to the amplitude of the force", default=0.0
     )
+    scales: Scales = field(default=UNITLESS, repr=False, compare=False, kw_only=True)
 
     def __post_init__(self):
         check_parameters(self)
         if self.shaker:
             self.check_linear(
-                f"with shaker = {self.shaker:g} (on a moving base the force of a nonlinear spring "
+                f"with {self.told('shaker')} (on a moving base the force of a nonlinear spring "
                 "is not harmonic)"
             )
 
     def check_linear(self, why):
         """Raise ValueError if the spring is not linear; `why` ends the message."""
         for name in NONLINEAR:
-            value = getattr(self, name)
-            if value != 0:
-                raise ValueError(f"{name} = {plain(value)}: must be 0 {why}")
+            if getattr(self, name) != 0:
+                raise ValueError(f"{self.told(name)}: must be 0 {why}")
+
+    def told(self, *names) -> str:
+        """Return fields as "name = value" in the unit of the user, with the names of `Machine`."""
+        return ", ".join(_told(self, self.scales, name) for name in names)
 
     @property
     def is_linear(self) -> bool:
@@ -171,11 +197,21 @@ class Damper:
     Damper(mass_ratio=0.12, clearance=2.0, restitution=1.0, contact_stiffness=2000.0)
     """
 
-    mass_ratio: float = parameter(MASS_RATIO_RANGE, "rm", "loose mass over primary mass")
-    clearance: float = parameter(CLEARANCE_RANGE, "d0", "half of the gap of the loose mass")
-    restitution: float = parameter(RESTITUTION_RANGE, "e", "1 for elastic contact", default=1.0)
+    mass_ratio: float = parameter(
+        MASS_RATIO_RANGE, "mass", "rm", "loose mass over primary mass", machine="mass"
+    )
+    clearance: float = parameter(
+        CLEARANCE_RANGE,
+        "clearance",
+        "d0",
+        "half of the gap of the loose mass",
+        machine="clearance_each_side",
+    )
+    restitution: float = parameter(
+        RESTITUTION_RANGE, "number", "e", "1 for elastic contact", default=1.0
+    )
     contact_stiffness: float = parameter(
-        STIFFNESS_RANGE, "r1", "stiffness of the contact springs", default=2000.0
+        STIFFNESS_RANGE, "stiffness", "r1", "stiffness of the contact springs", default=2000.0
     )
 
     def __post_init__(self):
@@ -193,22 +229,29 @@ class Damper:
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)
 
 
+def parameters_in(part) -> list:
+    """Return the fields of a dataclass, or of its instance, that hold parameters."""
+    return [each for each in fields(part) if each.type is not Scales]
+
+
 # Symbol of each parameter by the parameter's name. Tables and captions print the symbols.
 SYMBOLS = {
-    field.name: field.metadata["symbol"] for part in (Oscillator, Damper) for field in fields(part)
+    each.name: each.metadata["symbol"]
+    for part in (Oscillator, Damper)
+    for each in parameters_in(part)
 } | {"frequency": "W"}
 
 
 def describe(*parts) -> dict:
-    """Return the fields of several dataclasses as one dictionary; a part None has no fields."""
+    """Return the parameters in several dataclasses as one dictionary; a part None has none."""
     return {
-        field.name: getattr(part, field.name)
+        each.name: getattr(part, each.name)
         for part in parts
         if part is not None
-        for field in fields(part)
+        for each in parameters_in(part)
     }
 
 
 def pick(kind, values) -> dict:
-    """Return those entries of `values` whose keys are fields of the dataclass `kind`."""
-    return {field.name: values[field.name] for field in fields(kind) if field.name in values}
+    """Return those entries of `values` whose keys are parameters of the dataclass `kind`."""
+    return {each.name: values[each.name] for each in parameters_in(kind) if each.name in values}

@@ -10,6 +10,7 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.shares import BOUNDS, wilson
 from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION
+from impact_damper.model.arguments import read_forced
 from impact_damper.model.bounds import (
     LIFETIME_RANGE,
     PERIODS_RANGE,
@@ -17,8 +18,6 @@ from impact_damper.model.bounds import (
     SEED_RANGE,
     check_count,
 )
-from impact_damper.model.packed import pack
-from impact_damper.model.parameters import check_damper, describe
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.controller import (
@@ -43,24 +42,22 @@ from impact_damper.motions.releases import (
 PAPER_CYCLES = 350
 
 
-def _checked(oscillator, damper, frequency, longest_hold, periods, switchings, settling):
+def _checked(model, longest_hold, periods, switchings, settling):
     """Check arguments of `migrate`; return the `ReleaseCase` and the parameters of the dataset."""
-    check_damper(damper)
-    pack(oscillator, damper, frequency)
+    model.pack()
     check_count("longest_hold", longest_hold, **PERIODS_RANGE)
     check_count("periods", periods, **PERIODS_RANGE)
     check_count("switchings", switchings, most=10**4)
-    made = describe(oscillator, damper, settling) | {
-        "frequency": float(frequency),
+    made = model.describe(settling) | {
         "longest_hold": longest_hold,
         "periods": periods,
         "largest_switchings": switchings,
     }
-    return release_case(oscillator, damper, frequency, settling), made
+    return release_case(model.oscillator, model.damper, model.frequency, settling), made
 
 
 def migrate(
-    oscillator,
+    system,
     damper,
     frequency,
     *,
@@ -78,10 +75,10 @@ def migrate(
 
     Parameters
     ----------
-    oscillator : Oscillator
-    damper : Damper
+    system : Oscillator or Machine
+    damper : Damper or MachineDamper
     frequency : float
-        Forcing frequency W, dimensionless; both free motions of period 1 must exist there.
+        Forcing frequency W, or Hz for a machine; both free motions of period 1 must exist there.
     seed : int or numpy.random.SeedSequence
         Seed of the switching phases and of the places of the loose mass.
     longest_hold : int
@@ -118,9 +115,8 @@ def migrate(
     settling = check_settling(settling)
     if not isinstance(seed, np.random.SeedSequence):
         check_count("seed", seed, **SEED_RANGE)
-    case, made = _checked(
-        oscillator, damper, frequency, longest_hold, periods, switchings, settling
-    )
+    model = read_forced(system, damper, frequency, needs_damper=True)
+    case, made = _checked(model, longest_hold, periods, switchings, settling)
     path, log = control(case, draw(seed, switchings), longest_hold, settling, periods)
     totals = run_totals(log)
     log = log[: totals["switchings"]]
@@ -130,7 +126,7 @@ def migrate(
     data |= {name: ((), value) for name, value in totals.items()}
     drawn = seed.entropy if isinstance(seed, np.random.SeedSequence) else seed
     made |= {"seed": int(drawn), "spawn_key": list(getattr(seed, "spawn_key", ()))}
-    return dataset(data, {"time": times}, made, "Migration control, one run")
+    return dataset(data, {"time": times}, made, "Migration control, one run", model)
 
 
 def _example(totals):
@@ -224,9 +220,8 @@ def trials(
     check_count("releases", releases, **RUNS_RANGE)
     check_count("lifetime", lifetime, **LIFETIME_RANGE)
     check_count("seed", seed, **SEED_RANGE)
-    case, made = _checked(
-        oscillator, damper, frequency, longest_hold, periods, switchings, settling
-    )
+    model = read_forced(oscillator, damper, frequency, needs_damper=True)
+    case, made = _checked(model, longest_hold, periods, switchings, settling)
     runs, watched = (
         root.spawn(number)
         for root, number in zip(

@@ -97,10 +97,11 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
         ]
     )
     if not known[0] + ALIKE < known[1]:
+        told = oscillator.scales.told("frequency", frequency, "frequency")
         raise ValueError(
-            f"frequency = {frequency:g}: without the damper there must be both a non-resonance and "
-            "a resonance motion, since migration leads from one to the other (a linear spring has "
-            "only one motion)"
+            f"{told}: without the damper there must be both a non-resonance and a resonance "
+            "motion, since migration leads from one to the other (a linear spring has only one "
+            "motion)"
         )
     return ReleaseCase(on, off, resonance["state"].copy(), known)
 

@@ -8,6 +8,7 @@ Z1 is the displacement of the primary mass. Multipliers are Floquet multipliers.
 import numpy as np
 
 from impact_damper.data.datasets import dataset
+from impact_damper.model.arguments import read_frequencies, read_radius, read_system
 from impact_damper.model.bounds import (
     LIFETIME_RANGE,
     PERIODS_RANGE,
@@ -15,7 +16,7 @@ from impact_damper.model.bounds import (
     check_count,
     check_number,
 )
-from impact_damper.model.checks import check_frequencies, check_starts
+from impact_damper.model.checks import check_starts
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import Settling, check_settling
@@ -27,7 +28,7 @@ from impact_damper.motions.sweep import sweep
 
 
 def frequency_response(
-    oscillator,
+    system,
     damper,
     frequencies,
     *,
@@ -47,11 +48,11 @@ def frequency_response(
 
     Parameters
     ----------
-    oscillator : Oscillator
-    damper : Damper or None
+    system : Oscillator or Machine
+    damper : Damper, MachineDamper or None
         None: without the damper.
     frequencies : sequence of float
-        Increasing forcing frequencies W, dimensionless.
+        Increasing forcing frequencies W, or Hz for a machine.
     starts : int
         Random starts (initial states) at each frequency.
     radius : float, optional
@@ -101,12 +102,14 @@ def frequency_response(
     array([2.376, 0.893, 0.252])
     """
     settling = check_settling(settling)
-    frequencies = check_frequencies(frequencies)
+    model = read_system(system, damper)
+    frequencies = read_frequencies(model.scales, frequencies)
     check_starts(starts, len(frequencies))
     check_count("seed", seed, **SEED_RANGE)
-    parameters = np.array([pack(oscillator, damper, value) for value in frequencies])
-    systems = [(damper, value) for value in frequencies]
-    search = search_starts(oscillator, systems, starts, radius, seed, settling)
+    radius = read_radius(model.scales, radius)
+    parameters = np.array([model.pack(value) for value in frequencies])
+    systems = [(model.damper, value) for value in frequencies]
+    search = search_starts(model.oscillator, systems, starts, radius, seed, settling)
     data = sweep(
         parameters,
         FREQUENCY,
@@ -128,10 +131,10 @@ def frequency_response(
         progress=progress,
     )
     data |= {name: (("frequency", "motion"), values) for name, values in lives.items()}
-    made = describe(oscillator, damper, settling) | describe_search(starts, radius, seed)
+    made = model.describe(settling) | describe_search(starts, radius, seed)
     made |= {"life_runs": life_runs, "life_periods": life_periods}
     coordinates = {"frequency": frequencies, "component": list(COMPONENTS)}
-    return dataset(data, coordinates, made, "Frequency response")
+    return dataset(data, coordinates, made, "Frequency response", model)
 
 
 def collisions(

@@ -5,114 +5,24 @@ to the loose mass, and both velocities. A state from a dataset has its forcing p
 coordinate, and a motion from this state begins at this phase.
 """
 
-import math
-import warnings
-
 import numpy as np
 
-from impact_damper.data.datasets import PHASES, dataset
+from impact_damper.data.datasets import dataset
+from impact_damper.model.arguments import read_forced, read_start, read_state
 from impact_damper.model.bounds import (
-    FARTHEST,
-    FASTEST,
     MOST_RADIUS,
     PERIODS_RANGE,
     RADIUS_RANGE,
     SEED_RANGE,
     check_count,
     check_number,
-    shown,
 )
-from impact_damper.model.checks import check_numbers
-from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.model.parameters import describe
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions import traces
 
 # Largest number of samples of a motion, which stay in memory.
 MOST_SAMPLES = 10**7
 COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_velocity")
-
-
-def check_state(state, damper):
-    """Return a state as an array of shape (4,).
-
-    Without a damper two numbers suffice. Then Z2 = Z1 and Z2' = Z1', as for a loose mass at rest at
-    the origin.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If the state does not consist of four numbers (or two without a damper), or if a number is
-        out of range.
-
-    Warns
-    -----
-    UserWarning
-        If the penetration of the loose mass into a wall exceeds the clearance.
-    """
-    units = getattr(state, "attrs", {}).get("units", "1")
-    if units != "1":
-        raise ValueError(f"state = {shown(state.values)}: must be dimensionless, not in {units}")
-    if hasattr(state, "coords"):
-        state = np.squeeze(state.values)  # a dataset of one motion has dimensions of length 1
-    values = check_numbers("state", state)
-    allowed = "four finite numbers Z1, Z1', Z2, Z2'"
-    if damper is None:
-        allowed += ", or two without a damper"
-    if damper is None and values.shape == (2,):
-        values = np.concatenate([values, values])
-    if values.shape != (4,):
-        raise ValueError(
-            f"state = {shown(state)}: must be {allowed} "
-            "(the paper's figure 4 gives three; a state of this system has four)"
-        )
-    for i, (value, most) in enumerate(zip(values, [FARTHEST, FASTEST] * 2, strict=True)):
-        check_number(f"state[{i}]", value, least=-most, most=most)
-    if damper is not None and abs(values[2]) > 2 * damper.clearance:
-        _warn_of_compression(values[2], damper)
-    return values
-
-
-def _warn_of_compression(relative, damper):
-    """Warn that a contact is compressed by more than the clearance, and how fast it expands."""
-    rate = math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
-    speed = rate * (abs(relative) - damper.clearance)
-    warnings.warn(
-        f"state[2] with displacement = {relative:g}: the loose mass is beyond its wall, which is "
-        f"at clearance = {damper.clearance:g}; the compressed contact throws the mass back with up "
-        f"to speed = {speed:.3g}",
-        stacklevel=4,
-    )
-
-
-def carried_phase(state):
-    """Return the phase W T that a state of a dataset has as a coordinate, or None."""
-    coordinates = getattr(state, "coords", {})
-    phases = [coordinates[name].item() for name in PHASES if name in coordinates]
-    return check_number("state phase", phases[0]) if phases else None
-
-
-def start_of(state, start, frequency) -> float:
-    """Return the time T of a state.
-
-    It is `start` if this is given, otherwise the time of the phase that a state of a dataset has,
-    otherwise 0.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If `start` is out of range, or if its phase differs from the phase of the state.
-    """
-    phase = carried_phase(state)
-    if start is None:
-        return 0.0 if phase is None else phase / frequency
-    farthest = 1e6 * 2 * np.pi / frequency
-    start = check_number("start", start, least=-farthest, most=farthest)
-    if phase is not None and abs(math.remainder(frequency * start - phase, 2 * np.pi)) > 1e-6:
-        raise ValueError(
-            f"start = {start:.9g}: must be at the phase W T = {phase:.6g} that the state carries, "
-            "or be left out; state.values has no phase"
-        )
-    return start
 
 
 def random_states(count, radius, damper, seed, *, within_gap=True):
@@ -163,7 +73,7 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
 
 
 def simulate(
-    oscillator,
+    system,
     damper,
     frequency,
     state=(0.0, 0.0, 0.0, 0.0),
@@ -177,11 +87,11 @@ def simulate(
 
     Parameters
     ----------
-    oscillator : Oscillator
-    damper : Damper or None
+    system : Oscillator or Machine
+    damper : Damper, MachineDamper or None
         None for a motion without the damper.
     frequency : float
-        Forcing frequency W, dimensionless.
+        Forcing frequency W, or Hz for a machine.
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
         Z1, Z1', Z2, Z2' at time `start`, or a state of a dataset, which has its phase as a
         coordinate.
@@ -218,13 +128,14 @@ def simulate(
     >>> motion.sizes["contact"]
     59
     """
-    p = pack(oscillator, damper, frequency)
-    y = check_state(state, damper)
+    model = read_forced(system, damper, frequency)
+    p = model.pack()
+    y = read_state(model, state)
     check_number("periods", periods, above=0.0, most=PERIODS_RANGE["most"])
     most = max(2, int(min(1e6, MOST_SAMPLES / periods)))
     check_count("samples", samples, least=2, most=most, why=f"at most {MOST_SAMPLES} samples")
     check_number("tolerance", tolerance, least=1e-15, most=1e-2)
-    start = start_of(state, start, float(p[FREQUENCY]))
+    start = read_start(model, state, start)
     length = periods * 2 * np.pi / p[FREQUENCY]
     times = start + np.linspace(0.0, length, max(int(np.ceil(periods * samples)), 1) + 1)
     states = np.empty((len(times), 4))
@@ -243,15 +154,14 @@ def simulate(
         "approach_velocity": log[:, 3],
         "departure_velocity": log[:, 4],
     }
-    if oscillator.softens:
+    if model.oscillator.softens:
         escaped = np.isnan(states[:, 0])
         data["escape_time"] = times[np.argmax(escaped)] if escaped.any() else np.nan
-    parameters = describe(oscillator, damper) | {
-        "frequency": float(frequency),
+    parameters = model.describe() | {
         "state": first.tolist(),
         "start": start,
         "periods": float(periods),
         "samples": int(samples),
         "tolerance": float(tolerance),
     }
-    return dataset(data, {"time": times}, parameters, "Motion of the oscillator")
+    return dataset(data, {"time": times}, parameters, "Motion of the oscillator", model)

@@ -170,10 +170,13 @@ def warn_if_narrow(oscillator, frequencies, radius) -> dict:
     worst = max(sizes, key=lambda w: sizes[w] * max(1.0, w))
     most, fastest = sizes[worst], sizes[worst] * worst
     if max(most, fastest) > radius:
+        told = oscillator.scales.told
         warnings.warn(
-            f"radius = {radius:g}: smaller than the free motion at frequency = {worst:g}, with "
-            f"displacement = {most:.3g} and speed = {fastest:.3g} by harmonic balance; motions "
-            "may be missed; without a radius the search is scaled by the free motions",
+            f"{told('radius', radius, 'displacement')}: smaller than the free motion at "
+            f"{told('frequency', worst, 'frequency')}, with "
+            f"{told('displacement', most, 'displacement')} and "
+            f"{told('speed', fastest, 'velocity')} by harmonic balance; motions may be missed; "
+            "without a radius the search is scaled by the free motions",
             stacklevel=4,
         )
     return {w: (size, size * w) for w, size in sizes.items()}

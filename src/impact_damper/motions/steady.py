@@ -7,26 +7,25 @@ forcing frequency, and T the time.
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
-from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.model.parameters import describe
+from impact_damper.model.arguments import read_forced, read_start, read_state
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import tabulate
-from impact_damper.motions.simulate import COMPONENTS, check_state, simulate, start_of
+from impact_damper.motions.simulate import COMPONENTS, simulate
 from impact_damper.motions.strobe_map import STROBE
 
 
 def steady_motion(
-    oscillator, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, start=None, settling=None
+    system, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, start=None, settling=None
 ):
     """Return the steady motion that a state leads to.
 
     Parameters
     ----------
-    oscillator : Oscillator
-    damper : Damper or None
+    system : Oscillator or Machine
+    damper : Damper, MachineDamper or None
     frequency : float
-        Forcing frequency W, dimensionless.
+        Forcing frequency W, or Hz for a machine.
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
         Z1, Z1', Z2, Z2' at time `start`, or a state of a dataset, which has its phase as a
         coordinate.
@@ -61,21 +60,21 @@ def steady_motion(
     ...     upward.append(steady)
     """
     settling = check_settling(settling)
-    p = pack(oscillator, damper, frequency)
-    y = check_state(state, damper)
-    start = start_of(state, start, float(p[FREQUENCY]))
-    begin = before_strobe(start, float(p[FREQUENCY]))
+    model = read_forced(system, damper, frequency)
+    p = model.pack()
+    y = read_state(model, state)
+    start = read_start(model, state, start)
+    begin = before_strobe(start, model.frequency)
     record = ensemble.settle(p[None], y[None], settling, start=begin)[0]
     data = {name: ((), value) for name, value in tabulate(record).items()}
     data["state"] = (("component",), record["state"])
     data |= {"state_phase": STROBE}
-    parameters = describe(oscillator, damper, settling) | {
-        "frequency": float(frequency),
+    parameters = model.describe(settling) | {
         "state": y.tolist(),
         "start": start,
     }
-    coordinates = {"component": list(COMPONENTS), "frequency": ((), float(frequency))}
-    return dataset(data, coordinates, parameters, "Steady motion of the oscillator")
+    coordinates = {"component": list(COMPONENTS), "frequency": ((), model.frequency)}
+    return dataset(data, coordinates, parameters, "Steady motion of the oscillator", model)
 
 
 def before_strobe(start, frequency) -> float:
@@ -85,12 +84,12 @@ def before_strobe(start, frequency) -> float:
     return min(moved, strobe)
 
 
-def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=None):
+def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None):
     """Return samples of one period of the steady motion that a state leads to.
 
     Parameters
     ----------
-    oscillator, damper, frequency, state, settling
+    system, damper, frequency, state, settling
         As in `steady_motion`.
     samples : int
         Samples in a forcing cycle.
@@ -106,7 +105,7 @@ def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=
         If the motion does not settle, escapes, or comes to rest.
     """
     settling = check_settling(settling)
-    steady = steady_motion(oscillator, damper, frequency, state, settling=settling)
+    steady = steady_motion(system, damper, frequency, state, settling=settling)
     for name in ("escaped", "at_rest", "drifting", "quasi_periodic"):
         if steady["outcome"] == flag("outcome", name):
             raise ArithmeticError(f"{name}: the state leads to no periodic orbit; use simulate")
@@ -116,7 +115,7 @@ def steady_orbit(oscillator, damper, frequency, state, *, samples=200, settling=
             "forcing cycles; a larger limit lets it run longer; steady_motion returns its outcome"
         )
     return simulate(
-        oscillator,
+        system,
         damper,
         frequency,
         steady["state"],

@@ -11,11 +11,11 @@ import numpy as np
 import xarray as xr
 from tqdm import tqdm
 
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import flag, from_si
+from impact_damper.model.arguments import read_span, read_system
 from impact_damper.model.bounds import FREQUENCY_RANGE, shown
-from impact_damper.model.checks import check_frequency, check_span
-from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.model.parameters import describe
+from impact_damper.model.checks import check_frequency
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.orbits.branch_datasets import branches_dataset
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
@@ -27,7 +27,7 @@ from impact_damper.orbits.switching import follow_others
 BEYOND = 300
 
 
-def complete_branches(oscillator, damper, frequencies, motions, *, progress=None):
+def complete_branches(system, damper, frequencies, motions, *, progress=None):
     """Follow every branch of orbits over frequency on which a settled motion lies.
 
     A branch that leaves next to stable orbits, where an orbit loses its symmetry or doubles its
@@ -37,12 +37,12 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
 
     Parameters
     ----------
-    oscillator : Oscillator
-    damper : Damper or None
+    system : Oscillator or Machine
+    damper : Damper, MachineDamper or None
     frequencies : tuple of float
-        Least and greatest frequency W, dimensionless.
+        Least and greatest frequency W, or Hz for a machine.
     motions : list of xarray.Dataset
-        Results of `frequency_response` or `subharmonic_suppression` for this oscillator and
+        Results of `frequency_response` or `subharmonic_suppression` for this system and
         damper.
     progress : str, optional
         Title of a progress bar and of a summary on stderr; without it neither is shown.
@@ -70,11 +70,16 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
     >>> found.sizes["branch"]
     1
     """
-    frequencies = check_span("frequencies", frequencies, **FREQUENCY_RANGE)
+    model = read_system(system, damper)
+    damper = model.damper
+    frequencies = read_span(
+        model.scales, "frequencies", frequencies, "frequency", **FREQUENCY_RANGE
+    )
     if not isinstance(motions, list) or not all(isinstance(each, xr.Dataset) for each in motions):
         raise TypeError(f"motions = {shown(motions)}: must be a list of datasets of motions")
 
-    packed = pack(oscillator, damper, frequencies[0])
+    motions = [from_si(each, model.scales) for each in motions]
+    packed = model.pack(frequencies[0])
 
     def family(value):
         p = packed.copy()
@@ -98,9 +103,9 @@ def complete_branches(oscillator, damper, frequencies, motions, *, progress=None
     follow_others(branches, follow)
     if progress is not None:
         tqdm.write(f"{progress}: {_summary(branches, len(seeds), lost)}", file=sys.stderr)
-    parameters = describe(oscillator, damper) | {"parameter": "frequency"}
-    counts = {"seeds": len(seeds), "seeds_lost": lost}
-    return branches_dataset(branches, float, parameters, "Branches of periodic orbits", counts)
+    parameters = model.describe() | {"parameter": "frequency"}
+    title, counts = "Branches of periodic orbits", {"seeds": len(seeds), "seeds_lost": lost}
+    return branches_dataset(branches, float, parameters, title, model, counts)
 
 
 def _summary(branches, seeds, lost):

@@ -14,10 +14,9 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import BASIN_LABEL
+from impact_damper.model.arguments import read_forced, read_pair
 from impact_damper.model.bounds import FARTHEST, FASTEST, check_count, check_number, shown
-from impact_damper.model.checks import check_numbers
-from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.model.parameters import describe
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import check_settling
 from impact_damper.motions.attractors import (
     REACH,
@@ -47,7 +46,7 @@ STROBE = math.pi / 2
 
 
 def basins(
-    oscillator,
+    system,
     damper,
     frequency,
     *,
@@ -67,12 +66,12 @@ def basins(
 
     Parameters
     ----------
-    oscillator : Oscillator
-    damper : Damper or None
+    system : Oscillator or Machine
+    damper : Damper, MachineDamper or None
     frequency : float
-        Forcing frequency W, dimensionless.
+        Forcing frequency W, or Hz for a machine.
     displacement, velocity : float, optional
-        Half widths of the plane of Z1 and Z1', dimensionless. The default is 1.5 times the largest
+        Half widths of the plane of Z1 and Z1'. The default is 1.5 times the largest
         displacement and speed of the motions without a damper.
     cells : int
         States on each axis.
@@ -110,24 +109,26 @@ def basins(
     'Basins of attraction'
     """
     settling = check_settling(settling)
-    p = pack(oscillator, damper, frequency)
+    model = read_forced(system, damper, frequency)
+    p = model.pack()
     check_count("cells", cells, **CELLS_RANGE)
     phase = check_number("phase", phase, least=0, most=2 * math.pi)
-    free = free_motions(oscillator, p[FREQUENCY], settling)
+    free = free_motions(model.oscillator, model.frequency, settling)
     sizes = np.array([free.displacement or 1.0, free.speed or 1.0])
-    window = _window(sizes, displacement, velocity)
+    window = _window(model.scales, sizes, displacement, velocity)
     grid = [np.linspace(-half, half, cells) for half in window]
     plane = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     running = {"workers": workers, "progress": progress}
-    made = describe(oscillator, damper, settling) | {"frequency": float(frequency), "cells": cells}
+    made = model.describe(settling) | {"cells": cells}
     if damper is None:
         if loose is not None:
             raise ValueError(f"loose = {shown(loose)}: must be None without a damper")
         reach = np.maximum(REACH * sizes, 1.5 * window)
         data, records = _free(p, plane, window, reach, phase, cells, settling, running)
     else:
-        data, records = _damped(p, plane, damper, phase, cells, loose, settling, running)
-        made |= {"loose": None if loose is None else [float(value) for value in loose]}
+        places = None if loose is None else read_pair(model.scales, "loose", loose)
+        data, records = _damped(p, plane, model.damper, phase, cells, places, settling, running)
+        made |= {"loose": None if places is None else places.tolist()}
     data |= _attractor_data(p, records, phase, data)
     coordinates = {
         "basin_displacement": grid[0],
@@ -136,10 +137,10 @@ def basins(
         "frequency": ((), p[FREQUENCY]),
         "without_attractor": list(BASIN_LABEL),
     }
-    return dataset(data, coordinates, made, "Basins of attraction")
+    return dataset(data, coordinates, made, "Basins of attraction", model)
 
 
-def _window(sizes, displacement, velocity):
+def _window(scales, sizes, displacement, velocity):
     """Return the half widths of the plane, shape (2,).
 
     `sizes` are the largest displacement and speed of the motions without a damper.
@@ -147,7 +148,7 @@ def _window(sizes, displacement, velocity):
     given = ("displacement", displacement, FARTHEST), ("velocity", velocity, FASTEST)
     return np.array(
         [
-            check_number(name, WIDTH * size if value is None else value, above=0, most=most)
+            WIDTH * size if value is None else scales.read(name, value, name, above=0, most=most)
             for (name, value, most), size in zip(given, sizes, strict=True)
         ]
     )
@@ -240,12 +241,7 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
     if loose is None:
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:
-        values = check_numbers("loose", loose)
-        if values.shape != (2,):
-            raise ValueError(f"loose = {shown(loose)}: must be two numbers, Z2 and Z2'")
-        for index, (value, most) in enumerate(zip(values, (FARTHEST, FASTEST), strict=True)):
-            check_number(f"loose[{index}]", value, least=-most, most=most)
-        places = [tuple(values)]
+        places = [tuple(loose)]
     states = np.concatenate(
         [np.hstack([plane, np.tile(place, (len(plane), 1))]) for place in places]
     )

@@ -55,8 +55,8 @@ def orbit_variables(pairs):
     }
 
 
-def branches_dataset(branches, back, parameters, title, more=None):
-    """Return a dataset of branches."""
+def branches_dataset(branches, back, parameters, title, model=None, more=None):
+    """Return a dataset of branches, in the units of the model; dimensionless without it."""
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]
     events = [
@@ -85,4 +85,4 @@ def branches_dataset(branches, back, parameters, title, more=None):
         "walls_after": np.array([event.after for _, _, event in events], object),
     }
     coordinates = {"component": list(COMPONENTS), "edge": ["lower", "upper"]}
-    return dataset(data | (more or {}), coordinates, parameters, title)
+    return dataset(data | (more or {}), coordinates, parameters, title, model)

@@ -9,19 +9,19 @@ and f the forcing amplitude.
 Z1 is the displacement of the primary mass. A start is an initial state.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.optimum_words import optimum_in_words
-from impact_damper.model.bounds import CLEARANCE_RANGE, SEED_RANGE, check_count, shown
+from impact_damper.model.arguments import read_increasing, read_radius, read_swept_damper
+from impact_damper.model.bounds import CLEARANCE_RANGE, SEED_RANGE, check_count
 from impact_damper.model.checks import (
-    check_frequency,
-    check_increasing,
-    check_numbers,
     check_starts,
 )
 from impact_damper.model.packed import CLEARANCE, pack
-from impact_damper.model.parameters import Damper, describe
+from impact_damper.model.parameters import describe
 from impact_damper.model.settling import check_settling
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
@@ -35,7 +35,7 @@ SWEPT_WITH = {"mass_ratio", "restitution", "contact_stiffness"}
 
 
 def clearance_sweep(
-    oscillator,
+    system,
     damper,
     frequency,
     clearances,
@@ -51,14 +51,14 @@ def clearance_sweep(
 
     Parameters
     ----------
-    oscillator : Oscillator
-    damper : dict
-        Arguments of `Damper` without the clearance. For a machine a `MachineDamper`, whose gap is
-        ignored.
+    system : Oscillator or Machine
+    damper : dict, Damper or MachineDamper
+        Its clearance is ignored. A dictionary holds the arguments of `Damper` without the
+        clearance.
     frequency : float
-        Forcing frequency W, dimensionless.
+        Forcing frequency W, or Hz for a machine.
     clearances : sequence of float
-        Increasing clearances d0, dimensionless.
+        Increasing clearances d0; for a machine on each side, m.
     starts, radius, seed, settling, workers, progress
         As in `frequency_response`, for each clearance.
 
@@ -95,16 +95,14 @@ def clearance_sweep(
     """
     settling = check_settling(settling)
     check_count("seed", seed, **SEED_RANGE)
-    frequency = check_frequency(frequency)
-    if not isinstance(damper, dict) or not {"mass_ratio"} <= damper.keys() <= SWEPT_WITH:
-        raise TypeError(
-            f"damper = {shown(damper)}: must be a dictionary of the arguments of Damper without "
-            "the clearance, which is swept"
-        )
-    clearances = check_numbers("clearances", clearances, **CLEARANCE_RANGE)
-    clearances = check_increasing("clearances", clearances, "two")
+    model = read_swept_damper(system, damper, frequency)
+    oscillator, frequency = model.oscillator, model.frequency
+    clearances = read_increasing(
+        model.scales, "clearances", clearances, "clearance", 2, **CLEARANCE_RANGE
+    )
     check_starts(starts, len(clearances))
-    dampers = [Damper(clearance=float(value), **damper) for value in clearances]
+    radius = read_radius(model.scales, radius)
+    dampers = [replace(model.damper, clearance=float(value)) for value in clearances]
     parameters = np.array([pack(oscillator, each, frequency) for each in dampers])
     systems = [(each, frequency) for each in dampers]
     search = search_starts(oscillator, systems, starts, radius, seed, settling)
@@ -142,7 +140,7 @@ def clearance_sweep(
         "component": list(COMPONENTS),
         "edge": ["lower", "upper"],
     }
-    found = dataset(data, coordinates, made, "Largest displacement against clearance")
+    found = dataset(data, coordinates, made, "Largest displacement against clearance", model)
     return found.assign_attrs(optimum=optimum_in_words(found))
 
 

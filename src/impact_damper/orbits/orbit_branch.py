@@ -12,26 +12,25 @@ import warnings
 import numpy as np
 
 from impact_damper.data.datasets import dataset
+from impact_damper.model.arguments import carried_phase, read_forced, read_state
 from impact_damper.model.bounds import check_count, check_number
-from impact_damper.model.families import LINEAR, family_of
-from impact_damper.model.packed import pack
-from impact_damper.model.parameters import describe
-from impact_damper.motions.simulate import COMPONENTS, carried_phase, check_state
+from impact_damper.model.families import LINEAR, family_of, read_followed
+from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.orbits.branch_datasets import branches_dataset, orbit_variables
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import find_orbit
 
 
-def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None):
+def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     """Find the periodic orbit near a state by Newton's method.
 
     Parameters
     ----------
-    oscillator : Oscillator
-    damper : Damper or None
+    system : Oscillator or Machine
+    damper : Damper, MachineDamper or None
     frequency : float
-        Forcing frequency W, dimensionless.
+        Forcing frequency W, or Hz for a machine.
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
         Z1, Z1', Z2, Z2' near the orbit.
     period : int
@@ -68,14 +67,15 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None
     >>> idm.decode(orbit.orbit_stability).item(), round(orbit.orbit_displacement.item(), 6)
     ('stable', 0.057734)
     """
-    orbit = _checked_orbit(oscillator, damper, frequency, state, period, phase)
+    model = read_forced(system, damper, frequency)
+    state, orbit = _checked_orbit(model, state, period, phase)
     if orbit.repeats_sooner():
         warnings.warn(
             f"period = {period}: the orbit found already repeats after a divisor of {period}",
             stacklevel=2,
         )
     log = orbit.contacts
-    data = orbit_variables([(frequency, orbit)]) | {
+    data = orbit_variables([(model.frequency, orbit)]) | {
         "orbit_branch": np.zeros(1, int),
         "contact_wall": log[:, 0],
         "contact_begin": log[:, 1],
@@ -83,26 +83,23 @@ def periodic_orbit(oscillator, damper, frequency, state, *, period=1, phase=None
         "approach_velocity": log[:, 3],
         "departure_velocity": log[:, 4],
     }
-    made = describe(oscillator, damper) | {
-        "frequency": float(frequency),
-        "period": int(period),
-        "state": check_state(state, damper).tolist(),
-    }
-    return dataset(data, {"component": list(COMPONENTS)}, made, "Periodic orbit")
+    made = model.describe() | {"period": int(period), "state": state.tolist()}
+    return dataset(data, {"component": list(COMPONENTS)}, made, "Periodic orbit", model)
 
 
-def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequency", period=1):
+def orbit_branch(system, damper, frequency, state, *, span, parameter="frequency", period=1):
     """Find the orbit near a state, and follow its branch over one parameter.
 
     Parameters
     ----------
-    oscillator, damper, frequency, state, period
+    system, damper, frequency, state, period
         As in `periodic_orbit`.
     span : tuple of float
         Least and greatest value of the parameter.
     parameter : str
         frequency, damping, cubic, force, unbalance, mass_ratio, clearance, restitution or
-        contact_stiffness.
+        contact_stiffness; for a machine cubic_stiffness, mass and clearance_each_side in place of
+        cubic, mass_ratio and clearance.
 
     Returns
     -------
@@ -132,38 +129,38 @@ def orbit_branch(oscillator, damper, frequency, state, *, span, parameter="frequ
     >>> idm.decode(branch.event_kind).values.tolist()
     []
     """
-    given_span = span
-    family, value, span = family_of(oscillator, damper, frequency, parameter, span)
-    orbit = _checked_orbit(oscillator, damper, frequency, state, period, None)
+    model = read_forced(system, damper, frequency, exact=parameter != "frequency")
+    parameter, span = read_followed(model, parameter, span)
+    family, value, ends = family_of(*model[:3], parameter, span)
+    state, orbit = _checked_orbit(model, state, period, None)
     if orbit.repeats_sooner():
         raise ArithmeticError(
             f"period = {period}: the orbit near the state repeats after a divisor of {period}; "
             "give the divisor as the period, or a state closer to the orbit"
         )
-    branch = follow_branch(family, orbit, value, span)
-    made = describe(oscillator, damper) | {
-        "frequency": float(frequency),
+    branch = follow_branch(family, orbit, value, ends)
+    made = model.describe() | {
         "period": int(period),
         "parameter": parameter,
-        "state": check_state(state, damper).tolist(),
-        "span": [float(end) for end in given_span],
+        "state": state.tolist(),
+        "span": list(span),
     }
     back = float if parameter in LINEAR else np.exp
-    return branches_dataset([branch], back, made, "Branch of periodic orbits")
+    return branches_dataset([branch], back, made, "Branch of periodic orbits", model)
 
 
-def _checked_orbit(oscillator, damper, frequency, state, period, phase):
-    """Check arguments and return the orbit near a state; raises as `periodic_orbit` does."""
+def _checked_orbit(model, state, period, phase):
+    """Check arguments; return the state and the orbit near it; raises as `periodic_orbit` does."""
     check_count("period", period, most=1000)
     if phase is None:
         carried = carried_phase(state)
         phase = STROBE if carried is None else carried
     check_number("phase", phase, least=-1e6, most=1e6)
-    p = pack(oscillator, damper, frequency)
-    orbit = find_orbit(p, check_state(state, damper), period, phase)
+    state = read_state(model, state)
+    orbit = find_orbit(model.pack(), state, period, phase)
     if not orbit.converged:
         raise ArithmeticError(
             f"no orbit of period {period} found: Newton's method left a residual of "
             f"{orbit.residual:.2g}; a state closer to it, or another period, is needed"
         )
-    return orbit
+    return state, orbit

@@ -3,14 +3,9 @@
 Migration control takes an oscillator from one motion to another by switching the damper.
 """
 
-import json
-from dataclasses import fields
-
 import numpy as np
 
-from impact_damper.data.arguments import takes_machine
-from impact_damper.data.datasets import damper_of, has_damper, oscillator_of, parameters_of
-from impact_damper.model.machine import Machine
+from impact_damper.data.datasets import parameters_of, system_of
 from impact_damper.motions.simulate import simulate
 from impact_damper.plot.drawing import axes_for, dataset_in, key, looks
 from impact_damper.plot.panels.basins import draw_plane
@@ -68,22 +63,9 @@ def _one_period(data):
     state = data["state"] if "state" in data else data["orbit_state"]
     made = parameters_of(data)
     periods = max(1, int(data["period"]) if "period" in data else made["period"])
-    if "machine" not in data.attrs:
-        damper = damper_of(data) if has_damper(data) else None
-        return simulate(oscillator_of(data), damper, made["frequency"], state, periods=periods)
-    machine, damper = _machine_of(data)
-    frequency = machine.scales.to_si(made["frequency"], "frequency")
-    return takes_machine(simulate)(machine, damper, frequency, state, periods=periods)
-
-
-def _machine_of(data):
-    """Return the machine of a dataset in SI units, and its damper or None."""
-    made = json.loads(data.attrs["machine"])
-    machine = Machine(**{each.name: made.get(each.name, each.default) for each in fields(Machine)})
-    if "damper_mass" not in made:
-        return machine, None
-    contact = {name: made[name] for name in ("gap", "restitution", "contact_stiffness")}
-    return machine, machine.damper(mass=made["damper_mass"], **contact)
+    system, damper = system_of(data)
+    frequency = system.scales.to_si(made["frequency"], "frequency")
+    return simulate(system, damper, frequency, state, periods=periods)
 
 
 def basins(data, *, ax=None):

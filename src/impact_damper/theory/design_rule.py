@@ -21,18 +21,18 @@ def peak_frequency(oscillator) -> float:
     leading = 1 - scale * oscillator.unbalance**2
     middle = stiffness + 2 * scale * oscillator.force * oscillator.unbalance
     if leading <= 0:
+        most = oscillator.damping / math.sqrt(hardening)
         raise ValueError(
-            f"unbalance = {oscillator.unbalance:g}: the response has no peak, it grows with the "
-            f"frequency without end; with cubic = {oscillator.cubic:g} and damping = "
-            f"{oscillator.damping:g} a peak needs less than unbalance = "
-            f"{oscillator.damping / math.sqrt(hardening):g}"
+            f"{oscillator.told('unbalance')}: the response has no peak, it grows with the "
+            f"frequency without end; with {oscillator.told('cubic', 'damping')} a peak needs less "
+            f"than {oscillator.scales.told('unbalance', most, 'unbalance')}"
         )
     cubic = 2 * math.sqrt(abs(hardening)) * oscillator.force / oscillator.damping
     middle, cubic = middle / leading, cubic / math.sqrt(leading)
     if hardening < 0 and middle < cubic:
         raise ValueError(
-            f"force = {oscillator.force:g}: the response has no peak, the motion goes over the "
-            f"barrier of the softening spring (cubic = {oscillator.cubic:g})"
+            f"{oscillator.told('force')}: the response has no peak, the motion goes over the "
+            f"barrier of the softening spring ({oscillator.told('cubic')})"
         )
     if hardening < 0:
         root = math.sqrt((middle - cubic) * (middle + cubic))
@@ -40,8 +40,8 @@ def peak_frequency(oscillator) -> float:
         root = math.hypot(middle, cubic)
     if middle + root <= 0:
         raise ValueError(
-            f"linear_frequency = {oscillator.linear_frequency:g}, cubic = {oscillator.cubic:g}, "
-            f"force = {oscillator.force:g}: the response has no peak, nothing restores the mass"
+            f"{oscillator.told('linear_frequency', 'cubic', 'force')}: the response has no peak, "
+            "nothing restores the mass"
         )
     return math.sqrt((middle + root) / 2)
 
@@ -55,5 +55,7 @@ def rule_clearance(oscillator, mass_ratio) -> float:
     peak = peak_frequency(oscillator)
     forcing = oscillator.forcing_amplitude(peak)
     if forcing == 0:
-        raise ValueError("force = 0, unbalance = 0: the rule for the clearance needs a forcing")
+        raise ValueError(
+            f"{oscillator.told('force', 'unbalance')}: the rule for the clearance needs a forcing"
+        )
     return forcing / (mass_ratio * peak**2)

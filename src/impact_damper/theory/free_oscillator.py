@@ -138,8 +138,8 @@ def maximum_response(oscillator) -> Point:
         if frequency > 0 and slope > 0:
             return Point(float(np.sqrt(frequency)), float(np.sqrt(square)))
     raise ValueError(
-        f"damping = {oscillator.damping:g}: the response has no peak, with force = {force:g}, "
-        f"unbalance = {unbalance:g} and cubic = {oscillator.cubic:g}: it falls from W = 0 on, "
+        f"{oscillator.told('damping')}: the response has no peak, with "
+        f"{oscillator.told('force', 'unbalance', 'cubic')}: it falls from W = 0 on, "
         "rises without end, or goes over the barrier of a softening spring"
     )
 
@@ -159,8 +159,8 @@ def _peak_on_a_shaker(oscillator):
     squares = squares[(squares > 0) & (slope.deriv()(squares) < 0)]
     if len(squares) == 0:
         raise ValueError(
-            f"damping = {oscillator.damping:g}: the response has no peak, with shaker = "
-            f"{shaker:g} it falls from W = 0 on"
+            f"{oscillator.told('damping')}: the response has no peak, with "
+            f"{oscillator.told('shaker')} it falls from W = 0 on"
         )
     frequency = float(np.sqrt(squares[0]))
     return Point(frequency, float(free_solutions(oscillator, frequency).amplitude[0]))

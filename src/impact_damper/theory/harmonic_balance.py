@@ -13,9 +13,8 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.model.bounds import MASS_RATIO_RANGE, check_number
-from impact_damper.model.checks import check_frequencies
-from impact_damper.model.parameters import check_oscillator, describe
+from impact_damper.model.arguments import read_frequencies, read_system
+from impact_damper.model.bounds import MASS_RATIO_RANGE
 from impact_damper.theory import single_harmonic
 from impact_damper.theory.branch_order import branches_over
 from impact_damper.theory.design_rule import rule_clearance
@@ -24,7 +23,7 @@ from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 from impact_damper.theory.suppression_band import suppression_band
 
 
-def optimum_clearance(oscillator, mass_ratio) -> float:
+def optimum_clearance(system, mass_ratio) -> float:
     """Return the clearance of rule (19) of the paper, d0 = f/(rm Wp^2).
 
     f is the amplitude of the force at the frequency Wp of the peak without the damper. With this
@@ -34,14 +33,14 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
 
     Parameters
     ----------
-    oscillator : Oscillator
+    system : Oscillator or Machine
     mass_ratio : float
         rm, dimensionless.
 
     Returns
     -------
     float
-        Clearance on each side, half the gap.
+        Clearance on each side, half the gap; m for a machine.
 
     Raises
     ------
@@ -54,30 +53,30 @@ def optimum_clearance(oscillator, mass_ratio) -> float:
     >>> round(idm.optimum_clearance(idm.Oscillator(0.215), 0.12), 4)
     2.0688
     """
-    check_oscillator(oscillator)
-    mass_ratio = check_number("mass_ratio", mass_ratio, **MASS_RATIO_RANGE)
-    return rule_clearance(oscillator, mass_ratio)
+    model = read_system(system)
+    mass_ratio = model.scales.read("mass_ratio", mass_ratio, "number", **MASS_RATIO_RANGE)
+    return model.scales.to_si(rule_clearance(model.oscillator, mass_ratio), "clearance")
 
 
-def harmonic_balance(oscillator, damper, frequencies):
+def harmonic_balance(system, damper, frequencies):
     """Return `harmonic_balance_response` and, with a damper, `suppression_band` in one dataset."""
-    response = harmonic_balance_response(oscillator, damper, frequencies)
+    response = harmonic_balance_response(system, damper, frequencies)
     if damper is None:
         return response
-    band = suppression_band(oscillator, damper)
+    band = suppression_band(system, damper)
     return xr.merge([response, band], combine_attrs="override")
 
 
-def harmonic_balance_response(oscillator, damper, frequencies):
+def harmonic_balance_response(system, damper, frequencies):
     """Return the frequency response by harmonic balance: every solution, stable or not.
 
     Parameters
     ----------
-    oscillator : Oscillator
-    damper : Damper or None
+    system : Oscillator or Machine
+    damper : Damper, MachineDamper or None
         Elastic; without a damper only the free response is returned.
     frequencies : array_like, shape (n,)
-        Increasing forcing frequencies W, dimensionless.
+        Increasing forcing frequencies W, or Hz for a machine.
 
     Returns
     -------
@@ -104,8 +103,9 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     >>> found.frequency.values
     array([1.5, 2. ])
     """
-    check_oscillator(oscillator)
-    frequencies = check_frequencies(frequencies)
+    model = read_system(system, damper)
+    oscillator, damper = model.oscillator, model.damper
+    frequencies = read_frequencies(model.scales, frequencies)
     tables = [_free_table(oscillator, frequencies)]
     if damper is not None:
         tables += [
@@ -116,8 +116,9 @@ def harmonic_balance_response(oscillator, damper, frequencies):
     return dataset(
         data,
         {"frequency": frequencies},
-        describe(oscillator, damper),
+        model.describe(),
         "Frequency response by harmonic balance",
+        model,
     )
 
 

@@ -138,7 +138,7 @@ def flight_of(oscillator, damper, frequency) -> Flight:
     """Return the `Flight` for a damper, whose clearance is not used."""
     check_damper(damper)
     if oscillator.forcing_amplitude(1.0) == 0:
-        raise ValueError("force = 0, unbalance = 0: a quiet motion needs a forcing")
+        raise ValueError(f"{oscillator.told('force', 'unbalance')}: a quiet motion needs a forcing")
     frequency = check_number(
         "frequency",
         frequency,

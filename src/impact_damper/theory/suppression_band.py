@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.model.parameters import check_oscillator, describe
+from impact_damper.model.arguments import read_system
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.free_oscillator import free_solutions, resonance
 from impact_damper.theory.single_harmonic import check_elastic, impacting_solutions
@@ -27,7 +27,7 @@ EDGE_TOLERANCE = 1e-10
 EDGES = ["lower", "upper"]
 
 
-def suppression_band(oscillator, damper):
+def suppression_band(system, damper):
     """Find the frequencies around the peak at which one quiet motion replaces the resonance branch.
 
     The band is computed by harmonic balance, equation (7) of the paper, whose solutions have the
@@ -43,8 +43,8 @@ def suppression_band(oscillator, damper):
 
     Parameters
     ----------
-    oscillator : Oscillator
-    damper : Damper
+    system : Oscillator or Machine
+    damper : Damper or MachineDamper
         Elastic.
 
     Returns
@@ -70,14 +70,15 @@ def suppression_band(oscillator, damper):
     >>> band.edge_frequency.values.round(3)
     array([1.911, 2.008])
     """
-    check_oscillator(oscillator)
+    model = read_system(system, damper, needs_damper=True)
+    oscillator, damper = model.oscillator, model.damper
     check_elastic(damper)
     title = "Suppression band by harmonic balance"
     try:
         peak = peak_frequency(oscillator)
         resonance(oscillator, peak)
     except ValueError:
-        return dataset(_no_band(), {"edge": EDGES}, describe(oscillator, damper), title)
+        return dataset(_no_band(), {"edge": EDGES}, model.describe(), title, model)
     highest = oscillator.forcing_amplitude(peak) / (oscillator.damping * peak)
 
     def look(frequency):
@@ -111,8 +112,9 @@ def suppression_band(oscillator, damper):
             "break_even_frequency": np.nan if break_even is None else break_even[0],
         },
         {"edge": EDGES},
-        describe(oscillator, damper),
+        model.describe(),
         title,
+        model,
     )
 
 

@@ -8,7 +8,6 @@ from helpers.known_orbits import DESIGN, PAPER
 from helpers.si_motions import SiMotion
 
 import impact_damper as idm
-from impact_damper.data.arguments import takes_machine
 from impact_damper.data.datasets import flag
 from impact_damper.design import panels
 from impact_damper.design.costs import measured_costs, motion_costs
@@ -102,7 +101,7 @@ def test_the_phase_of_the_first_state_does_not_matter():
     steady = idm.steady_motion(LINEAR, damper, 20.5)
     expected = motion_costs(LINEAR, damper, 20.5, steady["state"].values, int(steady["period"]))
     start = 0.25 / 20.5
-    run = takes_machine(simulate)(
+    run = simulate(
         LINEAR, damper, 20.5, steady["state"].values, periods=1, samples=1000, start=start
     )
     touching = np.flatnonzero(np.abs(run["relative_displacement"]) > 4)

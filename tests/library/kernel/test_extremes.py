@@ -1,7 +1,5 @@
 """Runs with extreme valid parameters come to an end and return how they ended."""
 
-from dataclasses import fields
-
 import numpy as np
 import pytest
 from helpers.springs import has_closed_forms
@@ -11,6 +9,7 @@ from hypothesis import strategies as st
 import impact_damper as idm
 from impact_damper.data.datasets import flag
 from impact_damper.model.bounds import MOST_STIFF
+from impact_damper.model.parameters import parameters_in
 
 SHORT = idm.Settling(patience=100, limit=100, watched=2, further=0)
 OUTCOMES = [flag("outcome", name) for name in ("unresolved", "settled", "chaotic")]
@@ -56,7 +55,7 @@ EXTREMES = [
 _NAMED = set().union(*EXTREMES)
 EXTREMES += [
     {each.name: each.metadata["bounds"][bound]}
-    for each in fields(idm.Oscillator)
+    for each in parameters_in(idm.Oscillator)
     for bound in ("least", "most")
     if each.name not in _NAMED
 ]

@@ -7,7 +7,7 @@ Z1 is the displacement of the primary mass.
 """
 
 import re
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -24,7 +24,13 @@ from impact_damper.kernel import batch
 from impact_damper.kernel import equation as kernel
 from impact_damper.model.families import FORCING
 from impact_damper.model.packed import COUNT, NAMES, cubic_spring, pack
-from impact_damper.model.parameters import NONLINEAR, SPRING_POWER, Damper, Oscillator
+from impact_damper.model.parameters import (
+    NONLINEAR,
+    SPRING_POWER,
+    Damper,
+    Oscillator,
+    parameters_in,
+)
 from impact_damper.motions.start_states import barrier
 from impact_damper.motions.strobe_map import flow_map
 from impact_damper.orbits.quiet_orbits import straight_flight_end
@@ -47,7 +53,7 @@ from impact_damper.theory.straight_flight import flight_of
 
 ROOT = Path(__file__).parents[3]
 SOURCES = Path(impact_damper.__file__).parent
-PARAMETERS = [each.name for each in fields(Oscillator)]
+PARAMETERS = [each.name for each in parameters_in(Oscillator)]
 SPRING = {"linear_frequency", *NONLINEAR}
 BENT = Oscillator(0.1, 1.0, cubic=0.5, force=0.6, unbalance=0.02)
 LINEAR = Oscillator(0.1, 1.0, cubic=0.0, force=0.6, unbalance=0.02)

@@ -89,11 +89,6 @@ def test_pack_refuses_what_is_out_of_range_or_of_another_type():
         pack(Oscillator(0.1), 0.2, 1.0)
 
 
-def test_describe():
-    oscillator, damper = Oscillator(0.1), Damper(0.2, 1.0)
-    assert describe(oscillator, None, damper) == vars(oscillator) | vars(damper)
-
-
 def test_pick_takes_all_fields_of_a_dataclass_and_nothing_else():
     oscillator, damper = Oscillator(0.1, 0.5), Damper(0.12, 2.0, 0.8, 1500.0)
     values = describe(oscillator, damper) | {"frequency": 2.0}

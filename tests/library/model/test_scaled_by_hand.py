@@ -59,35 +59,6 @@ def test_optimum_clearance_of_a_machine():
     assert idm.optimum_clearance(LINEAR, 0.05) == pytest.approx(closed, rel=1e-12)
 
 
-def test_harmonic_convergence_of_a_machine():
-    found = idm.harmonic_convergence(HARD, DAMPER, hertz(2.0), [1, 5, 21], cold=[5])
-    by_hand = idm.harmonic_convergence(PAPER, PAPER_DAMPER, 2.0, [1, 5, 21], cold=[5])
-    names = ("series_maximum", "exact_maximum", "hill_trace_error", "hill_multiplier_real")
-    assert [found[name].attrs["units"] for name in names] == ["mm", "mm", "1/s", "1"]
-    names += ("exact_multiplier_imaginary", "series_error", "decay_predicted", "cold_status")
-    assert_scaled(found, by_hand, names, rtol=1e-7, atol=1e-12)
-    assert found["exact_residual"].attrs["long_name"].endswith("in the scales of the machine")
-
-
-def test_subharmonic_suppression_of_a_machine():
-    """Ends of the branch of subharmonic motions without the damper, and the damped motions."""
-    frequencies = np.array([1.7, 1.72, 1.75])
-    # The search is narrow to be fast, so it warns.
-    with pytest.warns(UserWarning, match="radius"):
-        by_hand = idm.subharmonic_suppression(
-            PAPER, PAPER_DAMPER, frequencies, starts=6, radius=2.0
-        )
-    with pytest.warns(UserWarning, match=r"radius = 0\.004 m"):
-        found = idm.subharmonic_suppression(
-            HARD, DAMPER, hertz(frequencies), starts=6, radius=2 * LENGTH
-        )
-    assert float(by_hand["free_subharmonic_frequency"][0]) == pytest.approx(1.7104, abs=1e-4)
-    names = ("frequency", "free_subharmonic_frequency", "free_subharmonic")
-    assert [found[name].attrs["units"] for name in names] == ["Hz", "Hz", "mm"]
-    names += ("free_subharmonic_event", "damped_subharmonic", "suppression", "switched_share")
-    assert_scaled(found, by_hand, names, rtol=1e-6, atol=1e-9)
-
-
 def test_migration_of_a_machine():
     """The damper is on for 3 cycles only, so that chaos does not magnify rounding errors."""
     given = {"seed": 1, "longest_hold": 3}
@@ -153,7 +124,7 @@ def test_migration_of_a_softening_machine():
 
 
 def test_the_radius_of_a_search_is_warned_of_in_si_units():
-    expected = r"^radius = 1e-05 m: .* at frequency = 31 Hz, with displacement = 0\.00\d+ m and"
+    expected = r"^radius = 1e-5 m: .* at frequency = 31 Hz, with displacement = 0\.00\d+ m and"
     with pytest.warns(UserWarning, match=expected):
         idm.frequency_response(HARD, None, [31], starts=1, radius="10 µm")
 
@@ -167,13 +138,9 @@ def test_the_radius_of_a_search_is_warned_of_in_si_units():
         ),
         (lambda: idm.migrate(LINEAR, DAMPER, 16.0), "frequency = 16 Hz: without the damper there"),
         (
-            lambda: idm.subharmonic_suppression(LINEAR, DAMPER, [14, 15]),
-            "cubic_stiffness = 0 N/m^3: must not be 0 (without the damper a linear spring has no",
-        ),
-        (
             lambda: idm.optimum_clearance(idm.Machine(**SOFTENING, force="8 N"), 0.1),
             "force = 8 N: the response has no peak, the motion goes over the barrier of the "
-            "softening spring (cubic_stiffness = -7.5e+09 N/m^3)",
+            "softening spring (cubic_stiffness = -7.5e9 N/m^3)",
         ),
         (
             lambda: idm.optimum_clearance(idm.Machine(**SOFTENING, force=0), 0.1),
@@ -184,12 +151,8 @@ def test_the_radius_of_a_search_is_warned_of_in_si_units():
             "mass_ratio = '0.3 kg': must be a number, or text such as",
         ),
         (
-            lambda: idm.harmonic_convergence(HARD, DAMPER, 300.0, [1, 2]),
-            "harmonics = [1, 2]: must be odd",
-        ),
-        (
             lambda: idm.frequency_response(LINEAR, DAMPER, [16, 15.5]),
-            "frequencies = [16, 15.5] Hz: must be increasing",
+            "frequencies = [16, 15.5]: must be increasing",
         ),
         (
             lambda: idm.basins(LINEAR, None, 16, displacement="-1 mm"),
@@ -201,7 +164,7 @@ def test_the_radius_of_a_search_is_warned_of_in_si_units():
         ),
         (
             lambda: idm.basins(HARD, DAMPER, 16, loose=0),
-            "loose = 0: must be two numbers, displacement (m) and velocity (m/s) of the machine",
+            "loose = 0: must be two numbers, displacement and velocity",
         ),
     ],
 )

@@ -1,10 +1,9 @@
 """Parameters as text in the captions of figures."""
 
-from dataclasses import fields
 from types import SimpleNamespace
 
 from chatterjee1995.workflow.captions import caption, cases_in_words, in_words
-from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.parameters import Damper, Oscillator, parameters_in
 
 
 def test_numbers_ranges_lists_and_the_rule_are_told_in_the_order_of_the_fields():
@@ -19,7 +18,7 @@ def test_numbers_ranges_lists_and_the_rule_are_told_in_the_order_of_the_fields()
 
 
 def test_every_parameter_is_told():
-    names = [field.name for part in (Oscillator, Damper) for field in fields(part)]
+    names = [field.name for part in (Oscillator, Damper) for field in parameters_in(part)]
     assert list(in_words(dict.fromkeys(names, 0.5)).values()) == ["= 0.5"] * len(names)
 
 

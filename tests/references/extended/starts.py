@@ -5,7 +5,6 @@ parameters has the layout of `system.packed`, with COUNT entries.
 """
 
 import math
-from dataclasses import fields
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +17,7 @@ from impact_damper.model.packed import (
     INVERSE_MASS_RATIO,
     pack,
 )
-from impact_damper.model.parameters import Damper, Oscillator, pick
+from impact_damper.model.parameters import Damper, Oscillator, parameters_in, pick
 from references import extended
 
 PERIODS = 3  # forcing cycles of a run
@@ -59,7 +58,9 @@ KINDS = {
 # Other parameters of the oscillator are drawn one at a time.
 _DRAWN = set(USUAL).union(*KINDS.values())
 KINDS |= {
-    each.name: {each.name: (0.1, 3.0)} for each in fields(Oscillator) if each.name not in _DRAWN
+    each.name: {each.name: (0.1, 3.0)}
+    for each in parameters_in(Oscillator)
+    if each.name not in _DRAWN
 }
 
 

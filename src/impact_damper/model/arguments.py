@@ -1,0 +1,307 @@
+"""Arguments of the public functions: read and checked once, in the unit of the user.
+
+A public function takes a `system`, an `Oscillator` or a `Machine`. What it computes with is
+dimensionless; `Model` keeps the scales, in which errors are told and results are labelled.
+"""
+
+import math
+import warnings
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.model.bounds import (
+    FARTHEST,
+    FASTEST,
+    FREQUENCY_RANGE,
+    RADIUS_RANGE,
+    check_number,
+    shown,
+)
+from impact_damper.model.dampers import MachineDamper
+from impact_damper.model.machine import Machine
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import Damper, Oscillator, describe
+from impact_damper.model.scales import UNITLESS, Scales
+
+# Kinds, units and bounds of the components of a state.
+STATE = ("displacement", "velocity", "displacement", "velocity")
+STATE_UNITS = "m, m/s, m, m/s"
+FARTHEST_STATE = dict(zip(STATE, (FARTHEST, FASTEST) * 2, strict=True))
+# Coordinates with the forcing phases of states; a state taken from a dataset keeps them.
+PHASES = ("state_phase", "orbit_phase")
+
+
+class Model(NamedTuple):
+    """A system with or without a damper, dimensionless, as public functions compute with it.
+
+    Attributes
+    ----------
+    oscillator : Oscillator
+    damper : Damper or None
+    frequency : float or None
+        Forcing frequency W.
+    machine : Machine or None
+    machine_damper : MachineDamper or None
+    """
+
+    oscillator: Oscillator
+    damper: Damper | None
+    frequency: float | None = None
+    machine: Machine | None = None
+    machine_damper: MachineDamper | None = None
+
+    @property
+    def scales(self) -> Scales:
+        """Scales in which the user gives values and gets results."""
+        return self.oscillator.scales
+
+    def pack(self, frequency=None) -> np.ndarray:
+        """Return the array for kernels, at the model's frequency or another one."""
+        return pack(self.oscillator, self.damper, frequency or self.frequency)
+
+    def describe(self, *others) -> dict:
+        """Return the dimensionless parameters, and those of other dataclasses."""
+        found = describe(self.oscillator, self.damper, *others)
+        return found if self.frequency is None else found | {"frequency": self.frequency}
+
+
+def read_system(system, damper=None, *, needs_damper=False) -> Model:
+    """Return the model of the arguments `system` and `damper` of a public function.
+
+    Parameters
+    ----------
+    system : Oscillator or Machine
+    damper : Damper, MachineDamper or None
+        The second for a machine, by `Machine.damper`.
+    needs_damper : bool
+        Whether None is refused.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is of another type, or the damper does not fit the machine.
+    """
+    if isinstance(system, Machine):
+        damper, scaled = _read_machine_damper(system, damper, needs_damper)
+        return Model(system.oscillator(), scaled, None, system, damper)
+    if not isinstance(system, Oscillator):
+        raise TypeError(f"system = {shown(system)}: must be an Oscillator or a Machine")
+    if not isinstance(damper, Damper) and (needs_damper or damper is not None):
+        raise TypeError(f"damper = {shown(damper)}: must be a Damper")
+    # Arguments beside the oscillator of a machine are dimensionless.
+    return Model(replace(system, scales=UNITLESS), damper)
+
+
+def read_forced(system, damper, frequency, *, exact=True, needs_damper=False) -> Model:
+    """Return the model of the arguments `system`, `damper` and `frequency` of a public function.
+
+    Parameters
+    ----------
+    system, damper, needs_damper
+        As in `read_system`.
+    frequency : float
+        W, or Hz for a machine.
+    exact : bool
+        If False, the force of a moving base is approximated by the formula that holds over a range
+        of frequencies, although one is given.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `read_system`, or if the frequency is out of range.
+    """
+    if not isinstance(system, Machine):
+        model = read_system(system, damper, needs_damper=needs_damper)
+        frequency = check_number("frequency", frequency, **FREQUENCY_RANGE)
+        return model._replace(frequency=frequency)
+    damper, scaled = _read_machine_damper(system, damper, needs_damper)
+    frequency = system.check_frequency("frequency", frequency)
+    oscillator = system.oscillator(frequency if exact else None)
+    own = system.scales.from_si(frequency, "frequency")
+    return Model(oscillator, scaled, own, system, damper)
+
+
+def _read_machine_damper(machine, damper, needs_damper):
+    """Return a damper in SI units and in the scales of its machine, or None twice."""
+    if damper is None and not needs_damper:
+        return None, None
+    if not isinstance(damper, MachineDamper):
+        raise TypeError(f"damper = {shown(damper)}: must be a MachineDamper, by machine.damper")
+    damper.check_for(machine)
+    return damper, damper.scaled(machine.scales)
+
+
+def read_numbers(scales, name, values, kind, **bounds) -> np.ndarray:
+    """Return a number or a sequence as an array, dimensionless; the bounds are so too."""
+    return np.array(
+        [scales.read(f"{name}[{i}]", value, kind, **bounds) for i, value in _numbered(values)]
+    )
+
+
+def _numbered(values):
+    """Return pairs of position and value; values of a dataset or of pint keep their units."""
+    if isinstance(values, (list, tuple)) or getattr(values, "ndim", 0) == 1:
+        return enumerate(values)
+    return enumerate(np.atleast_1d(values) if not hasattr(values, "units") else [values])
+
+
+def read_increasing(scales, name, values, kind, count=1, **bounds) -> np.ndarray:
+    """Return at least `count` increasing numbers as an array, dimensionless.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a number is not allowed, or the numbers are too few or do not increase.
+    """
+    numbers = read_numbers(scales, name, values, kind, **bounds)
+    if len(numbers) < count or np.any(np.diff(numbers) <= 0):
+        given = shown(list(getattr(values, "values", values)))
+        raise ValueError(
+            f"{name} = {given}: must be increasing, and at least {count} value{'s' * (count > 1)}"
+        )
+    return numbers
+
+
+def read_frequencies(scales, values, count=1) -> np.ndarray:
+    """Return increasing forcing frequencies W, given in Hz for a machine."""
+    return read_increasing(scales, "frequencies", values, "frequency", count, **FREQUENCY_RANGE)
+
+
+def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
+    """Return the least and the greatest value of a range, dimensionless."""
+    ends = read_numbers(scales, name, span, kind, **bounds)
+    if ends.shape != (2,) or not ends[0] < ends[1]:
+        raise ValueError(f"{name} = {shown(span)}: must be two numbers, least and greatest")
+    return float(ends[0]), float(ends[1])
+
+
+def read_radius(scales, radius) -> float | None:
+    """Return the radius of the ball of random starts, or None for a search without it.
+
+    The ball holds displacements up to the radius, and velocities up to radius * w0.
+    """
+    if radius is None:
+        return None
+    return scales.read("radius", radius, "displacement", **RADIUS_RANGE)
+
+
+def read_pair(scales, name, values) -> np.ndarray:
+    """Return a displacement and a velocity as two dimensionless numbers."""
+    return _read_state_parts(scales, name, getattr(values, "values", values), STATE[:2])
+
+
+def _read_state_parts(scales, name, values, kinds):
+    numbered = list(_numbered(values))
+    if len(numbered) != len(kinds):
+        words = {2: "two numbers, displacement and velocity", 4: "four numbers"}[len(kinds)]
+        raise ValueError(f"{name} = {shown(values)}: must be {words}")
+    return np.array(
+        [
+            scales.read(f"{name}[{i}]", value, kind, least=-most, most=most)
+            for (i, value), kind in zip(numbered, kinds, strict=True)
+            for most in [FARTHEST_STATE[kind]]
+        ]
+    )
+
+
+def read_state(model, state) -> np.ndarray:
+    """Return the argument `state` of a public function as Z1, Z1', Z2, Z2', shape (4,).
+
+    Without a damper two numbers suffice. Then Z2 = Z1 and Z2' = Z1', as for a loose mass at rest at
+    the origin.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the state does not consist of four numbers (or two without a damper), or if a number is
+        out of range.
+
+    Warns
+    -----
+    UserWarning
+        If the penetration of the loose mass into a wall exceeds the clearance.
+    """
+    scales, damper = model.scales, model.damper
+    units, expected = getattr(state, "attrs", {}).get("units"), STATE_UNITS if scales.si else "1"
+    if hasattr(state, "coords"):
+        # a dataset of one motion has dimensions of length 1
+        state = np.squeeze(state.values)
+        if units not in (None, expected):
+            raise ValueError(f"state = {shown(state)}: must be in {expected}, not in {units}")
+    numbered = list(_numbered(state))
+    kinds = STATE[:2] if damper is None and len(numbered) == 2 else STATE
+    if len(numbered) != len(kinds):
+        raise ValueError(
+            f"state = {shown(state)}: must be four numbers, displacement and velocity of the "
+            "primary mass and of the primary mass relative to the loose mass, or the first two "
+            "without a damper (the paper's figure 4 gives three; a state of this system has four)"
+        )
+    values = _read_state_parts(scales, "state", state, kinds)
+    if len(kinds) == 2:
+        values = np.concatenate([values, values])
+    if damper is not None and abs(values[2]) > 2 * damper.clearance:
+        _warn_of_compression(values[2], model)
+    return values
+
+
+def _warn_of_compression(relative, model):
+    """Warn that a contact is compressed by more than the clearance, and how fast it expands."""
+    damper, told = model.damper, model.scales.told
+    rate = math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
+    speed = rate * (abs(relative) - damper.clearance)
+    warnings.warn(
+        f"{told('state[2]', relative, 'displacement')}: the loose mass is beyond its wall, which "
+        f"is at {told('clearance', damper.clearance, 'clearance')}; the compressed contact throws "
+        f"the mass back with up to {told('speed', speed, 'velocity')}",
+        stacklevel=4,
+    )
+
+
+def carried_phase(state):
+    """Return the phase W T that a state of a dataset has as a coordinate, or None."""
+    coordinates = getattr(state, "coords", {})
+    phases = [coordinates[name].item() for name in PHASES if name in coordinates]
+    return check_number("state phase", phases[0]) if phases else None
+
+
+def read_start(model, state, start) -> float:
+    """Return the time T of a state, from the argument `start` of a public function.
+
+    It is `start` if this is given, otherwise the time of the phase that a state of a dataset has,
+    otherwise 0.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If `start` is out of range, or if its phase differs from the phase of the state.
+    """
+    phase, frequency = carried_phase(state), model.frequency
+    if start is None:
+        return 0.0 if phase is None else phase / frequency
+    farthest = 1e6 * 2 * np.pi / frequency
+    time = model.scales.read("start", start, "time", least=-farthest, most=farthest)
+    if phase is not None and abs(math.remainder(frequency * time - phase, 2 * np.pi)) > 1e-6:
+        raise ValueError(
+            f"start = {shown(start)}: must be at the phase W T = {phase:.6g} that the state "
+            "carries, or be left out; state.values has no phase"
+        )
+    return time
+
+
+def read_swept_damper(system, damper, frequency) -> Model:
+    """Return the model for a sweep of the clearance, in which the damper's own one is ignored.
+
+    For an `Oscillator` the damper may be a dictionary of the arguments of `Damper` without the
+    clearance.
+    """
+    if isinstance(system, Oscillator) and isinstance(damper, dict):
+        allowed = {"mass_ratio", "restitution", "contact_stiffness"}
+        if not {"mass_ratio"} <= damper.keys() <= allowed:
+            raise TypeError(
+                f"damper = {shown(damper)}: must have mass_ratio, and may have restitution and "
+                "contact_stiffness; the clearance is swept"
+            )
+        damper = Damper(clearance=1.0, **damper)
+    return read_forced(system, damper, frequency, needs_damper=True)
