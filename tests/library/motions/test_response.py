@@ -66,7 +66,7 @@ def test_response_does_not_depend_on_threads(response):
     "wrong, message",
     [
         ({"frequencies": [2.0, 1.0]}, "frequencies = .*: must be increasing"),
-        ({"frequencies": []}, "at least one"),
+        ({"frequencies": []}, "at least 1 value"),
         ({"frequencies": [0.0, 1.0]}, r"frequencies\[0\] = 0"),
         ({"frequencies": math.nan}, r"frequencies\[0\] = nan"),
         ({"frequencies": [1.0], "seed": -1}, "seed = -1"),

@@ -61,7 +61,7 @@ def test_free_response_has_three_motions_between_its_folds(response):
 @pytest.mark.parametrize(
     "damper, frequencies, error, message",
     [
-        (PAPER, [], ValueError, r"frequencies = \[\]: must be increasing, and at least one"),
+        (PAPER, [], ValueError, r"frequencies = \[\]: must be increasing, and at least 1"),
         (PAPER, [2.0, 1.0], ValueError, r"frequencies = \[2.0, 1.0\]: must be increasing"),
         (PAPER, [[2.0]], TypeError, r"frequencies\[0\] = \[2.0\]: must be a number"),
         (0.12, [2.0], TypeError, "damper = 0.12: must be a Damper"),
