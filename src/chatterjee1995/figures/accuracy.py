@@ -13,7 +13,7 @@ from chatterjee1995.methods.integrators import runs_of_accuracy
 from chatterjee1995.methods.labels import colour_of, method_in_words
 from impact_damper.data.datasets import parameters_of
 from impact_damper.data.variables import VARIABLES
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.style import (
     BLACK,
     GREY,
     PALE,

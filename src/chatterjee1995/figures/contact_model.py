@@ -9,8 +9,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.ticker import FuncFormatter
 
 from impact_damper.data.datasets import flag
-from impact_damper.plot.panels.maps import contours, key, marked, mesh
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.maps import contours, key, marked, mesh
+from impact_damper.plot.style import (
     BLACK,
     PALE,
     PALE_ORANGE,

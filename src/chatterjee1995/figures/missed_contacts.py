@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from chatterjee1995.methods.integrators import integrators
-from impact_damper.plot.panels.maps import edges
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.maps import edges
+from impact_damper.plot.style import (
     BLACK,
     SKY,
     VERMILION,

@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from impact_damper.data.datasets import parameters_of
-from impact_damper.plot.panels.maps import contours, key, mesh
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.maps import contours, key, mesh
+from impact_damper.plot.style import (
     BLACK,
     GREY,
     PALE,

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 from matplotlib.patches import Circle, Polygon
 
-from impact_damper.plot.panels.schematic_parts import (
+from impact_damper.plot.schematic_parts import (
     arrow,
     coordinate,
     dashpot,
@@ -20,7 +20,7 @@ from impact_damper.plot.panels.schematic_parts import (
     stroke,
     wheels,
 )
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.style import (
     BLACK,
     BLUE,
     GREY,

@@ -7,7 +7,7 @@ import numpy as np
 
 from chatterjee1995.methods.integrators import integrators
 from impact_damper.data.datasets import parameters_of
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.style import (
     GREY,
     WHITE,
     axis_label,

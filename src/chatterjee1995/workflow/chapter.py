@@ -37,7 +37,7 @@ def draw_figure(given, datasets, path) -> None:
 
     `given` is what `selection.figure_values` returns, and `datasets` are keyed by stage and entry.
     """
-    from impact_damper.plot.panels.style import save_figure
+    from impact_damper.plot.style import save_figure
 
     drawn = given["drawn"].items()
     draw = imported(given["function"])

@@ -1,13 +1,17 @@
-"""Plots of one's own results, such as `impact_damper.plot.response(data)`.
+"""Plots of results, such as `impact_damper.plot.response(data)`.
 
-Each function takes one result or a list of results of the package's public functions, draws them
-like the figures of the paper, and returns the matplotlib axes. It draws on `ax`, or on a new
-figure.
+Each function takes one result or a list of results of the public functions, draws on `axes` or on a
+new figure, and returns the matplotlib axes. New figures have a legend; on given axes
+`axes.legend()` adds one. The figures of the paper are made of these plots.
 """
 
-from impact_damper.plot.designs import design, sweep
-from impact_damper.plot.motions import basins, migration, orbit
-from impact_damper.plot.responses import branch, response, shares
+from impact_damper.plot.basin_plane import basins
+from impact_damper.plot.branches import branch
+from impact_damper.plot.designs import design
+from impact_damper.plot.motions import migration, orbit
+from impact_damper.plot.responses import response
+from impact_damper.plot.stacked_shares import shares
+from impact_damper.plot.sweeps import sweep
 
 __all__ = ["basins", "branch", "design", "migration", "orbit", "response", "shares", "sweep"]
 

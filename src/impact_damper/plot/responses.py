@@ -1,33 +1,33 @@
-"""Plots over a parameter: motions, harmonic balance, exact orbits, and shares of random starts.
-
-A start is an initial state; the share of a motion is the fraction of starts that lead to it.
-"""
+"""Displacement against forcing frequency: motions, harmonic balance and exact orbits."""
 
 import numpy as np
 
-from impact_damper.data.datasets import flag, has_damper, parameters_of
-from impact_damper.model.parameters import SYMBOLS
-from impact_damper.plot.drawing import axes_for, dataset_in, datasets_in, key, looks
-from impact_damper.plot.panels.branches import draw_orbits, runs
-from impact_damper.plot.panels.harmonic_balance import draw_band, draw_free
-from impact_damper.plot.panels.response import response_panel
-from impact_damper.plot.panels.shares import shares_panel
-from impact_damper.plot.panels.style import BLUE, ROLES, axis_label, tex
+from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
+from impact_damper.plot.branches import draw_free_orbits, followed_label, runs
+from impact_damper.plot.lines import branch_lines
+from impact_damper.plot.sheets import datasets_in, sheet
+from impact_damper.plot.style import BLUE, ROLES, axis_label, draw
 
-# Look of the settled motions in a sweep of steady motions.
-SETTLED = {
-    "label": "settled",
-    "color": BLUE,
-    "marker": "o",
-    "markerfacecolor": "none",
-    "linewidth": 0.5,
+# Settled motions of a branch are joined by a thin line.
+JOINED = {"linestyle": "-", "linewidth": 0.5}
+# Looks of motions that have not settled on an orbit with contacts, by outcome.
+DAMPED = {name: ROLES[name] for name in ("chaotic", "chaotic_transient", "quasi_periodic")}
+DAMPED |= {name: ROLES["non_colliding"] for name in ("non_colliding", "drifting")}
+DAMPED["unresolved"] = ROLES["unresolved"]
+FREE = {
+    "chaotic": ROLES["chaotic"] | {"label": "free, chaotic"},
+    "unresolved": ROLES["unresolved"] | {"label": "free, unresolved"},
 }
-# First words of legend labels in the figures of the paper, and clearer words for plots.
-PLAIN = {"free": "without damper", "inelastic": "damper with $e < 1$"}
+# Looks of results of `steady_motion`.
+SETTLED = ROLES["period_1"] | JOINED | {"label": "settled"}
+STILL = ROLES["non_colliding"] | {"label": "no contact"}
+UNSETTLED = ROLES["chaotic"] | {"label": "not settled"}
 
 
-def response(data, *, ax=None):
+def response(data, axes=None):
     """Draw displacement against forcing frequency.
+
+    Stable orbits with a damper are drawn if no motions with a damper are.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def response(data, *, ax=None):
         Results of `frequency_response`, `subharmonic_suppression`, `steady_motion`,
         `harmonic_balance_response`, `orbit_branch`, `complete_branches` (over frequency) or
         `suppression_band`, with or without a damper, in any combination.
-    ax : matplotlib.axes.Axes, optional
+    axes : matplotlib.axes.Axes, optional
 
     Returns
     -------
@@ -44,7 +44,7 @@ def response(data, *, ax=None):
     Raises
     ------
     TypeError
-        If `data` or `ax` is of another type.
+        If `data` or `axes` is of another type.
 
     Examples
     --------
@@ -58,39 +58,26 @@ def response(data, *, ax=None):
         "frequency_response, subharmonic_suppression, steady_motion, harmonic_balance_response, "
         "suppression_band, orbit_branch or complete_branches (over frequency)",
     )
-    parts = {"motions": [], "balance": [], "orbits": [], "steady": [], "bands": []}
-    for each in given:
-        parts[_kind(each)].append(each)
-    with looks(ax):
-        (axes,) = axes_for(ax)
-        response_panel(axes, parts["motions"], parts["balance"], parts["orbits"], apart=True)
-        for balance in parts["balance"]:
-            if not has_damper(balance) or not parts["motions"] + parts["orbits"]:
-                draw_free(axes, balance)
-        for orbits in filter(has_damper, parts["orbits"]):
-            _stable_orbits(axes, orbits)
-        for band in parts["bands"]:
-            draw_band(axes, band)
-        _steady(axes, parts["steady"])
-        shown = [each for each in given if _kind(each) != "bands"] or given
-        axes.set(xlabel=_frequency_label(shown[0]), ylabel=_size_label(shown))
+    parts = {kind: [each for each in given if _kind(each) == kind] for kind in map(_kind, given)}
+    motions, orbits = parts.get("motions", []), parts.get("orbits", [])
+    with sheet(axes) as (axes,):
+        for each in orbits:
+            _draw_orbits(axes, each, stable=not any(map(has_damper, motions)))
+        for each in parts.get("balance", []):
+            _draw_balance(axes, each, free=not has_damper(each) or not motions + orbits)
+        for each in parts.get("bands", []):
+            _draw_band(axes, each)
+        for each in motions:
+            _draw_motions(axes, each)
+        if "steady" in parts:
+            _draw_steady(axes, parts["steady"])
+        axes.set(xlabel=_frequency_label(given), ylabel=_size_label(given))
         axes.set_ylim(bottom=0)
-        _name_dampers(axes)
-        key(axes, 3)
     return axes
 
 
-def _name_dampers(axes):
-    """Replace the first words of legend labels as in `PLAIN`."""
-    for artist in axes.get_children():
-        words = str(artist.get_label())
-        for begin, plain in PLAIN.items():
-            if words.startswith(begin):
-                artist.set_label(plain + words.removeprefix(begin))
-
-
 def _kind(data):
-    """Return the kind of response that a dataset holds, a key of `parts` in `response`, or ""."""
+    """Return the kind of response that a dataset holds, or ""."""
     if "followed_value" in data and parameters_of(data).get("parameter") == "frequency":
         return "orbits"
     if "free_amplitude" in data:
@@ -98,23 +85,112 @@ def _kind(data):
     if "band_status" in data:
         return "bands"
     if "maximum_displacement" in data and "frequency" in data.coords:
-        return {("frequency", "motion"): "motions", (): "steady", ("frequency",): "steady"}.get(
-            data["maximum_displacement"].dims, ""
-        )
+        kinds = {("frequency", "motion"): "motions", (): "steady", ("frequency",): "steady"}
+        return kinds.get(data["maximum_displacement"].dims, "")
     return ""
 
 
-def _stable_orbits(axes, orbits):
-    """Draw the stable parts of the branches of orbits."""
-    for value, size, stable in runs(orbits, lambda period: True):
-        if stable:
-            axes.plot(value, size, color=BLUE, label="stable orbit")
-
-
-def _steady(axes, motions):
-    """Draw steady motions, the settled ones joined in the order in which they are given."""
-    if not motions:
+def _draw_orbits(axes, orbits, stable):
+    """Draw orbits without a damper, or with one those of period 1 and, if `stable`, stable ones."""
+    if not has_damper(orbits):
+        draw_free_orbits(axes, orbits)
         return
+    for value, size, is_stable in runs(orbits, lambda period: period == 1):
+        if not is_stable:
+            draw(axes, value, size, **ROLES["unstable_orbit"])
+    for value, size, is_stable in runs(orbits, lambda period: stable):
+        if is_stable:
+            draw(axes, value, size, color=BLUE, label="stable orbit")
+
+
+def _draw_balance(axes, balance, free):
+    """Draw the band, the stable solutions with contact and, if `free`, those without a damper."""
+    _draw_band(axes, balance)
+    if free:
+        stable = balance["free_stability"].values == flag("free_stability", "stable")
+        _draw_amplitudes(axes, balance, "free_amplitude", stable, ROLES["free_stable"])
+        _draw_unstable(axes, balance)
+    if has_damper(balance):
+        stable = balance["stability"].values == flag("stability", "stable")
+        impacting = balance["kind"].values == flag("kind", "impacting")
+        role = ROLES["harmonic_balance"]
+        _draw_amplitudes(axes, balance, "amplitude", stable & impacting, role)
+
+
+def _draw_amplitudes(axes, balance, name, chosen, role):
+    """Draw the amplitude of the solutions where the mask `chosen` is True."""
+    size = np.where(chosen, abs(balance[name].values), np.nan)
+    for branch in size.T[np.isfinite(size).any(axis=0)]:
+        draw(axes, balance["frequency"].values, branch, **role)
+
+
+def _draw_band(axes, balance):
+    """Shade the suppression band, if it exists."""
+    if "band_status" in balance and balance["band_status"] == flag("band_status", "found"):
+        axes.axvspan(*balance["edge_frequency"].values, **ROLES["band"])
+
+
+def _draw_unstable(axes, balance):
+    """Draw the unstable solutions of harmonic balance without a damper, up to the folds.
+
+    Along the response curve the phase increases, so the solutions are sorted by phase.
+    """
+    phase = balance["free_phase"].values
+    order = np.argsort(phase, axis=None)[: np.isfinite(phase).sum()]
+    frequency, amplitude, stability = (
+        np.broadcast_to(balance[name].values.T, phase.T.shape).T.ravel()[order]
+        for name in ("frequency", "free_amplitude", "free_stability")
+    )
+    unstable = stability == flag("free_stability", "unstable")
+    shown = np.convolve(unstable, [1, 1, 1], "same") > 0
+    draw(axes, frequency, np.where(shown, amplitude, np.nan), **ROLES["free_unstable"])
+
+
+def _draw_motions(axes, motions):
+    """Draw motions from random starts: settled ones joined along branches, others as points."""
+    period = motions["period"].values
+    if not has_damper(motions):
+        settled = is_settled(motions)
+        _draw_settled(axes, motions, settled & (period == 1), ROLES["free_stable"])
+        _draw_settled(axes, motions, settled & (period != 1), ROLES["free_higher"])
+        _draw_unsettled(axes, motions, FREE)
+        return
+    colliding = is_settled(motions) & (motions["contacts"].values > 0)
+    third = (period > 1) & (period % 3 == 0)
+    for name, chosen in (
+        ("period_1", period == 1),
+        ("higher_period", (period > 1) & ~third),
+        ("subharmonic_damped", third),
+    ):
+        _draw_settled(axes, motions, colliding & chosen, ROLES[name] | JOINED)
+    _draw_unsettled(axes, motions, DAMPED)
+
+
+def _draw_settled(axes, motions, chosen, role):
+    """Draw lines through the chosen motions of each branch."""
+    for frequency, size in branch_lines(motions, chosen):
+        draw(axes, frequency, size, **role)
+
+
+def _draw_unsettled(axes, motions, roles):
+    """Draw the motions that have not settled on an orbit as points; `roles` maps outcomes to roles.
+
+    Chaos that ended in one of the runs gets the role `chaotic_transient`, if `roles` has it.
+    """
+    for status, role in roles.items():
+        outcome = "chaotic" if status == "chaotic_transient" else status
+        chosen = motions["outcome"].values == flag("outcome", outcome)
+        if outcome == "chaotic" and "chaotic_transient" in roles:
+            ended = motions["life_ends"].values > 0 if "life_ends" in motions else False
+            chosen &= np.equal(ended, status == "chaotic_transient")
+        row, column = chosen.nonzero()
+        if len(row):
+            size = motions["maximum_displacement"].values[row, column]
+            draw(axes, motions["frequency"].values[row], size, **role)
+
+
+def _draw_steady(axes, motions):
+    """Draw steady motions, the settled ones joined in the order in which they are given."""
     frequency, size, outcome = (
         np.concatenate([np.ravel(each[name]) for each in motions])
         for name in ("frequency", "maximum_displacement", "outcome")
@@ -123,21 +199,19 @@ def _steady(axes, motions):
     still = outcome == flag("outcome", "non_colliding")
     if settled.any():
         axes.plot(frequency, np.where(settled, size, np.nan), **SETTLED)
-    for chosen, role, words in (
-        (still, "non_colliding", "no contact"),
-        (~settled & ~still, "chaotic", "not settled"),
-    ):
+    for chosen, role in ((still, STILL), (~settled & ~still, UNSETTLED)):
         if chosen.any():
-            axes.plot(frequency[chosen], size[chosen], **ROLES[role] | {"label": words})
+            axes.plot(frequency[chosen], size[chosen], **role)
 
 
-def _frequency_label(data):
-    """Return the label of the frequency axis, with the units of the dataset."""
-    if "frequency" in data.coords:
-        return axis_label(data["frequency"])
-    values = data["followed_value" if "followed_value" in data else "edge_frequency"]
-    units = values.attrs["units"]
-    return "Forcing frequency, $\\Omega$" if units == "1" else f"Forcing frequency ({units})"
+def _frequency_label(given):
+    """Return the label of the frequency axis, with the units of the first dataset that has it."""
+    for each in given:
+        if "frequency" in each.coords:
+            return axis_label(each["frequency"])
+        if "followed_value" in each:
+            return followed_label(each)
+    return axis_label(given[0]["edge_frequency"], "forcing frequency")
 
 
 def _size_label(given):
@@ -147,95 +221,5 @@ def _size_label(given):
             if name in each:
                 return axis_label(each[name])
     units = next((each["free_amplitude"].units for each in given if "free_amplitude" in each), "1")
-    return "Amplitude, $|a|$" if units == "1" else f"Amplitude ({units})"
-
-
-def branch(data, *, ax=None):
-    """Draw the largest displacement in periodic orbits against the parameter that varies.
-
-    Stable orbits are solid lines, unstable ones dotted lines. Colours distinguish periods;
-    markers are bifurcations and changes of contact.
-
-    Parameters
-    ----------
-    data : xarray.Dataset or list of xarray.Dataset
-        Results of `orbit_branch` or `complete_branches`, over the same parameter.
-    ax : matplotlib.axes.Axes, optional
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    TypeError
-        If `data` or `ax` is of another type.
-
-    Examples
-    --------
-    >>> import impact_damper as idm
-    >>> oscillator, start = idm.Oscillator(0.215), (0.006, 0.187, 0.002, -2.408)
-    >>> damper = idm.Damper(0.12, 2.0)
-    >>> found = idm.orbit_branch(oscillator, damper, 2.0, start, span=(1.9, 2.1))
-    >>> axes = idm.plot.branch(found)
-    """
-    given = datasets_in(
-        data, lambda each: "event_kind" in each, "orbit_branch or complete_branches"
-    )
-    with looks(ax):
-        (axes,) = axes_for(ax)
-        for each in given:
-            draw_orbits(axes, each)
-        axes.set(
-            xlabel=_followed_label(given[0]), ylabel=axis_label(given[0]["orbit_displacement"])
-        )
-        key(axes, 3)
-    return axes
-
-
-def _followed_label(data):
-    """Return the label of the axis of the parameter that varies along a branch."""
-    name, units = parameters_of(data)["parameter"], data["followed_value"].attrs["units"]
-    if name == "frequency":
-        return _frequency_label(data)
-    words = name.replace("_", " ").capitalize()
-    if name == "mass_ratio" and units == "kg":
-        words = "Mass of the damper"
-    return f"{words}, ${tex(SYMBOLS[name])}$" if units == "1" else f"{words} ({units})"
-
-
-def shares(data, *, ax=None):
-    """Draw the shares of random starts that lead to each motion, stacked, with 95 % intervals.
-
-    A motion keeps its colour over all values; further motions of a kind are paler, and
-    of period 1 also hatched.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        A result of `frequency_response`, `subharmonic_suppression` or `clearance_sweep`.
-    ax : matplotlib.axes.Axes, optional
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    TypeError
-        If `data` or `ax` is of another type.
-
-    Examples
-    --------
-    >>> import impact_damper as idm
-    >>> bare = idm.frequency_response(idm.Oscillator(0.215), None, [1.9, 2.0], starts=8)
-    >>> axes = idm.plot.shares(bare)
-    """
-    words = "frequency_response, subharmonic_suppression or clearance_sweep"
-    found = dataset_in(data, lambda each: "run_outcome" in each, words)
-    with looks(ax):
-        (axes,) = axes_for(ax)
-        shares_panel(axes, found)
-        axes.set_ylabel("Share of random starts")
-        key(axes, 4)
-    return axes
+    words = "Amplitude of the primary mass"
+    return f"{words}, $|a|$" if units == "1" else f"{words} ({units})"

@@ -9,7 +9,7 @@ from impact_damper.plot.machine_figures.cliff import stable_runs
 from impact_damper.plot.machine_figures.looks import decades
 from impact_damper.plot.machine_figures.overview import draw_machines
 from impact_damper.plot.pages.machine import FIGURES
-from impact_damper.plot.panels.style import figure
+from impact_damper.plot.style import figure
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from impact_damper.data.datasets import dataset
-from impact_damper.plot.panels.motion_lines import branch_lines, lines
+from impact_damper.plot.lines import branch_lines, lines
 
 
 def test_lines_keep_apart_what_is_stored_in_any_order():

@@ -11,7 +11,7 @@ from matplotlib.mathtext import MathTextParser
 
 from impact_damper.data.datasets import variable
 from impact_damper.data.variables import VARIABLES
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.style import (
     COLUMNS,
     ROLES,
     axis_label,

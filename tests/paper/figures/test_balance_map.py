@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from chatterjee1995.figures.balance_map import QUIET, VIOLENT, draw_balance_map
 from chatterjee1995.variables.balance_map import HIGH_VERDICT, QUIET_VERDICT
 from impact_damper.data.datasets import dataset
-from impact_damper.plot.panels.style import style
+from impact_damper.plot.style import style
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -10,13 +10,13 @@ from chatterjee1995.figures.free import draw_free
 from chatterjee1995.figures.release import draw_release
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION, OUTCOME
-from impact_damper.plot.panels.branches import draw_branches
+from impact_damper.plot.branches import draw_branches
 from impact_damper.plot.panels.harmonic_balance import draw_harmonic_balance
 from impact_damper.plot.panels.migration import draw_migration
 from impact_damper.plot.panels.motion import draw_motion
 from impact_damper.plot.panels.optimum import draw_optimum
 from impact_damper.plot.panels.response import draw_response
-from impact_damper.plot.panels.style import ROLES, style
+from impact_damper.plot.style import ROLES, style
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.testing import assert_allclose
 
-from impact_damper.plot.panels.maps import edges
+from impact_damper.plot.maps import edges
 
 
 def test_edges_of_a_grid_of_decades():

@@ -14,7 +14,7 @@ from matplotlib.text import Text
 
 import impact_damper
 from chatterjee1995.figures import schematics
-from impact_damper.plot.panels.style import COLUMNS, save_figure, style
+from impact_damper.plot.style import COLUMNS, save_figure, style
 
 NAMES = ["elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair"]
 KINDS = ["pdf", "png"]

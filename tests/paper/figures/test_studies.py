@@ -8,7 +8,7 @@ from matplotlib.patches import PathPatch
 from chatterjee1995.figures.studies import draw_studies
 from chatterjee1995.variables.studies import AXES, OUTCOMES
 from impact_damper.data.datasets import dataset
-from impact_damper.plot.panels.style import style
+from impact_damper.plot.style import style
 
 pytestmark = pytest.mark.filterwarnings("error")
 

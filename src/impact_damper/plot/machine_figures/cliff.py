@@ -17,7 +17,7 @@ from impact_damper.plot.machine_figures.looks import (
     limit_line,
     plot_sizes,
 )
-from impact_damper.plot.panels.style import BLUE, GREY, figure, legend, style
+from impact_damper.plot.style import BLUE, GREY, figure, legend, style
 
 CAPTION = """
 Horizontal: gap, the full play. Above: share of random starts that lead to quiet motions, at the

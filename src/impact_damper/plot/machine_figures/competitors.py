@@ -14,7 +14,7 @@ from impact_damper.plot.machine_figures.looks import (
     finite,
     plot_sizes,
 )
-from impact_damper.plot.panels.style import figure, legend, style
+from impact_damper.plot.style import figure, legend, style
 
 CAPTION = """
 Largest displacement of all motions found: with this damper, with tuned absorbers of the same mass,

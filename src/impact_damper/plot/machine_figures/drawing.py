@@ -4,7 +4,7 @@ import json
 
 from matplotlib.patches import Circle
 
-from impact_damper.plot.panels.schematic_parts import (
+from impact_damper.plot.schematic_parts import (
     arrow,
     dashpot,
     filled,
@@ -16,7 +16,7 @@ from impact_damper.plot.panels.schematic_parts import (
     stroke,
     wheels,
 )
-from impact_damper.plot.panels.style import BLACK, GREY, PALE_SKY, VERMILION, WHITE, style
+from impact_damper.plot.style import BLACK, GREY, PALE_SKY, VERMILION, WHITE, style
 
 CAPTION = """
 The machine and its damper, drawn to scale as cubes of steel (7850 kg/m³). The loose mass slides or

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.style import (
     BLACK,
     BLUE,
     GREEN,

@@ -4,7 +4,7 @@ import numpy as np
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.plot.machine_figures.looks import STAR, decades, limit_line, plot_sizes
-from impact_damper.plot.panels.style import BLACK, BLUE, figure, legend, style
+from impact_damper.plot.style import BLACK, BLUE, figure, legend, style
 
 CAPTION = """
 Dampers of other masses for the same machine and band. A shortened design chose the gap of each

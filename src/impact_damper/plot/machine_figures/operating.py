@@ -11,7 +11,7 @@ from matplotlib.ticker import NullLocator
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.plot.machine_figures.looks import STAR, finite, name_numbers
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.style import (
     BLACK,
     GREY,
     PALE,

@@ -9,7 +9,7 @@ from string import ascii_lowercase
 
 from impact_damper.plot.machine_figures.cliff import share_panel, size_panel
 from impact_damper.plot.machine_figures.response import response_panel
-from impact_damper.plot.panels.style import figure, legend, style
+from impact_damper.plot.style import figure, legend, style
 
 CAPTION = """
 Left: largest displacement against forcing frequency, without the damper and with the damper

@@ -6,6 +6,7 @@ The motions with the damper were found from random starts (initial states).
 import numpy as np
 
 from impact_damper.data.datasets import flag, is_settled
+from impact_damper.plot.branches import runs, runs_of
 from impact_damper.plot.machine_figures.looks import (
     BARE,
     DAMPED,
@@ -14,8 +15,7 @@ from impact_damper.plot.machine_figures.looks import (
     plot_if_any,
     plot_sizes,
 )
-from impact_damper.plot.panels.branches import runs, runs_of
-from impact_damper.plot.panels.style import BLUE, GREY, ROLES, figure, legend, style
+from impact_damper.plot.style import BLUE, GREY, ROLES, figure, legend, style
 
 CAPTION = """
 Largest displacement of the machine against forcing frequency. Without the damper: exact periodic

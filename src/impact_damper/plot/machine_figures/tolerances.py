@@ -6,7 +6,7 @@ displacement limit of the design.
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.plot.machine_figures.looks import STAR, decades, limit_line, plot_sizes
-from impact_damper.plot.panels.style import BLUE, GREY, ORANGE, figure, legend, style
+from impact_damper.plot.style import BLUE, GREY, ORANGE, figure, legend, style
 
 CAPTION = """
 Each point is one damper and machine whose values differ from the nominal ones within their

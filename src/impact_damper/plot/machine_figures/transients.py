@@ -2,7 +2,7 @@
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.plot.machine_figures.looks import BARE, DAMPED, decades, limit_line
-from impact_damper.plot.panels.style import PALE, figure, legend, style
+from impact_damper.plot.style import PALE, figure, legend, style
 
 CAPTION = """
 Largest displacement in each cycle. Above and middle: the forcing frequency is swept up and down at

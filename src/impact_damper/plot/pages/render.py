@@ -7,7 +7,7 @@ from pathlib import Path
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from impact_damper.data.whole_files import whole
-from impact_damper.plot.panels.style import style
+from impact_damper.plot.style import style
 
 # Dots per inch: 748 pixels for a figure of 3.4 inches, so that pages never enlarge it.
 DPI = 220

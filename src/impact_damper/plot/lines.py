@@ -1,7 +1,7 @@
 """Lines through the motions of a frequency response that belong to one branch.
 
-A branch is one motion over a range of frequencies. The datasets list the motions at each frequency
-by size, so one motion may have different places in the lists of neighbouring frequencies.
+The datasets list the motions at each frequency by size, so one motion may have different places in
+the lists of neighbouring frequencies.
 """
 
 import numpy as np
@@ -55,7 +55,7 @@ def branch_lines(response, chosen):
     Parameters
     ----------
     response : xarray.Dataset
-        Dataset of the stage response.
+        A result of `frequency_response`.
     chosen : array of bool, shape (frequency, motion)
 
     Returns
@@ -86,9 +86,3 @@ def branch_lines(response, chosen):
             place = len(line[1]) if direction > 0 else 0
             line[1:] = np.insert(line[1], place, where), np.insert(line[2], place, value)
     return [(at, values) for _, at, values in joined]
-
-
-def draw_lines(axes, lines, role):
-    """Draw lines, pairs of abscissae and ordinates; `role` has the keywords of `plot`."""
-    for at, values in lines:
-        axes.plot(at, values, **role)

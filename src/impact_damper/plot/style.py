@@ -1,12 +1,11 @@
-"""Common style of all figures: fonts, colours, roles of curves, sizes, labels, saving.
-
-A role is the meaning of a curve, such as `free_stable`; ROLES maps roles to keywords of `plot`.
-Free means without the damper.
+"""Common look of all figures: fonts, colours, roles of curves, labels, legends, files.
 
 The colours are the palette of Okabe and Ito, which colour-blind readers can distinguish. Roles that
 occur in the same figure also differ in marker or line style, for print without colours.
 """
 
+import json
+import math
 import re
 import string
 
@@ -14,6 +13,7 @@ import matplotlib.style
 from cycler import cycler
 from matplotlib.figure import Figure
 
+from impact_damper.data.datasets import parameters_of
 from impact_damper.data.whole_files import whole
 from impact_damper.model.parameters import SYMBOLS
 
@@ -38,8 +38,7 @@ STYLE = {
     "legend.frameon": False,
     "legend.handlelength": 2.4,
     "legend.columnspacing": 1.4,
-    # With a fixed title height matplotlib does not search for a position clear of the ticks, which
-    # would take a fifth of the drawing time.
+    # A search for a position clear of the ticks would take a fifth of the drawing time.
     "axes.titley": 1.0,
     "axes.linewidth": 0.6,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
@@ -65,15 +64,8 @@ def _line(label, color, **keywords):
 
 def _points(label, color, marker, filled=False, **keywords):
     """Return the role of markers, open unless `filled`."""
-    face = color if filled else "none"
-    return {
-        "label": label,
-        "color": color,
-        "marker": marker,
-        "linestyle": "none",
-        "markerfacecolor": face,
-        **keywords,
-    }
+    look = {"linestyle": "none", "markerfacecolor": color if filled else "none"}
+    return {"label": label, "color": color, "marker": marker, **look, **keywords}
 
 
 def _shading(label, color):
@@ -81,8 +73,7 @@ def _shading(label, color):
     return {"label": label, "facecolor": color, "linewidth": 0, "zorder": 0}
 
 
-# Keywords of `plot` for each role; for "damper_on" and "band" keywords of `axvspan`. To change a
-# keyword in one figure: ROLES[name] | {...}.
+# Keywords of `plot` for each role, the meaning of a curve; of `axvspan` for "damper_on" and "band".
 ROLES = {
     "free_stable": _line("free, stable", BLACK, zorder=2.2),
     "free_unstable": _line("free, unstable", GREY, linestyle=(0, (4, 2)), zorder=2.1),
@@ -117,31 +108,12 @@ ROLES = {
         linewidth=0.8,
         zorder=1.9,
     ),
-    "inelastic_unstable_orbit": _line(
-        "inelastic, unstable orbit of period 1",
-        VERMILION,
-        linestyle=(0, (1, 4)),
-        linewidth=1.0,
-        zorder=1.9,
-    ),
     "subharmonic_damped": _points("damper, subharmonic (period $3n$)", PURPLE, "v"),
     "chaotic": _points("damper, chaotic", ORANGE, ".", filled=True),
     "chaotic_transient": _points("damper, chaotic transient", ORANGE, ".", markersize=4.6),
     "non_colliding": _points("damper, no contact", BLACK, "D", markersize=2.6),
     "quasi_periodic": _points("damper, quasi-periodic", SKY, "P", filled=True, markersize=4.2),
     "unresolved": _points("damper, unresolved", BLACK, "x"),
-    "inelastic_period_1": _points("inelastic, period 1", VERMILION, "+", markersize=4.6),
-    "inelastic_higher_period": _points("inelastic, other periods", VERMILION, "*"),
-    "inelastic_subharmonic_damped": _points("inelastic, subharmonic (period $3n$)", VERMILION, "<"),
-    "inelastic_chaotic": _points("inelastic, chaotic", VERMILION, "1", markersize=4.6),
-    "inelastic_chaotic_transient": _points(
-        "inelastic, chaotic transient", VERMILION, "3", markersize=4.6
-    ),
-    "inelastic_non_colliding": _points("inelastic, no contact", VERMILION, "d"),
-    "inelastic_quasi_periodic": _points(
-        "inelastic, quasi-periodic", PURPLE, "h", filled=True, markersize=4.2
-    ),
-    "inelastic_unresolved": _points("inelastic, unresolved", VERMILION, "X"),
     "optimum": _points(
         "smallest, on the exact orbit", BLACK, "*", filled=True, markersize=5.5, zorder=3
     ),
@@ -167,20 +139,17 @@ CURVES = [
 ]
 
 
+# Mathtext (matplotlib's version of TeX) of symbols that `tex` cannot translate.
+MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
+
+
 def style(*changes):
     """Return a context manager, also a decorator, that applies the common style with changes."""
     return matplotlib.style.context(["default", STYLE, *changes])
 
 
 def figure(column, height) -> Figure:
-    """Return an empty figure with the width of one or two columns of a page.
-
-    Parameters
-    ----------
-    column : str
-        "single" (3.4 in) or "double" (7.0 in).
-    height : float
-        In inches.
+    """Return an empty figure, `height` inches high, with the width of "single" or "double" columns.
 
     Raises
     ------
@@ -204,8 +173,14 @@ def points(index) -> dict:
     return {"color": color, "linestyle": "none", "marker": marker, "markerfacecolor": "none"}
 
 
-# Mathtext (matplotlib's version of TeX) of symbols that `tex` cannot translate.
-MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
+def once(axes, label):
+    """Return a label, or None if an artist of the axes has it: `axes.legend()` lists it once."""
+    return None if label in axes.get_legend_handles_labels()[1] else label
+
+
+def draw(axes, x, y, *, label=None, **look) -> None:
+    """Plot a line, without its label if the axes have it already."""
+    axes.plot(x, y, label=once(axes, label), **look)
 
 
 def parameter_label(parameters, *names, separator=", ") -> str:
@@ -217,15 +192,12 @@ def parameter_label(parameters, *names, separator=", ") -> str:
     )
 
 
-def axis_label(variable) -> str:
+def axis_label(variable, words=None) -> str:
     """Return an axis label: description, symbol, units, such as "Forcing frequency, $\\Omega$".
 
-    Parameters
-    ----------
-    variable : xarray.DataArray
-        With the attributes `long_name`, `units` and optionally `symbol` of the registry.
+    `variable` is a DataArray with the attributes of the registry; `words` replace its description.
     """
-    words, units = variable.attrs["long_name"], variable.attrs["units"]
+    words, units = words or variable.attrs["long_name"], variable.attrs["units"]
     label = words[0].upper() + words[1:]
     if "symbol" in variable.attrs:
         label += f", ${tex(variable.attrs['symbol'])}$"
@@ -240,6 +212,12 @@ def tex(symbol) -> str:
     symbol = re.sub(r"[A-Za-z]{2,}", r"\\\g<0> ", symbol)
     symbol = re.sub(r"([A-Za-z])(\d+)", r"\1_{\2}", symbol)
     return symbol.replace("  |", r"\,|")
+
+
+def forcing_period(data) -> float:
+    """Return the period of the forcing in the unit of the times of a dataset."""
+    scale = json.loads(data.attrs.get("scales", '{"time": 1}'))["time"]
+    return 2 * math.pi / parameters_of(data)["frequency"] * scale
 
 
 def letter_panels(panels) -> None:
@@ -259,11 +237,11 @@ def legend(figure, columns, order=(), place=None) -> None:
             entries.setdefault(label, handle)
     first = [label for label in order if label in entries]
     entries = {label: entries[label] for label in [*first, *entries]}
-    if place is None:
-        figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
-    else:
+    if place is not None:
         place.set_axis_off()
         place.legend(entries.values(), entries.keys(), loc="center", ncols=columns)
+    elif entries:
+        figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
 
 
 def save_figure(figure, path) -> None:

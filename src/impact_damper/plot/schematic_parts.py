@@ -6,7 +6,7 @@ Coordinates are in inches from the lower left corner of the sheet.
 import numpy as np
 from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch, Polygon, Rectangle
 
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.style import (
     BLACK,
     BLUE,
     GREY,

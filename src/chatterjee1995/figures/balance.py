@@ -1,20 +1,13 @@
-"""Maps that compare harmonic balance with the exact motions (figure kind `balance_map`).
-
-A cell is a pair of forcing frequency and another parameter. In each cell a verdict, stored as a
-flag (an integer for each meaning), says whether harmonic balance is right about the quiet motion,
-which is small, and about the violent motion, which is at least half as large as the resonance
-without damper. The numbers in the caption are equations of the paper: (7) harmonic balance, (17)
-its slow flow.
-"""
+"""Where harmonic balance fails: with many harmonics, and over two parameters."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 
-from impact_damper.data.datasets import flag, parameters_of
-from impact_damper.plot.panels.maps import hatch as hatch_cells
-from impact_damper.plot.panels.maps import span
-from impact_damper.plot.panels.style import (
+from impact_damper.data.datasets import flag, has_damper, parameters_of
+from impact_damper.plot.maps import edges_of
+from impact_damper.plot.maps import hatch as hatch_cells
+from impact_damper.plot.style import (
     BLACK,
     BLUE,
     GREEN,
@@ -23,21 +16,35 @@ from impact_damper.plot.panels.style import (
     PALE,
     PALE_SKY,
     PURPLE,
+    ROLES,
     SKY,
     VERMILION,
     WHITE,
     axis_label,
+    curve,
     figure,
+    legend,
     letter_panels,
+    parameter_label,
+    points,
     style,
 )
 
-CAPTION = """
-(a) Smallest solution of harmonic balance (7): stability by the slow flow (17) against stability of
-the exact quiet orbit. Dots: a run from this solution becomes chaotic. (b) Largest stable solution
-of harmonic balance against the motion to which a run from it leads. Near: within 20 % in amplitude.
-"""
-
+PANELS = {
+    "maximum": r"Error of $\max\,|Z_1|$",
+    "retained": "Error of $Z_1$ in harmonics up to $N$",
+    "multiplier": "Error of a Floquet multiplier (Hill)",
+}
+ROUNDING = 1e-12  # smallest error fitted: smaller ones are dominated by rounding
+FLOOR = 1e-16  # smallest error drawn
+GUIDE = {"color": GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
+# Result of a cold start -> legend text and marker.
+COLD = {
+    "same_motion": ("(d): finds the same motion", {"marker": "o", "markerfacecolor": "none"}),
+    "another_motion": ("(d): finds another motion", {"marker": "s", "markersize": 4.4}),
+    "stalled": ("(d): Newton's method stalls", {"marker": "x"}),
+    "iteration_limit": ("(d): reaches the limit of steps", {"marker": "+", "markersize": 5}),
+}
 PARAMETERS = {
     "damping": "Damping, $h$",
     "mass_ratio": "Mass ratio, $r_m$",
@@ -73,18 +80,80 @@ VIOLENT = {
 
 
 @style()
-def draw_balance_map(*, balance_map):
-    """Draw the verdicts on the quiet motion (a) and on the violent motion (b).
+def draw_harmonic_convergence(*, harmonic_convergence):
+    """Draw errors of max |Z1|, of the retained harmonics and of multipliers, and cold starts."""
+    drawn = figure("double", 6.4)
+    panels = drawn.subplots(2, 2, sharex=True)
+    letter_panels(panels.flat)
+    for axes, (measure, words) in zip(panels.flat, PANELS.items(), strict=False):
+        _draw_errors(axes, harmonic_convergence, measure)
+        axes.set(xscale="log", yscale="log", ylabel=words, ylim=(FLOOR / 2, 10))
+    _draw_cold(panels[1, 1], harmonic_convergence)
+    for axes in panels[1]:
+        axes.set_xlabel(axis_label(harmonic_convergence[0]["highest_harmonic"]))
+    legend(drawn, 3)
+    return drawn
 
-    Parameters
-    ----------
-    balance_map : list of xarray.Dataset
-        One dataset of the stage balance_map.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
+def _draw_errors(axes, harmonics, measure):
+    """Draw the errors of one measure, the predicted decrease, and failures at the upper edge."""
+    status = "hill_status" if measure == "multiplier" else "series_status"
+    for index, data in enumerate(harmonics):
+        at = data.sel(error_measure=measure)
+        highest, error = data["highest_harmonic"].values, at["series_error"].values
+        line = points(index) | curve(index) | {"linewidth": 0.8}
+        axes.plot(highest, np.maximum(error, FLOOR), **line, label=_title(data))
+        lost = highest[data[status].values != 0]
+        if len(lost):
+            place = {"transform": axes.get_xaxis_transform(), "label": "failed"}
+            axes.plot(lost, np.full(len(lost), 0.97), **ROLES["unresolved"] | place)
+    for data in harmonics:
+        axes.plot(*_guide(data, data.sel(error_measure=measure)), **GUIDE, label="predicted decay")
+
+
+def _guide(data, at):
+    """Return harmonics and values of the line of predicted decrease: two arrays, or empty lists.
+
+    The line is three times as high as the fit of the predicted decrease to the errors, so that it
+    does not hide them.
     """
+    highest, error = data["highest_harmonic"].values, at["series_error"].values
+    used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
+    if not used.any():
+        return [], []
+    highest, error = highest[used], np.log(error[used])
+    exponential = data["decay_kind"] == flag("decay_kind", "exponential")
+    decay = -at["decay_predicted"].item() * (highest if exponential else np.log(highest))
+    return highest, 3 * np.exp(decay + np.mean(error - decay))
+
+
+def _draw_cold(axes, harmonics):
+    """Draw the result of each cold start, one row for each motion."""
+    for index, data in enumerate(harmonics):
+        highest, status = data["highest_harmonic"].values, data["cold_status"].values
+        for meaning, (words, look) in COLD.items():
+            chosen = highest[status == flag("cold_status", meaning)]
+            look = look | {"color": curve(index)["color"], "linestyle": "none"}
+            if len(chosen):
+                axes.plot(chosen, np.full(len(chosen), -index), **look, label=words)
+    axes.set_yticks(-np.arange(len(harmonics)), [_title(data, short=True) for data in harmonics])
+    axes.set_ylim(0.5 - len(harmonics), 0.5)
+    axes.tick_params(axis="y", length=0)
+
+
+def _title(data, short=False):
+    """Return the parameters of a motion as text: its damper, or "free" without one."""
+    parameters = parameters_of(data)
+    if not has_damper(data):
+        return "free" if short else f"free, {parameter_label(parameters, 'frequency')}"
+    separator = "\n" if short else ", "
+    damper = parameter_label(parameters, "mass_ratio", "restitution")
+    return damper + separator + parameter_label(parameters, "contact_stiffness")
+
+
+@style()
+def draw_balance_map(*, balance_map):
+    """Draw the verdicts on the quiet motion (a) and on the violent motion (b)."""
     (data,) = balance_map
     drawn = figure("double", 5.6)
     quiet, violent = drawn.subplots(1, 2, sharex=True, sharey=True)
@@ -98,8 +167,8 @@ def draw_balance_map(*, balance_map):
         axes.set_xlabel(axis_label(data["frequency_ratio"]))
     quiet.set(
         ylabel=PARAMETERS[parameters_of(data)["parameter"]],
-        xlim=span(data["frequency_ratio"].values),
-        ylim=span(data["map_value"].values),
+        xlim=edges_of(data["frequency_ratio"].values)[[0, -1]],
+        ylim=edges_of(data["map_value"].values)[[0, -1]],
     )
     letter_panels([quiet, violent])
     entries = [axes.get_legend_handles_labels() for axes in (quiet, violent)]

@@ -1,16 +1,18 @@
-"""Optimum clearances of the exact motion, and rules for them (figure kind `design_rules`).
+"""Optimum clearances: figures 6, 7 and 11 of the paper, rules for the clearance, and studies."""
 
-A rule gives the product rm W^2 d0 of mass ratio, squared frequency and clearance at the optimum.
-By equation (18) of the paper, which follows from harmonic balance, it is 1.
-"""
+from itertools import product
 
 import numpy as np
+from matplotlib.colors import LogNorm
 
+from impact_damper import plot
 from impact_damper.data.datasets import flag, parameters_of
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.maps import edges_of, hatch, mesh
+from impact_damper.plot.style import (
     BLACK,
     GREY,
     ORANGE,
+    ROLES,
     SKY,
     axis_label,
     curve,
@@ -21,13 +23,6 @@ from impact_damper.plot.panels.style import (
     points,
     style,
 )
-
-CAPTION = """
-Above: clearance at which max |Z1| of the exact quiet orbit is smallest. Points: stable orbits;
-crosses: unstable ones. Lines: model of flight at constant speed between the walls, with
-corrections. Below: share of optima that each rule predicts within a given error. The explicit
-formula is for elastic contact.
-"""
 
 # Parameters that a dataset can sweep, with the scale of their axis.
 SWEPT = {
@@ -55,45 +50,49 @@ LOOKS = {
 }
 
 
+# Hatching of the cells of a study in which not all motions settled.
+UNSETTLED = {"hatch": "////", "edgecolor": BLACK, "linewidth": 0}
+
+
+@style()
+def draw_optimum(*, optimum):
+    """Draw the largest displacement of the quiet motion against clearance, all in one plot."""
+    drawn = figure("double", 4.4)
+    plot.sweep(optimum, drawn.subplots())
+    legend(drawn, 3)
+    return drawn
+
+
 @style()
 def draw_design_rules(*, design_rules):
     """Draw optima and rules against each swept parameter, and the distribution of all errors.
 
-    Parameters
-    ----------
-    design_rules : list of xarray.Dataset
-        Datasets of the stage design_rules. A dataset in which exactly one parameter is swept in
-        addition to the mass ratio gets a panel. The errors in the last row are those of all
-        datasets.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
+    A dataset in which exactly one parameter is swept in addition to the mass ratio gets a panel.
     """
-    sweeps = [(data, swept(data)) for data in design_rules]
+    sweeps = [(data, _swept(data)) for data in design_rules]
     sweeps = [(data, names[0]) for data, names in sweeps if len(names) == 1]
     rows = -(-len(sweeps) // 2) + 1
     drawn = figure("double", 1.9 * rows + 1.3)
     panels = drawn.subplots(rows, 2, squeeze=False)
     upper = panels[:-1].ravel()
     for axes, (data, name) in zip(upper, sweeps, strict=False):
-        draw_sweep(axes, data.sel(criterion="displacement"), name)
+        _draw_sweep(axes, data.sel(criterion="displacement"), name)
     for axes in upper[len(sweeps) :]:
         axes.set_axis_off()
     for axes, (criterion, words) in zip(panels[-1], TITLES.items(), strict=True):
-        draw_errors(axes, [data.sel(criterion=criterion) for data in design_rules])
+        _draw_errors(axes, [data.sel(criterion=criterion) for data in design_rules])
         axes.set_title(words)
     letter_panels([*upper[: len(sweeps)], *panels[-1]])
     legend(drawn, 3)
     return drawn
 
 
-def swept(data):
+def _swept(data):
     """Return the names of the parameters, except the mass ratio, that have several values."""
     return [name for name in SWEPT if data.sizes[name] > 1]
 
 
-def draw_sweep(axes, data, name):
+def _draw_sweep(axes, data, name):
     """Draw optima (points) and rules (lines) against one parameter, for each mass ratio."""
     data = data.squeeze([other for other in SWEPT if other != name], drop=True)
     unstable = data["best_stability"] == flag("best_stability", "unstable")
@@ -127,7 +126,7 @@ def draw_sweep(axes, data, name):
     )
 
 
-def draw_errors(axes, datasets):
+def _draw_errors(axes, datasets):
     """Draw the share of optima that each rule predicts within an error, against this error."""
     for rule, words in RULES.items():
         errors = np.concatenate(
@@ -142,3 +141,46 @@ def draw_errors(axes, datasets):
     axes.set(
         xscale="log", xlim=(1e-2, 300), xlabel="Error of the rule, %", ylabel="Share of optima"
     )
+
+
+@style()
+def draw_studies(*, studies):
+    """Draw the largest displacement of a study over mass ratio and clearance.
+
+    There is a panel for each restitution (row) and frequency (column).
+    """
+    (data,) = studies
+    pairs = list(product(data["restitution"].values, data["frequency"].values))
+    rows, columns = data.sizes["restitution"], data.sizes["frequency"]
+    drawn = figure("single" if columns == 1 else "double", 3.6 * rows)
+    panels = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    sizes = data["largest_displacement"].values
+    sizes = sizes[np.isfinite(sizes)]
+    norm = LogNorm(sizes.min(), sizes.max())
+    for axes, (e, w) in zip(panels.flat, pairs, strict=True):
+        shown = _draw_study(axes, data.sel(frequency=w, restitution=e), norm)
+        if len(pairs) > 1:
+            axes.set_title(rf"$\Omega = {w:g}$, $e = {e:g}$")
+    for axes in panels[:, 0]:
+        axes.set_ylabel(axis_label(data["clearance"]))
+    for axes in panels[-1]:
+        axes.set_xlabel(axis_label(data["mass_ratio"]))
+    drawn.colorbar(shown, ax=panels, label="Largest displacement that starts lead to")
+    legend(drawn, 1 if columns == 1 else 3)
+    return drawn
+
+
+def _draw_study(axes, data, norm):
+    """Draw one panel, and return its coloured mesh."""
+    grid = data["mass_ratio"].values, data["clearance"].values
+    shown = mesh(axes, *grid, data["largest_displacement"].values.T, norm)
+    settled = data["outcome_count"].sel(counted_outcome=["settled", "non_colliding"])
+    part = settled.sum("counted_outcome").values.T < parameters_of(data)["starts"]
+    if part.any():
+        hatch(axes, *grid, part, **UNSETTLED)
+    axes.fill([], [], facecolor="none", label="not all motions settled", **UNSETTLED)
+    axes.plot(grid[0], data["rule_clearance"], color=BLACK, label=r"$r_m \Omega^2 d_0 = 1$")
+    best = ROLES["optimum"] | {"label": "smallest at this mass ratio"}
+    axes.plot(grid[0], data["best_clearance"], **best)
+    axes.set_ylim(edges_of(grid[1])[[0, -1]])
+    return shown

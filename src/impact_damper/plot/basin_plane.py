@@ -1,0 +1,157 @@
+"""Basins of attraction in a plane of states."""
+
+import numpy as np
+from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from impact_damper.data.datasets import has_damper, parameters_of
+from impact_damper.data.variables import BASIN_LABEL
+from impact_damper.plot.sheets import dataset_in, sheet
+from impact_damper.plot.style import (
+    BLACK,
+    GREY,
+    ORANGE,
+    PALE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    WHITE,
+    axis_label,
+    parameter_label,
+)
+
+# Colours of attractors in the order of rising displacement; the largest has the last colour.
+COLOURS = (SKY, VERMILION, PURPLE, "#F7E7A6")
+CHAOS = ORANGE
+# Colours of labels from -6 (quasi-periodic) to -1 (unresolved), before those of the attractors.
+WITHOUT_ATTRACTOR = (GREY, GREY, WHITE, CHAOS, WHITE, PALE)
+# A sum of shares that differs from 1 by less is 1.
+ROUNDING = 1e-9
+AREA = {"edgecolor": BLACK, "linewidth": 0.4}
+POINTS = {"linestyle": "none", "marker": "o", "markeredgecolor": BLACK, "markersize": 4.5}
+SADDLES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5}
+
+
+def basins(data, axes=None):
+    """Draw basins of attraction: the motion to which each state of a plane leads.
+
+    With a damper a state may lead to several motions. The shade is then the share of places of the
+    loose mass that lead to the smallest motion. The axes get a legend below.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        A result of `basins`.
+    axes : matplotlib.axes.Axes, optional
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    TypeError
+        If `data` or `axes` is of another type.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> axes = idm.plot.basins(idm.basins(idm.Oscillator(0.215), None, 1.85, cells=40))
+    """
+    found = dataset_in(data, lambda each: "basin_label" in each, "basins")
+    with sheet(axes, height=5.0) as (axes,):
+        number = found.sizes["attractor"]
+        colours = [COLOURS[k % 3] for k in range(number)]
+        if number > 1:
+            colours[-1] = COLOURS[-1]
+        if "basin_share" in found:
+            handles = _draw_shares(axes, found, colours)
+        else:
+            handles = _draw_labels(axes, found, colours)
+        attractors = found["attractor_point"].values, found["attractor_speed"].values
+        for x, v, colour in zip(*attractors, colours, strict=True):
+            axes.plot(x, v, **POINTS, markerfacecolor=colour)
+        if "boundary_displacement" in found:
+            manifold = found["boundary_displacement"].values, found["boundary_velocity"].values
+            axes.plot(*manifold, color=BLACK, linewidth=0.25)
+            saddles = found["saddle_displacement"], found["saddle_velocity"]
+            handles += axes.plot(*saddles, **SADDLES, label="unstable orbit")
+        _name(axes, found)
+        place = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.16)}
+        axes.legend(handles=handles, ncols=2, fontsize=7, **place)
+    return axes
+
+
+def _draw_labels(axes, data, colours):
+    """Colour each state by its motion, and return the entries of the legend."""
+    labels = data["basin_label"].values
+    palette = ListedColormap([*WITHOUT_ATTRACTOR, *colours])
+    low = -len(WITHOUT_ATTRACTOR) - 0.5
+    _fill(
+        axes, data, labels, cmap=palette, norm=BoundaryNorm(np.arange(low, len(colours)), palette.N)
+    )
+    handles = [
+        Patch(facecolor=colour, **AREA, label=words)
+        for colour, words in zip(colours, _attractor_words(data), strict=True)
+    ]
+    if np.any(labels == BASIN_LABEL["chaotic"]):
+        handles.append(Patch(facecolor=CHAOS, **AREA, label="chaotic"))
+    return handles
+
+
+def _draw_shares(axes, data, colours):
+    """Colour states by the share of places of the loose mass, and return the legend's entries."""
+    shades = LinearSegmentedColormap.from_list("shares", [WHITE, SKY])
+    drawn = _fill(axes, data, data["basin_share"][0], cmap=shades, vmin=0, vmax=1)
+    words = "share of places of the loose mass"
+    axes.figure.colorbar(drawn, ax=axes, label=words, shrink=0.9, ticks=[0, 0.5, 1])
+    first, *others = zip(colours, _attractor_words(data), strict=True)
+    handles = [Patch(facecolor=first[0], **AREA, label=first[1])]
+    handles += [
+        Line2D([], [], **POINTS, markerfacecolor=colour, label=words) for colour, words in others
+    ]
+    rest = 1 - float(data["attractor_share"].sum())
+    if rest > ROUNDING:
+        words = f"aperiodic in {parameters_of(data)['limit']} cycles: {_percent(rest)}"
+        handles.append(Line2D([], [], linestyle="none", label=words))
+    return handles
+
+
+def _fill(axes, data, values, **look):
+    """Colour the states of a plane by values, and return the image."""
+    plane = data["basin_displacement"], data["basin_velocity"]
+    return axes.pcolormesh(*plane, values, rasterized=True, shading="nearest", **look)
+
+
+def _name(axes, data):
+    """Label the axes; the title has frequency, phase and, without units, the damper."""
+    frequency = data["frequency"]
+    if frequency.attrs["units"] == "1":
+        names = ("mass_ratio", "clearance") if has_damper(data) else ()
+        words = parameter_label(parameters_of(data), "frequency", *names)
+    else:
+        words = f"{float(frequency):.4g} {frequency.attrs['units']}"
+    turn = float(data["basin_phase"]) / np.pi
+    axes.set_title(rf"{words}, phase ${turn:.3g}\pi$", loc="right", fontsize=7.5)
+    axes.set(
+        xlabel=axis_label(data["basin_displacement"]),
+        ylabel=axis_label(data["basin_velocity"]),
+        xlim=data["basin_displacement"].values[[0, -1]],
+        ylim=data["basin_velocity"].values[[0, -1]],
+    )
+
+
+def _attractor_words(data):
+    """Return period, size and share of each attractor as text."""
+    units = f" {data['attractor_displacement'].attrs['units']}".removesuffix(" 1")
+    names = ("attractor_period", "attractor_displacement", "attractor_share")
+    return [
+        f"period {period:d}, max |$Z_1$| {size:.3g}{units}: {_percent(share)}"
+        for period, size, share in zip(*(data[name].values for name in names), strict=True)
+    ]
+
+
+def _percent(share):
+    """Return a share in per cent; "< 1 %" for a positive share that rounds to 0."""
+    return "< 1 %" if 0 < share < 0.005 else f"{100 * share:.0f} %"

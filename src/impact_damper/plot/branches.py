@@ -1,0 +1,200 @@
+"""Branches of exact periodic orbits, stable and unstable, with their bifurcations."""
+
+import numpy as np
+
+from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.model.parameters import SYMBOLS
+from impact_damper.plot.sheets import datasets_in, sheet
+from impact_damper.plot.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    ROLES,
+    SKY,
+    VERMILION,
+    axis_label,
+    draw,
+    tex,
+)
+
+# Kind of event -> label, marker, colour.
+EVENTS = {
+    "fold": ("fold", "o", BLACK),
+    "symmetry_breaking": ("loss of symmetry or doubling", "s", VERMILION),
+    "period_doubling": ("loss of symmetry or doubling", "s", VERMILION),
+    "neimark_sacker": ("Neimark-Sacker", "D", GREEN),
+    "grazing": ("change of contact", "P", SKY),
+    "merging": ("change of contact", "P", SKY),
+}
+# Markers of changes of contact are pale, so they have an edge and are larger by this factor.
+EDGE = {"P": {"markeredgecolor": BLACK, "markeredgewidth": 0.3}}
+WIDER = {"P": 2.0}
+# Sizes of markers of events next to stable orbits, and of others.
+LARGE, SMALL = 3.0, 1.2
+# Reasons for the end of a branch that continues in truth, and their marker.
+OPEN_ENDS = ("lost", "point_limit", "unstable")
+OPEN = {
+    "marker": "x",
+    "color": BLACK,
+    "markersize": 4.5,
+    "markeredgewidth": 1.0,
+    "linestyle": "none",
+    "zorder": 3.1,
+}
+# Label, colour, opacity of unstable orbits, and test of the period.
+PERIODS = [
+    ("period 1", BLUE, 1.0, lambda period: period == 1),
+    ("period 3", PURPLE, 1.0, lambda period: period == 3),
+    ("other periods", ORANGE, 0.4, lambda period: period not in (1, 3)),
+]
+# Roles without a damper: stable and unstable orbits, and test of the period.
+FREE = [
+    ("free_stable", "free_unstable", lambda period: period == 1),
+    ("subharmonic_free", "subharmonic_unstable", lambda period: period == 3),
+    ("free_higher", "free_unstable", lambda period: period not in (1, 3)),
+]
+
+
+def branch(data, axes=None):
+    """Draw the largest displacement in periodic orbits against the parameter that varies.
+
+    Stable orbits are solid lines, unstable ones dotted lines. Colours distinguish periods;
+    markers are bifurcations and changes of contact, large next to stable orbits.
+
+    Parameters
+    ----------
+    data : xarray.Dataset or list of xarray.Dataset
+        Results of `orbit_branch` or `complete_branches`, over the same parameter.
+    axes : matplotlib.axes.Axes, optional
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    TypeError
+        If `data` or `axes` is of another type.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, start = idm.Oscillator(0.215), (0.006, 0.187, 0.002, -2.408)
+    >>> damper = idm.Damper(0.12, 2.0)
+    >>> found = idm.orbit_branch(oscillator, damper, 2.0, start, span=(1.9, 2.1))
+    >>> axes = idm.plot.branch(found)
+    """
+    words = "orbit_branch or complete_branches"
+    given = datasets_in(data, lambda each: "event_kind" in each, words)
+    with sheet(axes) as (axes,):
+        for each in given:
+            _draw_orbits(axes, each)
+        axes.set(xlabel=followed_label(given[0]), ylabel=axis_label(given[0]["orbit_displacement"]))
+    return axes
+
+
+def followed_label(data):
+    """Return the label of the axis of the parameter that varies along a branch."""
+    name, units = parameters_of(data)["parameter"], data["followed_value"].attrs["units"]
+    words = {
+        ("frequency", units): "Forcing frequency",
+        ("mass_ratio", "kg"): "Mass of the damper",
+    }.get((name, units), name.replace("_", " ").capitalize())
+    symbol = tex("Omega" if name == "frequency" else SYMBOLS[name])
+    return f"{words}, ${symbol}$" if units == "1" else f"{words} ({units})"
+
+
+def _draw_orbits(axes, data):
+    """Draw every branch of a dataset, its events, and the ends beyond which it was not followed."""
+    for label, color, opacity, chosen in PERIODS:
+        faint = {"linestyle": ":", "linewidth": 0.35, "alpha": opacity}
+        strong = {"label": label, "zorder": 2.2, "linewidth": 1.5}
+        for value, size, stable in runs(data, chosen):
+            draw(axes, value, size, color=color, **(strong if stable else faint))
+    draw(axes, [], [], color=GREY, linewidth=0.8, linestyle=":", label="unstable")
+    _mark_events(axes, data)
+    _mark_open_ends(axes, data)
+
+
+def runs(data, chosen):
+    """Yield each part of a branch on which all orbits are stable, or all unstable.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        With the variables of `orbit_branch`.
+    chosen : callable
+        Maps the period of a branch to True if the branch is wanted.
+
+    Yields
+    ------
+    (array, array, bool)
+        Parameter that varies, largest displacement, and whether stable.
+    """
+    names = ("orbit_branch", "followed_value", "orbit_displacement", "orbit_stability")
+    periods = data["branch_period"].values
+    branches = [branch for branch, period in enumerate(periods) if chosen(period)]
+    yield from runs_of(branches, *(data[name].values for name in names))
+
+
+def runs_of(branches, number, value, size, stability):
+    """Yield the parts of branches as `runs` does, from arrays with an element for each orbit."""
+    stable = stability == flag("orbit_stability", "stable")
+    for each in branches:
+        at = np.flatnonzero(number == each)
+        edges = [0, *(np.flatnonzero(np.diff(stable[at])) + 1), len(at)]
+        for first, last in zip(edges, edges[1:], strict=False):
+            # includes the first orbit of the next part, so that the lines of both parts join
+            part = at[first : last + 1]
+            yield value[part], size[part], bool(stable[at[first]])
+
+
+def draw_free_orbits(axes, data):
+    """Draw orbits without a damper; period (1, 3, others) and stability set colour and line."""
+    for role, unstable, chosen in FREE:
+        for value, size, stable in runs(data, chosen):
+            draw(axes, value, size, **ROLES[role if stable else unstable])
+
+
+def _mark_open_ends(axes, data):
+    """Mark with a cross each end beyond which a branch continues but was not followed."""
+    chosen = [flag("branch_end", name) for name in OPEN_ENDS]
+    number = data["orbit_branch"].values
+    for each, ends in enumerate(data["branch_end"].values):
+        at = np.flatnonzero(number == each)
+        for place, end in zip((at[0], at[-1]), ends, strict=True):
+            if end in chosen:
+                axes.plot(data["followed_value"][place], data["orbit_displacement"][place], **OPEN)
+
+
+def _mark_events(axes, data):
+    """Mark events of period 1, and with large markers all events next to stable orbits."""
+    beside = next_to_stable(data)
+    plain = data["branch_period"].values[data["event_branch"].values] == 1
+    kinds = data["event_kind"].values
+    value, size = data["event_value"].values, data["event_displacement"].values
+    for name, (label, marker, color) in EVENTS.items():
+        look = {"marker": marker, "color": color, "linestyle": "none", **EDGE.get(marker, {})}
+        wide = WIDER.get(marker, 1)
+        large = (kinds == flag("event_kind", name)) & beside
+        if large.any():
+            first = {"label": label, "markersize": wide * LARGE, "zorder": 3}
+            draw(axes, value[large], size[large], **first, **look)
+        small = (kinds == flag("event_kind", name)) & ~beside & plain
+        if small.any():
+            axes.plot(value[small], size[small], markersize=wide * SMALL, zorder=2.1, **look)
+
+
+def next_to_stable(data):
+    """Return for each event whether the orbit at the event or one of its neighbours is stable."""
+    number, branches = data["orbit_branch"].values, data["event_branch"].values
+    stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
+    place = np.searchsorted(number, branches) + data["event_place"].values
+    found = np.zeros(len(place), bool)
+    for side in (-1, 0, 1):
+        at = np.clip(place + side, 0, len(number) - 1)
+        found |= stable[at] & (number[at] == branches)
+    return found

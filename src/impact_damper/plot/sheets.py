@@ -1,0 +1,86 @@
+"""Helpers of the public plots: checks of datasets, and the axes to draw on."""
+
+from contextlib import contextmanager
+
+import matplotlib
+import numpy as np
+import xarray as xr
+from matplotlib import pyplot
+
+from impact_damper.model.bounds import shown
+from impact_damper.plot.style import COLUMNS, legend, style
+
+
+def datasets_in(data, takes, words) -> list[xr.Dataset]:
+    """Return the datasets given, one or several, as a list.
+
+    Parameters
+    ----------
+    data : xarray.Dataset or sequence of xarray.Dataset
+    takes : callable
+        Maps a dataset to True if it can be drawn.
+    words : str
+        Names of the functions whose results can be drawn, for messages.
+
+    Raises
+    ------
+    TypeError
+        If there is no dataset, one cannot be drawn, or datasets have different units.
+    """
+    found = [data] if isinstance(data, xr.Dataset) else data
+    if not isinstance(found, (list, tuple)) or not found:
+        raise TypeError(f"data = {shown(data)}: must be a result of {words}, or a list of them")
+    for each in found:
+        if not isinstance(each, xr.Dataset) or not takes(each):
+            title = getattr(each, "attrs", {}).get("title", shown(each))
+            raise TypeError(f"data = {title!r}: must be a result of {words}, or a list of them")
+    if len({each.attrs.get("scales") for each in found}) > 1:
+        raise TypeError("data = several: must be of one machine, or all dimensionless")
+    return list(found)
+
+
+def dataset_in(data, takes, words) -> xr.Dataset:
+    """Return the single dataset given; arguments and errors as for `datasets_in`."""
+    found = datasets_in(data, takes, words)
+    if len(found) > 1:
+        raise TypeError(f"data = {len(found)} datasets: must be one result of {words}")
+    return found[0]
+
+
+@contextmanager
+def sheet(axes, count=1, height=3.6, columns=3):
+    """Return a context that yields a list of axes to draw on.
+
+    Given axes keep their own style and get no legend. Otherwise a new figure in the common style is
+    made, which gets a legend at the end.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes, sequence of them, or None
+    count : int
+        Number of axes.
+    height : float
+        Of a new figure, inches.
+    columns : int
+        Of its legend.
+
+    Raises
+    ------
+    TypeError
+        If `axes` is not None and not `count` axes.
+    """
+    if axes is not None:
+        given = list(np.ravel(np.array(axes, object)))
+        if len(given) != count or not all(hasattr(each, "plot") for each in given):
+            raise TypeError(f"axes = {shown(axes)}: must be {count} Axes of matplotlib")
+        yield given
+        return
+    with style():
+        size = COLUMNS["double"], height
+        drawn, panels = pyplot.subplots(1, count, figsize=size, layout="constrained", squeeze=False)
+        yield list(panels[0])
+        legend(drawn, columns)
+        # In a notebook the first figure makes matplotlib interactive. This must outlive the style;
+        # otherwise the notebook would show only the first figure.
+        interactive = matplotlib.is_interactive()
+    matplotlib.interactive(interactive)

@@ -1,0 +1,145 @@
+"""Shares of random starts that lead to each motion, over frequency or clearance."""
+
+from collections import Counter
+
+import numpy as np
+from matplotlib.colors import to_rgb
+
+from impact_damper.data.sweeps import families
+from impact_damper.plot.maps import edges_of
+from impact_damper.plot.sheets import dataset_in, sheet
+from impact_damper.plot.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    WHITE,
+    axis_label,
+    once,
+)
+
+# Kinds of motions from below: label, colour and hatching.
+LOOKS = {
+    "period 1": (BLUE, ""),
+    "period 2": (GREEN, "////"),
+    "period 3": (PURPLE, "\\\\\\\\"),
+    "other periods": (VERMILION, "xxxx"),
+    "quasi-periodic": (SKY, "||||"),
+    "no contact": (GREY, ""),
+    "chaotic transient": (ORANGE, "++++"),
+    "chaotic": (ORANGE, "...."),
+    "others": (BLACK, ""),
+}
+# Kinds of settled motions by period, and of others by outcome.
+PERIODS = {1: "period 1", 2: "period 2", 3: "period 3"}
+OUTCOMES = {
+    "quasi_periodic": "quasi-periodic",
+    "non_colliding": "no contact",
+    "drifting": "no contact",
+    "chaotic": "chaotic",
+}
+# Hatching of further motions of kinds without hatching. Pale blue alone resembles another kind.
+FURTHER = {"period 1": "----"}
+# Fractions of white mixed into the colours of the first, second, third ... motion of a kind.
+PALER = (0.0, 0.45, 0.7)
+EDGE = {"fill": True, "edgecolor": WHITE, "linewidth": 0.4}
+INTERVAL = {"color": BLACK, "linewidth": 0.6}
+
+
+def shares(data, axes=None):
+    """Draw the shares of random starts that lead to each motion, stacked, with 95 % intervals.
+
+    A motion keeps its colour over all values; further motions of a kind are paler, and
+    of period 1 also hatched.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        A result of `frequency_response`, `subharmonic_suppression` or `clearance_sweep`.
+    axes : matplotlib.axes.Axes, optional
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    TypeError
+        If `data` or `axes` is of another type.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> bare = idm.frequency_response(idm.Oscillator(0.215), None, [1.9, 2.0], starts=8)
+    >>> axes = idm.plot.shares(bare)
+    """
+    words = "frequency_response, subharmonic_suppression or clearance_sweep"
+    found = dataset_in(data, lambda each: "run_outcome" in each, words)
+    dimension = found["run_outcome"].dims[0]
+    places, starts = found[dimension].values, found.sizes["start"]
+    edges = edges_of(places) if len(places) > 1 else places * np.array([0.95, 1.05])
+    below = np.zeros(len(places))
+    with sheet(axes, columns=4) as (axes,):
+        for kind, rank, chosen in _ranked_motions(found):
+            share = np.where(chosen, found["motion_starts"].values, 0).sum(axis=1) / starts
+            label = once(axes, kind)
+            axes.stairs(below + share, edges, baseline=below, label=label, **_look(kind, rank))
+            row, column = np.nonzero(chosen & (below + share < 1)[:, None])
+            ends = [
+                below[row] + found[name].values[row, column]
+                for name in ("share_lower", "share_upper")
+            ]
+            axes.vlines(places[row], *ends, **INTERVAL)
+            below = below + share
+        axes.set(
+            xlabel=axis_label(found[dimension]),
+            ylabel="Share of random starts",
+            xlim=edges[[0, -1]],
+            ylim=(0, 1),
+        )
+    return axes
+
+
+def _look(kind, rank):
+    """Return the look of a motion, the `rank`-th of its kind counted from 0."""
+    colour, hatch = LOOKS[kind]
+    white = PALER[min(rank, len(PALER) - 1)]
+    face = [white + (1 - white) * part for part in to_rgb(colour)]
+    return EDGE | {"facecolor": face, "hatch": FURTHER.get(kind, hatch) if rank else hatch}
+
+
+def _ranked_motions(data):
+    """Return the motions that random starts lead to, in the order of their kinds in `LOOKS`.
+
+    Each has its kind; its rank among the motions of its kind, 0 for the motion with most starts;
+    and a mask of its entries in the variables of the sweep, shape (value, motion). A chaotic motion
+    that is a transient at some values is listed twice, with the same rank.
+    """
+    found, ranks = {kind: [] for kind in LOOKS}, Counter()
+    for each in families(data):
+        if each.starts:
+            kind = _kind(each)
+            for name, places in _parts(data, kind, each.places).items():
+                if data["motion_starts"].values[places].any():
+                    found[name].append((ranks[kind], places))
+            ranks[kind] += 1
+    return [(kind, *ranked) for kind, motions in found.items() for ranked in motions]
+
+
+def _parts(data, kind, places):
+    """Return the mask of a motion by kind; chaos is a transient where one of its runs ended."""
+    if kind != "chaotic" or "life_ends" not in data:
+        return {kind: places}
+    ended = data["life_ends"].values > 0
+    return {"chaotic transient": places & ended, kind: places & ~ended}
+
+
+def _kind(motion):
+    """Return the key in `LOOKS` of a motion."""
+    if motion.outcome == "settled":
+        return PERIODS.get(motion.period, "other periods")
+    return OUTCOMES.get(motion.outcome, "others")
