@@ -75,8 +75,8 @@ def basins(data, axes=None):
         if "boundary_displacement" in found:
             manifold = found["boundary_displacement"].values, found["boundary_velocity"].values
             axes.plot(*manifold, color=BLACK, linewidth=0.25)
-            saddles = found["saddle_displacement"], found["saddle_velocity"]
-            handles += axes.plot(*saddles, **SADDLES, label="unstable orbit")
+            axes.plot(found["saddle_displacement"], found["saddle_velocity"], **SADDLES)
+            handles.append(Line2D([], [], **SADDLES, label="unstable orbit"))
         _name(axes, found)
         place = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.16)}
         axes.legend(handles=handles, ncols=2, fontsize=7, **place)

@@ -7,12 +7,12 @@ import matplotlib
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.made_up import matched_sweep
 from helpers.made_up_design import made_up_design
 from matplotlib.figure import Figure
 
 import impact_damper as idm
-from impact_damper.data.datasets import flag
-from impact_damper.plot.drawing import looks
+from impact_damper.plot.sheets import sheet
 
 matplotlib.use("Agg")
 
@@ -37,7 +37,6 @@ def results():
         "steady": [quiet, idm.steady_motion(OSCILLATOR, DAMPER, 2.05, quiet.state)],
         "still": idm.steady_motion(OSCILLATOR, DAMPER, 2.0),
         "run": idm.simulate(OSCILLATOR, DAMPER, 2.0, quiet.state, periods=3),
-        "orbit": idm.periodic_orbit(OSCILLATOR, DAMPER, 2.0, quiet.state),
         "branch": idm.orbit_branch(OSCILLATOR, DAMPER, 2.0, quiet.state, span=(1.95, 2.05)),
         "over_gap": idm.orbit_branch(
             OSCILLATOR, DAMPER, 2.0, quiet.state, span=(1.8, 2.2), parameter="clearance"
@@ -51,14 +50,13 @@ def results():
         ),
         "migration": idm.migrate(OSCILLATOR, DAMPER, 1.95, periods=200),
         "basins": idm.basins(OSCILLATOR, None, 1.8, cells=30),
-        "machine_steady": idm.steady_motion(MACHINE, MACHINE_DAMPER, 21.0, (0, 0.1, 0.001, 0.3)),
+        "machine_run": idm.simulate(MACHINE, MACHINE_DAMPER, 21.0, (0, 0.1, 0.001, 0.3)),
         "design": made_up_design(),
         "machine_response": idm.frequency_response(MACHINE, None, [19.0, 20.0], starts=3),
     }
 
 
 DRAWN = [
-    ("response", ["response"]),
     ("response", ["free"]),
     ("response", ["balance"]),
     ("response", ["band"]),
@@ -69,13 +67,9 @@ DRAWN = [
     ("branch", ["branch"]),
     ("branch", ["over_gap", "over_gap"]),
     ("orbit", ["run"]),
-    ("orbit", ["quiet"]),
-    ("orbit", ["orbit"]),
-    ("orbit", ["machine_steady"]),
-    ("sweep", ["sweep"]),
+    ("orbit", ["machine_run"]),
     ("sweep", ["sweep", "sweep"]),
     ("shares", ["response"]),
-    ("shares", ["sweep"]),
     ("migration", ["migration"]),
     ("basins", ["basins"]),
     ("design", ["design"]),
@@ -84,31 +78,35 @@ DRAWN = [
 
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(("name", "keys"), DRAWN)
-def test_results_are_drawn_with_labelled_axes(name, keys, results):
+def test_results_are_drawn_with_labelled_axes_and_a_legend(name, keys, results):
     data = [results[key] for key in keys]
     found = getattr(idm.plot, name)(data[0] if len(data) == 1 else data)
-    for axes in np.ravel(np.array(found, object)):
+    panels = list(np.ravel(np.array(found, object)))
+    for axes in panels:
         assert axes.get_xlabel() and axes.get_ylabel()
         assert axes.lines or axes.patches or axes.collections
-        labels = [text.get_text() for text in axes.get_legend().get_texts()] if axes.legend_ else []
-        assert len(labels) == len(set(labels))
-    np.ravel(np.array(found, object))[0].figure.canvas.draw()
+    drawn = panels[0].figure
+    drawn.canvas.draw()
+    (legend,) = [*drawn.legends, *(axes.legend_ for axes in panels if axes.legend_)]
+    labels = [text.get_text() for text in legend.get_texts()]
+    assert labels and len(labels) == len(set(labels))
 
 
-@pytest.mark.parametrize(("name", "keys"), [DRAWN[0], DRAWN[8], DRAWN[11], DRAWN[14], DRAWN[18]])
-def test_given_axes_are_drawn_on(name, keys, results):
+@pytest.mark.parametrize(("name", "key"), [("response", "response"), ("orbit", "run")])
+def test_given_axes_get_each_label_once_and_no_legend(name, key, results):
     panels = Figure().subplots(1, 2)
-    ax = panels if name == "orbit" else panels[0]
-    found = getattr(idm.plot, name)(results[keys[0]], ax=ax)
-    assert np.all(np.ravel(np.array(found, object)) == np.ravel(ax))
-    with pytest.raises(TypeError, match="ax = .*: must be . Axes"):
-        getattr(idm.plot, name)(results[keys[0]], ax=3)
+    given = panels if name == "orbit" else panels[0]
+    found = getattr(idm.plot, name)(results[key], given)
+    assert np.all(np.ravel(np.array(found, object)) == np.ravel(given))
+    assert not panels[0].figure.legends and panels[0].legend_ is None
+    labels = panels[0].get_legend_handles_labels()[1]
+    assert labels and len(labels) == len(set(labels))
+    with pytest.raises(TypeError, match="axes = .*: must be . Axes"):
+        getattr(idm.plot, name)(results[key], axes=3)
 
 
-@pytest.mark.parametrize(
-    "name", ["response", "branch", "orbit", "sweep", "shares", "migration", "basins", "design"]
-)
-@pytest.mark.parametrize("wrong", [None, 3, [], {}, "response", [3], xr.Dataset()])
+@pytest.mark.parametrize("name", idm.plot.__all__)
+@pytest.mark.parametrize("wrong", [None, [], "response", [3], xr.Dataset()])
 def test_anything_else_is_refused(name, wrong):
     with pytest.raises(TypeError, match="data = .*: must be a result of"):
         getattr(idm.plot, name)(wrong)
@@ -127,31 +125,44 @@ def test_a_plot_shows_the_numbers_of_its_dataset(results):
     np.testing.assert_allclose(line.get_ydata(), expected)
 
 
-def test_an_orbit_in_si_units_is_closed(results):
-    phase, _ = idm.plot.orbit(results["machine_steady"])
-    x, v = phase.lines[0].get_data()
-    np.testing.assert_allclose([x[0], v[0]], [x[-1], v[-1]], atol=1e-4 * np.ptp(x))
+def test_labels_have_the_units_of_the_machine(results):
+    phase, course = idm.plot.orbit(results["machine_run"])
+    assert phase.get_xlabel().endswith("(mm)") and phase.get_ylabel().endswith("(m/s)")
+    assert course.get_xlabel().endswith("(s)")
+    assert idm.plot.response(results["machine_response"]).get_xlabel().endswith("(Hz)")
 
 
-def test_shares_add_up(results):
-    """The areas are stacked, and the lowest area is the motion of period 1."""
-    axes = idm.plot.shares(results["response"])
-    below = 0
-    for area in axes.patches:
-        top, _, bottom = area.get_data()
-        np.testing.assert_allclose(bottom, below)
-        below = top
-    np.testing.assert_allclose(below, 1)
-    response = results["response"]
-    quiet = (response.period == 1) & (response.outcome == flag("outcome", "settled"))
-    share = response.motion_starts.where(quiet, 0).sum("motion") / response.sizes["start"]
-    assert axes.patches[0].get_label() == "period 1"
-    np.testing.assert_allclose(axes.patches[0].get_data().values, share)
+def test_a_thousand_cycles_are_drawn_as_their_envelope(results):
+    run = results["migration"]
+    axes = idm.plot.migration(run)
+    (envelope,) = axes.collections
+    low, high = np.sort(envelope.get_paths()[0].vertices[:, 1])[[0, -1]]
+    assert low >= run["displacement"].min() and high <= run["displacement"].max()
+    part = idm.plot.migration(run, span=(0, 60))
+    assert not part.collections and part.get_xlim() == (0, 60)
 
 
-def test_shares_of_a_single_frequency(results):
-    axes = idm.plot.shares(results["response"].isel(frequency=[1]))
-    assert axes.get_xlim() == pytest.approx((1.9, 2.1))
+def test_shares_are_stacked_with_intervals():
+    axes = idm.plot.shares(matched_sweep())
+    quiet, chaos = axes.patches
+    np.testing.assert_allclose(quiet.get_data().values, [0.5, 0.9, 0])
+    np.testing.assert_allclose(quiet.get_data().edges, [0.75, 1.25, 1.75, 2.25])
+    np.testing.assert_allclose(chaos.get_data().baseline, [0.5, 0.9, 0])
+    np.testing.assert_allclose(chaos.get_data().values, 1)
+    # The uppermost area, which ends at 1, has no interval.
+    ends = [segment for lines in axes.collections for segment in lines.get_segments()]
+    np.testing.assert_allclose(ends, [[[1, 0.25], [1, 0.75]], [[1.5, 0.45], [1.5, 0.95]]])
+
+
+def test_chaos_of_which_a_run_ended_is_a_transient():
+    data = matched_sweep()
+    ends = xr.zeros_like(data["outcome"]).assign_attrs({})
+    ends[2, 0] = 3
+    axes = idm.plot.shares(data.assign(life_ends=ends))
+    labels = [each.get_label() for each in axes.patches]
+    assert labels == ["period 1", "chaotic transient", "chaotic"]
+    np.testing.assert_allclose(axes.patches[1].get_data().values, [0.5, 0.9, 1])
+    np.testing.assert_allclose(axes.patches[2].get_data().baseline, [0.5, 0.9, 1])
 
 
 def test_a_design_shows_its_gap_and_the_starts_that_end_quiet(results):
@@ -179,7 +190,7 @@ def test_a_backend_that_becomes_interactive_stays_so():
     """
     before = matplotlib.is_interactive()
     try:
-        with looks(None):
+        with sheet(None):
             matplotlib.interactive(True)
         assert matplotlib.is_interactive()
     finally:

@@ -62,11 +62,6 @@ def test_roles_that_must_differ_in_print_do():
     assert len(set(seen)) == len(seen)
 
 
-def test_unknown_column_is_refused():
-    with pytest.raises(ValueError, match="column = 'wide': must be one of single, double"):
-        figure("wide", 2.0)
-
-
 @style()
 def panels():
     drawn = figure("double", 2.5)

@@ -4,19 +4,22 @@ from functools import cache
 
 import numpy as np
 import pytest
+from helpers.made_up import matched_sweep
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from chatterjee1995.figures.free import draw_free
-from chatterjee1995.figures.release import draw_release
+from chatterjee1995.figures.clearance import draw_optimum
+from chatterjee1995.figures.migration import draw_migration, draw_release
+from chatterjee1995.figures.responses import (
+    draw_branches,
+    draw_free,
+    draw_harmonic_balance,
+    draw_motion,
+    draw_response,
+    draw_shares,
+)
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION, OUTCOME
-from impact_damper.plot.branches import draw_branches
-from impact_damper.plot.panels.harmonic_balance import draw_harmonic_balance
-from impact_damper.plot.panels.migration import draw_migration
-from impact_damper.plot.panels.motion import draw_motion
-from impact_damper.plot.panels.optimum import draw_optimum
-from impact_damper.plot.panels.response import draw_response
-from impact_damper.plot.style import ROLES, style
+from impact_damper.plot.style import COLUMNS, ROLES, style
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -142,10 +145,10 @@ def orbits(**parameters):
         "event_branch": [0, 2],
         "event_place": [1, 2],
     }
-    return dataset(data, {}, DAMPER | parameters, "made up")
+    return dataset(data, {}, DAMPER | {"parameter": "frequency"} | parameters, "made up")
 
 
-FREE = orbits().assign_attrs(parameters='{"damping": 0.2}')
+FREE = orbits().assign_attrs(parameters='{"damping": 0.2, "parameter": "frequency"}')
 DAMPED = {"branches": [orbits(), FREE]}
 STATUSES = ["period_1", "higher_period", "subharmonic_damped", "chaotic", "non_colliding"]
 STATUSES += ["chaotic_transient", "quasi_periodic", "unresolved"]
@@ -153,11 +156,7 @@ FREE_ROLES = ["free_stable", "free_unstable", "subharmonic_free", "free_higher"]
 FREE_ROLES += ["subharmonic_unstable"]
 BALANCE_ROLES = ["harmonic_balance", "band"]
 DRAWINGS = {
-    "free": (lambda: draw_free(branches=[FREE]), FREE_ROLES),
-    "two free": (
-        lambda: draw_free(branches=[FREE, FREE]),
-        FREE_ROLES,
-    ),
+    "free": (lambda: draw_free(branches=[FREE, FREE]), FREE_ROLES),
     "harmonic_balance": (
         lambda: draw_harmonic_balance(harmonic_balance=[balance(), balance()]),
         ["free_stable", "free_unstable", *BALANCE_ROLES],
@@ -168,10 +167,8 @@ DRAWINGS = {
         ),
         FREE_ROLES + BALANCE_ROLES + STATUSES + ["unstable_orbit"],
     ),
-    "branches": (
-        lambda: draw_branches(**DAMPED),
-        [],
-    ),
+    "branches": (lambda: draw_branches(**DAMPED), []),
+    "shares": (lambda: draw_shares(response=[matched_sweep(), matched_sweep()]), []),
     "inelastic": (
         lambda: draw_response(
             response=[response(restitution=0.75), response()],
@@ -184,10 +181,6 @@ DRAWINGS = {
     "motion": (lambda: draw_motion(motion=[motion()]), []),
     "optimum": (
         lambda: draw_optimum(optimum=[optimum(0.12, 1), optimum(0.18, 1)]),
-        ["optimum", "near_optimum"],
-    ),
-    "inelastic optimum": (
-        lambda: draw_optimum(optimum=[optimum(0.12, 0.75), optimum(0.12, 0.9)]),
         ["optimum", "near_optimum"],
     ),
     "migration": (
@@ -246,15 +239,11 @@ def test_letters_stand_above_a_second_axis(drawing):
                 assert letter.y0 >= words.get_window_extent().y1
 
 
-def test_axes_are_labelled(drawing):
+def test_axes_are_labelled_and_the_drawing_is_as_wide_as_a_column(drawing):
     drawn, _ = drawing
+    assert drawn.get_figwidth() in COLUMNS.values()
     assert any(axes.get_xlabel() for axes in drawn.axes)
     assert drawn.get_supylabel() or any(axes.get_ylabel() for axes in drawn.axes)
-
-
-def test_the_drawing_is_as_wide_as_a_column(drawing):
-    drawn, _ = drawing
-    assert drawn.get_figwidth() in (3.4, 7.0)
 
 
 def looks(drawn, labels):
@@ -273,9 +262,8 @@ def looks(drawn, labels):
     return found
 
 
-@pytest.mark.parametrize("name", ["response", "inelastic"])
-def test_what_differs_in_colour_differs_in_grey_too(name):
-    draw, roles = DRAWINGS[name]
+def test_what_differs_in_colour_differs_in_grey_too():
+    draw, roles = DRAWINGS["response"]
     labels = {ROLES[role]["label"] for role in roles if role != "band"}
     found = looks(draw(), labels)
     assert set(found) == labels
@@ -320,3 +308,14 @@ def test_the_stored_run_is_drawn_with_its_own_switchings():
     whole, part = draw_migration(migration=[migration()]).axes
     assert [patch.get_x() for patch in whole.patches] == [0, 120]
     assert part.get_xlim()[0] < 180 < part.get_xlim()[1]
+
+
+def test_of_the_subharmonic_runs_only_periods_of_three_are_drawn():
+    """The other motions of the runs are in the response too, and would be drawn twice."""
+    made = {"response": [response()], "harmonic_balance": [balance()]}
+    without, added = (
+        draw_response(**made, subharmonic=subharmonic, **DAMPED).axes[0].lines
+        for subharmonic in ([], [response()])
+    )
+    (new,) = added[len(without) :]
+    assert new.get_marker() == ROLES["subharmonic_damped"]["marker"]

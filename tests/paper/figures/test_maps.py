@@ -1,14 +1,128 @@
-"""Edges of the cells of maps lie halfway between values, on a logarithmic scale."""
+"""Maps: every class of cells is drawn and named, unsettled cells are hatched, edges lie midway."""
 
 import numpy as np
-from numpy.testing import assert_allclose
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.patches import PathPatch
 
+from chatterjee1995.figures.balance import QUIET, VIOLENT, draw_balance_map
+from chatterjee1995.figures.clearance import draw_studies
+from chatterjee1995.variables.balance_map import HIGH_VERDICT, QUIET_VERDICT
+from chatterjee1995.variables.studies import AXES, OUTCOMES
+from impact_damper.data.datasets import dataset
 from impact_damper.plot.maps import edges
+from impact_damper.plot.style import style
+
+pytestmark = pytest.mark.filterwarnings("error")
+
+COLUMNS = 12
 
 
-def test_edges_of_a_grid_of_decades():
-    assert_allclose(edges(10.0 ** np.arange(3)), 10.0 ** np.array([-0.5, 0.5, 1.5, 2.5]))
+def balance_map():
+    """Return a map over the restitution in which each class fills at least two columns."""
+    shape = 3, COLUMNS
+
+    def cells(values):
+        return np.broadcast_to(np.resize(list(values), COLUMNS), shape)
+
+    data = {
+        "quiet_verdict": cells(QUIET_VERDICT.values()),
+        "high_verdict": cells(HIGH_VERDICT.values()),
+        "balance_quiet": cells([0] * 4 + [1] * 8),
+        "balance_high": cells([1] * 6 + [0] * 6),
+        "quiet_run_motion": cells([1, 3]),
+        "quiet_end": np.array([[0.5, 1.0]] * 3),
+        "quiet_end_event": np.array([[1, 0]] * 3),
+        "straight_flight_end": np.array([0.9, 1.0, np.inf]),
+    }
+    coordinates = {
+        "map_value": [0.8, 0.9, 1.0],
+        "frequency_ratio": np.linspace(0.4, 1.5, COLUMNS),
+        "edge": ["lower", "upper"],
+    }
+    return dataset(data, coordinates, {"parameter": "restitution"}, "made up")
 
 
-def test_edges_of_a_lone_cell():
-    assert_allclose(edges([100.0]), 10.0 ** np.array([1.5, 2.5]))
+@pytest.fixture(scope="module")
+def drawing():
+    with style():
+        drawn = draw_balance_map(balance_map=[balance_map()])
+        FigureCanvasAgg(drawn).draw()
+        yield drawn
+
+
+def test_every_class_is_named(drawing):
+    for legend, classes in zip(drawing.legends, (QUIET, VIOLENT), strict=True):
+        words = [text.get_text() for text in legend.get_texts() if text.get_text()]
+        assert {label for label, _, _ in classes.values()} <= set(words)
+        assert len(set(words)) == len(words)
+
+
+def test_classes_have_names_for_all_flags_and_looks_of_their_own():
+    for classes, flags in ((QUIET, QUIET_VERDICT), (VIOLENT, HIGH_VERDICT)):
+        assert set(classes) == set(flags)
+        assert len({(color, hatch) for _, color, hatch in classes.values()}) == len(flags)
+
+
+def test_legends_lie_on_the_sheet_and_beside_the_panels(drawing):
+    box = drawing.get_tightbbox()
+    assert min(box.x0, box.y0) >= 0
+    assert box.x1 <= drawing.get_figwidth() and box.y1 <= drawing.get_figheight()
+    left, right = (legend.get_window_extent() for legend in drawing.legends)
+    assert not left.overlaps(right)
+    for axes in drawing.axes:
+        assert not left.overlaps(axes.get_tightbbox()) and not right.overlaps(axes.get_tightbbox())
+
+
+def test_ends_of_the_map_are_not_ends_of_the_orbit(drawing):
+    quiet, _ = drawing.axes
+    shown = [line.get_xdata() for line in quiet.lines if np.size(line.get_xdata()) == 3]
+    lower, upper, rigid = shown
+    assert np.isfinite(lower).all() and np.isnan(upper).all()
+    assert rigid[0] == 0.9
+
+
+def study(frequencies, restitutions):
+    """Return a study in which three of twelve cells of each panel have a start without settling."""
+    shape = 3, 4, len(frequencies), len(restitutions)
+    counts = np.zeros((*shape, len(OUTCOMES)), int)
+    counts[..., OUTCOMES.index("settled")] = 5
+    counts[0, 1:] -= np.eye(len(OUTCOMES), dtype=int)[OUTCOMES.index("settled")]
+    counts[0, 1:, ..., OUTCOMES.index("chaotic")] = 1
+    data = {
+        "largest_displacement": (AXES, np.linspace(0.1, 1, np.prod(shape)).reshape(shape)),
+        "outcome_count": ((*AXES, "counted_outcome"), counts),
+        "best_clearance": np.ones((3, *shape[2:])),
+        "rule_clearance": (("mass_ratio", "frequency"), np.ones((3, shape[2]))),
+    }
+    coordinates = {
+        "mass_ratio": [0.1, 0.2, 0.3],
+        "clearance": [0.5, 1.0, 1.5, 2.0],
+        "frequency": frequencies,
+        "restitution": restitutions,
+        "counted_outcome": list(OUTCOMES),
+    }
+    return dataset(data, coordinates, {"starts": 5}, "made up")
+
+
+@pytest.mark.parametrize(
+    ("frequencies", "restitutions", "panels"),
+    [([2.0], [1.0], 1), ([1.5, 2.0], [1.0], 2), ([1.5, 2.0], [0.8, 1.0], 4)],
+)
+def test_panels_and_hatched_cells(frequencies, restitutions, panels):
+    with style():
+        drawn = draw_studies(studies=[study(frequencies, restitutions)])
+        FigureCanvasAgg(drawn).draw()
+    maps = [axes for axes in drawn.axes if axes.get_label() != "<colorbar>"]
+    assert len(maps) == panels
+    for axes in maps:
+        (hatched,) = [patch for patch in axes.patches if type(patch) is PathPatch]
+        # All hatched cells are one path, with five points for each rectangle.
+        assert len(hatched.get_path().vertices) == 3 * 5
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"), [(range(3), [-0.5, 0.5, 1.5, 2.5]), ([2.0], [1.5, 2.5])]
+)
+def test_edges_lie_midway_on_a_logarithmic_scale(values, expected):
+    np.testing.assert_allclose(np.log10(edges(10.0 ** np.array(values))), expected)

@@ -31,7 +31,7 @@ def elsewhere(tmp_path_factory):
     """Return the folder of all schematics, saved with another hash seed and time zone."""
     folder = tmp_path_factory.mktemp("elsewhere")
     program = (
-        "from chatterjee1995.figures import schematics, style\n"
+        "from chatterjee1995.figures import schematics\nfrom impact_damper.plot import style\n"
         f"for name in {NAMES}:\n"
         f"    style.save_figure(getattr(schematics, name)(), f'{folder}/{{name}}')\n"
     )

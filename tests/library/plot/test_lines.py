@@ -47,9 +47,3 @@ def test_branches_reach_to_their_ends_and_split_where_the_period_changes(respons
         ([0.75, 1, 2], [0.5, 1, 2]),
         ([3, 3.25], [3, 3.5]),
     ]
-
-
-def test_an_end_that_is_not_reached_is_left_out(response):
-    chosen = response["period"].values == 1
-    ((at, _),) = branch_lines(response, chosen)
-    assert list(at) == [0.75, 1, 2]
