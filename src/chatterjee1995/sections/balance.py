@@ -134,10 +134,8 @@ STAGES = (
     ),
 )
 KINDS = (
-    Kind(
-        "harmonic_convergence", "design", "harmonic_convergence", ("harmonic_convergence",), most=5
-    ),
-    Kind("balance_map", "methods", "balance_map", ("balance_map",), most=1),
+    Kind("harmonic_convergence", "design", "balance", ("harmonic_convergence",), most=5),
+    Kind("balance_map", "methods", "balance", ("balance_map",), most=1),
 )
 TABLES = (
     Table("harmonic_convergence", "design", "design", ("harmonic_convergence",)),

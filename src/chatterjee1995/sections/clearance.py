@@ -3,7 +3,7 @@
 import math
 from typing import ClassVar
 
-from chatterjee1995.sections.records import PANELS, Kind, Stage, Table
+from chatterjee1995.sections.records import Kind, Stage, Table
 from chatterjee1995.sections.system import (
     BOUNDS,
     CLEARANCE,
@@ -173,10 +173,9 @@ STAGES = (
     ),
 )
 KINDS = (
-    Kind("optimum", "clearance", PANELS + "optimum", ("optimum",)),
-    Kind("clearance_shares", "clearance", PANELS + "shares", ("optimum",)),
-    Kind("design_rules", "clearance", "design_rules", ("design_rules",), named=True),
-    Kind("studies", "clearance", "studies", ("studies",), most=1),
+    Kind("optimum", "clearance", "clearance", ("optimum",)),
+    Kind("design_rules", "clearance", "clearance", ("design_rules",), named=True),
+    Kind("studies", "clearance", "clearance", ("studies",), most=1),
 )
 TABLES = (
     Table("optimum", "clearance", "clearance", ("optimum",)),

@@ -1,6 +1,6 @@
 """Frequency responses: curves over frequency, and single motions."""
 
-from chatterjee1995.sections.records import PANELS, Kind, Stage, Table
+from chatterjee1995.sections.records import Kind, Stage, Table
 from chatterjee1995.sections.system import (
     CLEARANCE_OR_RULE,
     FREQUENCY,
@@ -153,17 +153,17 @@ STAGES = (
     ),
 )
 KINDS = (
-    Kind("harmonic_balance", "design", PANELS + "harmonic_balance", ("harmonic_balance",)),
-    Kind("free", "responses", "free", ("branches",), damper=False),
-    Kind("motion", "responses", PANELS + "motion", ("motion",)),
+    Kind("harmonic_balance", "design", "responses", ("harmonic_balance",)),
+    Kind("free", "responses", "responses", ("branches",), damper=False),
+    Kind("motion", "responses", "responses", ("motion",)),
     Kind(
         "response",
         "responses",
-        PANELS + "response",
+        "responses",
         ("response", "harmonic_balance", "subharmonic", "branches"),
     ),
-    Kind("branches", "responses", PANELS + "branches", ("branches",)),
-    Kind("shares", "responses", PANELS + "shares", ("response",)),
+    Kind("branches", "responses", "responses", ("branches",)),
+    Kind("shares", "responses", "responses", ("response",)),
 )
 TABLES = (
     Table("harmonic_balance", "design", "design", ("harmonic_balance", "design_orbit")),

@@ -1,6 +1,6 @@
 """Migration control, from one motion to another by switching the damper, and basins."""
 
-from chatterjee1995.sections.records import PANELS, Kind, Stage, Table
+from chatterjee1995.sections.records import Kind, Stage, Table
 from chatterjee1995.sections.system import (
     COMMON,
     DAMPER,
@@ -135,10 +135,10 @@ STAGES = (
     ),
 )
 KINDS = (
-    Kind("migration", "migration", PANELS + "migration", ("migration",)),
-    Kind("release", "migration", "release", ("migration",)),
-    Kind("basins", "migration", PANELS + "basins", ("basins",), damper=False, most=4),
-    Kind("release_policies", "migration", "release_policies", ("release_policies",), most=1),
+    Kind("migration", "migration", "migration", ("migration",)),
+    Kind("release", "migration", "migration", ("migration",)),
+    Kind("basins", "migration", "migration", ("basins",), damper=False, most=4),
+    Kind("release_policies", "migration", "migration", ("release_policies",), most=1),
 )
 TABLES = (
     Table("migration", "migration", "migration", ("migration",)),

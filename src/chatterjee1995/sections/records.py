@@ -3,9 +3,6 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
-# Modules of the library that draw kinds of figures.
-PANELS = "impact_damper.plot.panels."
-
 
 class Stage(NamedTuple):
     """A step of the workflow that computes a dataset for each entry of a section.

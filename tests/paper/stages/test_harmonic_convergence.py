@@ -5,7 +5,7 @@ import pytest
 from helpers.known_orbits import DESIGN, PAPER
 from scipy.special import ellipk
 
-from chatterjee1995.figures.harmonic_convergence import draw_harmonic_convergence
+from chatterjee1995.figures.balance import draw_harmonic_convergence
 from chatterjee1995.stages import convergence, harmonic_convergence
 from chatterjee1995.tables.design import harmonic_convergence as table
 from impact_damper.data.datasets import flag
