@@ -1,8 +1,4 @@
-"""Error against counted work, for each method on each test case (figure kind `accuracy`).
-
-A test case, called scene in the code, is one motion with its parameters, initial state and length.
-A method is an integrator, or a model that solves for a periodic orbit directly.
-"""
+"""Error against work, for each method on each test case (figure kind `accuracy`)."""
 
 from itertools import cycle
 
@@ -32,7 +28,7 @@ Reference: a program in 80-bit arithmetic; for chaos, a longer run.
 """
 
 # Colour, marker and line of models that solve for an orbit directly.
-ORBIT_LOOKS = {
+MODELS = {
     "rigid": (GREY, "s", "none"),
     "rigid_mended": (GREY, "D", "none"),
     "rigid_balance": (SKY, "P", "none"),
@@ -40,12 +36,9 @@ ORBIT_LOOKS = {
     "many_harmonics": (SKY, "h", "-"),
     "shooting": (BLACK, "*", "none"),
 }
-# Marker and line of integrators, by whether they locate contacts.
-LOOKS = {True: ("^", "-"), False: ("v", ":")}
-# Marker and line of Taylor series of other orders than the package uses.
+# Marker and line of integrators, by whether they locate contacts, and of other Taylor orders.
+LOCATED = {True: ("^", "-"), False: ("v", ":")}
 OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]
-# Names of the values of the variable `run_status`, for complete runs.
-ENDED = ("ok", "missed_contacts", "invented_contacts")
 # Quantity of the required accuracy -> variable or statistic of the dataset, and label of the axis.
 QUANTITIES = {
     "amplitude": ("amplitude_error", r"Relative error of max $|Z_1|$"),
@@ -62,17 +55,7 @@ DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 @style()
 def draw_accuracy(*, accuracy):
-    """Draw error against counted work: a panel for each test case, a colour and marker per method.
-
-    Parameters
-    ----------
-    accuracy : list of xarray.Dataset
-        Datasets of the stage accuracy.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Draw a panel for each dataset of the stage accuracy, a colour and marker for each method."""
     rows = -(-len(accuracy) // 2)
     drawn = figure("double", 1.5 + 2.4 * rows)
     panels = drawn.subplots(rows, min(2, len(accuracy)), squeeze=False).ravel()
@@ -90,19 +73,17 @@ def draw_accuracy(*, accuracy):
 def _panel(axes, data):
     """Draw the panel of one test case."""
     made = parameters_of(data)
-    quantity, allowed = made["accuracy"]["quantity"], made["accuracy"]["within"]
-    chaotic = made["motion"] == "chaotic"
-    error, bars = (
-        _errors(axes, data, quantity) if chaotic else (data[QUANTITIES[quantity][0]].values, None)
-    )
-    error = np.maximum(error, FINEST)
-    meanings, status = VARIABLES["run_status"].flags, data["run_status"].values
-    ended = np.isin(status, [meanings[each] for each in ENDED])
-    right = status == meanings["ok"]
-    low, high = (1e-4, 1.0) if chaotic else (10 ** np.floor(np.log10(np.min(error[ended]))), 30)
-    work = data["operations"].values
+    quantity, chaotic = made["accuracy"]["quantity"], made["motion"] == "chaotic"
+    name, label = QUANTITIES[quantity]
+    error, bars = _errors(axes, data, quantity) if chaotic else (data[name].values, None)
+    error, status = np.maximum(error, FINEST), data["run_status"].values
+    meanings = VARIABLES["run_status"].flags
+    ended = status <= meanings["invented_contacts"]
+    low = 1e-4 if chaotic else 10 ** np.floor(np.log10(np.min(error[ended])))
+    high, work = 1.0 if chaotic else 30, data["operations"].values
     for method, role in _roles(data).items():
         of = data["method"].values == method
+        right = status == meanings["ok"]
         _method(axes, role, work, error, bars, of & ended & right, of & ended & ~right)
         stopped = work[of & ~ended & (work > 0)]
         if len(stopped) > 0:
@@ -111,42 +92,38 @@ def _panel(axes, data):
             axes.plot(stopped, top, role[2], markerfacecolor="none", **looks)
             axes.plot(stopped, top, "+", color=BLACK, markersize=7, clip_on=False)
     if quantity == "contacts":
-        axes.text(
-            0.02,
-            0.86,
-            "errors above 1: the motion left the orbit",
-            transform=axes.transAxes,
-            fontsize=7,
-        )
+        words = "errors above 1: the motion left the orbit"
+        axes.text(0.02, 0.86, words, transform=axes.transAxes, fontsize=7)
     else:
-        axes.axhline(allowed, color=BLACK, linestyle="--", linewidth=0.9, label="required accuracy")
+        required = made["accuracy"]["within"]
+        axes.axhline(
+            required, color=BLACK, linestyle="--", linewidth=0.9, label="required accuracy"
+        )
     axes.plot([], [], "o", color=GREY, markerfacecolor="none", label=DOUBTFUL)
     axes.plot([], [], "+", color=BLACK, label="no result")
-    axes.set(xscale="log", yscale="log", ylim=(low, high))
+    decades = np.log10(work[work > 0])
+    ends = 10 ** np.floor(decades.min()), 10 ** np.ceil(decades.max())
+    axes.set(xscale="log", yscale="log", xlim=ends, ylim=(low, high), ylabel=label)
     axes.yaxis.set_major_locator(LogLocator(numticks=8))
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_minor_formatter(NullFormatter())
-    decades = np.log10(work[work > 0])
-    axes.set_xlim(10 ** np.floor(decades.min()), 10 ** np.ceil(decades.max()))
-    axes.set_ylabel(QUANTITIES[quantity][1])
     axes.set_title(made["scene"].replace("_", " "), loc="right", fontsize=8)
 
 
 def _errors(axes, data, quantity):
     """Shade the error of the reference; return errors and standard errors of a chaotic case."""
-    truth = float(data["reference_average"].sel(statistic=quantity))
-    average = data["average"].sel(statistic=quantity).values
-    doubt = float(data["reference_average_error"].sel(statistic=quantity)) / truth
+    of = data.sel(statistic=quantity)
+    truth = float(of["reference_average"])
+    doubt = float(of["reference_average_error"]) / truth
     axes.axhspan(1e-9, doubt, color=PALE, zorder=0, label="error of the reference")
-    bars = data["average_error"].sel(statistic=quantity).values / truth
-    return np.abs(average / truth - 1), bars
+    return np.abs(of["average"].values / truth - 1), of["average_error"].values / truth
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the complete runs of one method; doubtful ones have open markers.
+    """Draw the runs of one method with a right (`good`) and a wrong (`bad`) number of contacts.
 
-    `good` and `bad` are masks of the runs with a right and with a wrong number of contacts. `bars`
-    holds the standard errors of a chaotic case, otherwise None.
+    `bars` holds the standard errors of a chaotic case, otherwise None. Markers of doubtful runs are
+    open.
     """
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
@@ -162,11 +139,10 @@ def _method(axes, role, work, error, bars, good, bad):
 
 def _roles(data):
     """Return label, colour, marker and line of each method, in the order of the legend."""
-    roles = {"taylor": (method_in_words("taylor"), colour_of("taylor"), "o", "-")}
-    further = sorted(set(data["method"].values) - {*runs_of_accuracy(), *ORBIT_LOOKS})
-    for name, (marker, line) in zip(further, cycle(OTHER_ORDERS)):
-        roles[name] = (method_in_words(name), colour_of("taylor"), marker, line)
+    looks = {"taylor": (colour_of("taylor"), "o", "-")}
+    further = sorted(set(data["method"].values) - {*runs_of_accuracy(), *MODELS})
+    for name, look in zip(further, cycle(OTHER_ORDERS)):
+        looks[name] = (colour_of("taylor"), *look)
     for label, (integrator, located) in runs_of_accuracy().items():
-        if label not in roles:
-            roles[label] = (method_in_words(label), colour_of(integrator.name), *LOOKS[located])
-    return roles | {name: (method_in_words(name), *look) for name, look in ORBIT_LOOKS.items()}
+        looks.setdefault(label, (colour_of(integrator.name), *LOCATED[located]))
+    return {name: (method_in_words(name), *look) for name, look in (looks | MODELS).items()}

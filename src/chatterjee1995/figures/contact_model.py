@@ -1,8 +1,4 @@
-"""Accuracy of the contact model against restitution and load (figure kind `contact_model`).
-
-The contact model is a spring and a damper in the wall, chosen for an intended restitution. The load
-on a contact is the acceleration that all forces except the contact force cause.
-"""
+"""Accuracy of the contact model against restitution and load (figure kind `contact_model`)."""
 
 import numpy as np
 from matplotlib.colors import LogNorm
@@ -43,16 +39,9 @@ MOTIONS = (
 
 @style()
 def draw_contact_model(*, contact_model):
-    """Draw the error of the realised restitution, for both exit rules.
+    """Draw the error of the realised restitution for both exit rules, and contacts of motions.
 
-    Parameters
-    ----------
-    contact_model : list of xarray.Dataset
-        Datasets of the stage contact_model. Their maps are equal; the contacts of all are drawn.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
+    The maps of the datasets are equal; the contacts of all are drawn.
     """
     drawn = figure("double", 4.0)
     panels = drawn.subplots(1, 2, sharex=True, sharey=True)

@@ -23,22 +23,12 @@ median error of the method's motion. Dashed: depth at which constant steps would
 contacts. Dots: a contact is reported where none occurs. Crosses: failed runs.
 """
 
-COLUMNS = 4  # panels side by side
+COLUMNS = 3  # panels side by side
 
 
 @style()
 def draw_missed_contacts(*, missed_contacts):
-    """Draw the share of contacts missed, one panel for each method, and a colour bar.
-
-    Parameters
-    ----------
-    missed_contacts : list of xarray.Dataset
-        One dataset of the stage missed_contacts.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Draw the share of contacts missed, one panel for each method, and a colour bar."""
     (data,) = missed_contacts
     count = data.sizes["integrator"]
     rows = -(-(count + 1) // COLUMNS)
@@ -71,23 +61,15 @@ def _panel(axes, data, name):
     """Draw the panel of one method, and return the image of the shares of missed contacts."""
     of, depths, fixed = data.sel(integrator=name), data["depth"].values, integrators()[name].fixed
     y = data["fixed_steps"].values if fixed else data["method_tolerance"].values
-    image = axes.pcolormesh(
-        edges(depths),
-        edges(y),
-        of["contacts_missed"],
-        cmap="cividis_r",
-        vmin=0,
-        vmax=1,
-        rasterized=True,
-    )
+    shares = {"cmap": "cividis_r", "vmin": 0, "vmax": 1, "rasterized": True}
+    image = axes.pcolormesh(edges(depths), edges(y), of["contacts_missed"], **shares)
     axes.plot(of["motion_error"], y, color=VERMILION, label="median error of the motion")
     if fixed:
         expected = data["expected_unseen"].values
         axes.contour(depths, y, expected, [0.5], colors=BLACK, linestyles="--", linewidths=1.1)
     i, j = np.nonzero(of["spurious_count"].values)
     axes.plot(depths[j], y[i], ".", color=SKY, markersize=2.2, markeredgewidth=0)
-    failed = of["passage_count"].sel(contact_outcome="failed").values
-    i, j = np.nonzero(failed)
+    i, j = np.nonzero(of["passage_count"].sel(contact_outcome="failed").values)
     if len(i) > 0:
         axes.plot(depths[j], y[i], "x", color=VERMILION, markersize=3, label="some runs failed")
     axes.set(xscale="log", yscale="log", xlim=edges(depths)[[0, -1]], ylim=edges(y)[[0, -1]])

@@ -1,8 +1,4 @@
-"""Errors of rigid impacts against contact stiffness and frequency (figure kind `rigid_limit`).
-
-Rigid impacts are instantaneous; the exact system has contacts of stiffness r1. Rigid walls are
-corrected for the penetration of the loose mass by standing farther out.
-"""
+"""Errors of rigid impacts against contact stiffness and frequency (figure kind `rigid_limit`)."""
 
 import numpy as np
 from matplotlib.colors import LogNorm
@@ -36,17 +32,7 @@ OWN = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (6, 3))}
 
 @style()
 def draw_rigid_limit(*, rigid_limit):
-    """Draw maps of the error of max |Z1|, and the power of r1 with which the error falls.
-
-    Parameters
-    ----------
-    rigid_limit : list of xarray.Dataset
-        Datasets of the stage rigid_limit.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Draw maps of the error of max |Z1|, and the power of r1 with which the error falls."""
     drawn = figure("double", 5.2)
     grid = drawn.add_gridspec(2, len(rigid_limit), height_ratios=(1, 1.2))
     maps = [drawn.add_subplot(grid[0, column]) for column in range(len(rigid_limit))]

@@ -1,9 +1,4 @@
-"""Accuracy of the quiet motion by fixed-step methods, against stiffness and step.
-
-Figure kind `stable_steps`.
-"""
-
-import numpy as np
+"""Largest steps with which fixed-step methods keep the quiet motion (kind `stable_steps`)."""
 
 from chatterjee1995.methods.integrators import integrators
 from impact_damper.data.datasets import parameters_of
@@ -37,17 +32,7 @@ LINES = {
 
 @style()
 def draw_stable_steps(*, stable_steps):
-    """Draw the largest step that keeps the motion against contact stiffness, a panel per damper.
-
-    Parameters
-    ----------
-    stable_steps : list of xarray.Dataset
-        Datasets of the stage stable_steps.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Draw the largest step that keeps the motion against contact stiffness, a panel per damper."""
     drawn = figure("double", 3.9)
     panels = drawn.subplots(1, len(stable_steps), sharey=True, squeeze=False)[0]
     for axes, data in zip(panels, stable_steps, strict=True):
@@ -56,11 +41,10 @@ def draw_stable_steps(*, stable_steps):
         words = parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
         axes.set(xscale="log", yscale="log", xlabel=axis_label(data["contact_stiffness"]))
         axes.set_title(words)
-        # fixed, because a panel may have no points
-        low, high = (edge(data["contact_stiffness"].values) for edge in (np.min, np.max))
-        axes.set_xlim(low / 2, high * 2)
-        tested = data["scaled_step"].values
-        axes.set_ylim(np.nanmin(tested[tested > 0]), np.nanmax(tested))
+        # Limits are fixed, because a panel may have no points.
+        stiffness, tested = data["contact_stiffness"].values, data["scaled_step"].values
+        axes.set(xlim=(stiffness.min() / 2, stiffness.max() * 2))
+        axes.set(ylim=(tested.min(), tested.max()))
     panels[0].set_ylabel(axis_label(stable_steps[0]["scaled_step"]))
     for words, look in LINES.items():
         panels[0].plot([], [], color=GREY, label=words, **look)
