@@ -20,13 +20,6 @@ from impact_damper.plot.style import (
     style,
 )
 
-CAPTION = """
-Error against work in floating-point operations. A line joins runs with different tolerances or, for
-harmonic balance, with different numbers of harmonics. Open marker: wrong number of contacts; for
-chaos, an error smaller than its standard error. Plus: the run failed. Dashed: required accuracy.
-Reference: a program in 80-bit arithmetic; for chaos, a longer run.
-"""
-
 # Colour, marker and line of models that solve for an orbit directly.
 MODELS = {
     "rigid": (GREY, "s", "none"),

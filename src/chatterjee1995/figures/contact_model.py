@@ -18,13 +18,6 @@ from impact_damper.plot.style import (
     style,
 )
 
-CAPTION = """
-Error of the restitution of a contact against the intended restitution e and the load: the
-acceleration g that presses the masses together, divided by natural frequency of the contact and
-approach speed. Left: contact ends at zero penetration (appendix B); right: at zero force. Markers:
-contacts in simulated motions.
-"""
-
 # Rules for the end of a contact, and titles of their panels.
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
 LINES = {0.01: "solid", 0.05: "dotted"}  # error -> line of its contour

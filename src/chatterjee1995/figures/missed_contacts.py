@@ -16,13 +16,6 @@ from impact_damper.plot.style import (
     style,
 )
 
-CAPTION = """
-Colour: share of random flights of the loose mass whose contact a method does not notice, because no
-step ends beyond the wall. Depth: distance by which the flight would go beyond the wall. Solid line:
-median error of the method's motion. Dashed: depth at which constant steps would miss half of the
-contacts. Dots: a contact is reported where none occurs. Crosses: failed runs.
-"""
-
 COLUMNS = 3  # panels side by side
 
 

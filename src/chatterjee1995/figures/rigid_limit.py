@@ -18,12 +18,6 @@ from impact_damper.plot.style import (
     style,
 )
 
-CAPTION = """
-Relative error of the largest displacement of the quiet motion if contacts are instantaneous. Above:
-against Ω and contact stiffness; hatched: motion not found. Below: at the design frequency.
-Corrected walls stand v tc e/(1 + e) farther out, with speed of approach v and time in contact tc.
-"""
-
 SMALLEST = 1e-4  # lower end of the colour scale
 THRESHOLDS = ("solid", "dotted")  # lines of the contours at the thresholds of the dataset
 # Line at the stiffness r1 of the damper.

@@ -14,13 +14,6 @@ from impact_damper.plot.style import (
     style,
 )
 
-CAPTION = """
-Points: largest step with which a fixed-step method, started on the exact quiet orbit, keeps the
-largest displacement within 1 or 10 %. All smaller steps tested do so too. The step is multiplied
-by the natural frequency of a contact. Dotted: limit of linear stability. No point: no step tested
-was small enough.
-"""
-
 LINEAR = "linear stability limit"
 # Looks of the lines in the order of the accuracies in the dataset, and of the linear limit.
 LINES = {

@@ -2,6 +2,7 @@
 
 from typing import ClassVar
 
+from chatterjee1995.methods.labels import ERRORS, START_HARMONICS, STATISTICS, TOLERANCE_KEYS
 from chatterjee1995.sections.records import Kind, Stage, Table
 from chatterjee1995.sections.system import (
     BOUNDS,
@@ -38,11 +39,6 @@ from impact_damper.model.bounds import (
 STEPS = range_of(count("steps in a forcing cycle", **STEPS_RANGE))
 TOLERANCES = range_of(number("tolerance of a method", **METHOD_TOLERANCE_RANGE), points=True)
 GEOMETRIC = range_of(number("end of a geometric grid", least=1e-14, most=1e9), points=True)
-# Quantities whose errors are compared, and averages that are compared for a chaotic motion.
-ERRORS = ("amplitude", "state", "contact_time", "contacts")
-STATISTICS = ("contact_rate", "displacement", "exponent")
-# Highest harmonic of the balance from which Newton's method for an exact orbit starts.
-START_HARMONICS = 15
 COMPONENT = number("component of a state", least=-FARTHEST, most=FARTHEST)
 DECREASING = several(
     number("tolerance of a method", **METHOD_TOLERANCE_RANGE), "decreasing tolerances", least=1
@@ -266,7 +262,7 @@ class Comparison(Section):
     )
 
     def contradictions(self, path, config):
-        for key in ("taylor", "merson", "scipy"):
+        for key in TOLERANCE_KEYS:
             values = getattr(self, key)
             if sorted(set(values), reverse=True) != values:
                 reason = "must decrease (each is run once, the loosest first)"
