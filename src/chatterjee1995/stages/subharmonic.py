@@ -1,31 +1,28 @@
 """The one-third subharmonic of the free oscillator, and its suppression by a damper.
 
-Free means without the damper. The free subharmonic is a symmetric motion that repeats after three
-forcing cycles (period 3). With the damper, every motion whose period is a multiple of 3 counts as a
-subharmonic. A start is an initial state.
-
-Z1 is the displacement of the primary mass.
+The free subharmonic is a symmetric motion of period 3. With the damper, every motion whose period
+is a multiple of 3 counts as a subharmonic.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, touches_no_wall
+from impact_damper.model import packed
 from impact_damper.model.bounds import SEED_RANGE, check_count
 from impact_damper.model.checks import check_frequencies, check_starts
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import check_damper, check_oscillator, describe
 from impact_damper.model.settling import check_settling
-from impact_damper.motions.free_subharmonic import (
-    SEARCHED,
-    branch_ends,
-    free_subharmonic,
-    is_subharmonic,
-    switched_on,
-)
+from impact_damper.motions import strobe_map, traces
+from impact_damper.motions.following import record_at
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
 from impact_damper.motions.sweep import SAME, reached, sweep
 
+# Number of frequencies at which the free subharmonic is searched for.
+SEARCHED = 81
 # The frequencies extend beyond each end of the free subharmonic by BEYOND times the width of its
 # range of frequencies.
 BEYOND = 0.1
@@ -62,48 +59,29 @@ def subharmonic_suppression(
     Parameters
     ----------
     oscillator : Oscillator
+        With a nonlinear spring.
     damper : Damper
     frequencies : sequence of float
-        Increasing frequencies W, dimensionless. The free subharmonic is searched for from the first
-        to the last. Damped motions are searched for at the same number of frequencies, spread over
-        the range of the free subharmonic and a tenth of its width beyond each end; without a free
-        subharmonic, at the given frequencies.
+        Increasing frequencies W. The free subharmonic is searched for from the first to the last.
+        Damped motions are searched for at the same number of frequencies, spread over the range of
+        the free subharmonic and a tenth of its width beyond each end; without one, at the given
+        frequencies.
     starts : int
-        Number of starts at each frequency. All are random, as in `frequency_response`,
-        except at frequencies at which the free subharmonic exists. There one half of the starts has
-        the primary mass on the free subharmonic and switches the damper on at a random time. The
-        loose mass then has a random place, and a random velocity or, in every second of these
-        starts, the velocity of the primary mass.
+        Number of starts at each frequency. All are random, as in `frequency_response`, except at
+        frequencies at which the free subharmonic exists. There one half of the starts has the
+        primary mass on the free subharmonic and switches the damper on at a random time
+        (`switched_on`).
     radius, seed, settling, workers, progress
         As in `frequency_response`.
 
     Returns
     -------
     xarray.Dataset
-        For each (frequency, motion) a motion found, as in a frequency response. For each
-        `frequency` max |Z1| of the largest subharmonic without and with the damper (NaN where none
-        exists), their ratio, contacts and period of the subharmonic with the damper, and flags for
-        the effect of the damper on the subharmonic (removed, reduced, unchanged), judged by all
-        motions with the damper and by those to which starts lead. For each (frequency,
-        switched_motion) the share of starts on the free subharmonic that lead to this motion when
-        the damper is switched on; a quiet motion has period 1 and two symmetric contacts. For each
-        `edge` an end of the free subharmonic, for each (subharmonic, edge) an end of a branch with
-        the damper.
-
-    Raises
-    ------
-    TypeError
-        If there is no damper.
-    ValueError
-        If the spring is linear, frequencies are not increasing, or a parameter is out of range.
-
-    Examples
-    --------
-    >>> import impact_damper as idm
-    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
-    >>> found = idm.subharmonic_suppression(oscillator, damper, [1.9, 2.0])
-    >>> idm.decode(found.free_subharmonic_event).values.tolist()
-    ['sweep_ends', 'sweep_ends']
+        For each (frequency, motion) a motion, as in a frequency response. For each `frequency` the
+        largest subharmonic without and with the damper, and the effect of the damper on it. For
+        each (frequency, switched_motion) the share of starts on the free subharmonic that lead to
+        this motion when the damper is switched on. The ends of the free subharmonic and of branches
+        with the damper.
     """
     settling = check_settling(settling)
     check_damper(damper)
@@ -158,11 +136,10 @@ def subharmonic_suppression(
 
 
 def _switch_half(oscillator, parameters, free, states, seed):
-    """Replace half of the starts by states at which the damper is switched on.
+    """Replace half of the starts, where the free subharmonic exists, by states of `switched_on`.
 
-    `states` are the starts, shape (n, m, 4), at n frequencies. Only starts at frequencies at which
-    the free subharmonic exists are replaced. Return max |Z1| of the free subharmonic, shape (n,);
-    NaN where it does not exist.
+    `states` are the starts, shape (n, m, 4), at n frequencies. Return max |Z1| of the free
+    subharmonic, shape (n,); NaN where it does not exist.
     """
     size = np.full(len(parameters), np.nan)
     half = states.shape[1] // 2
@@ -175,6 +152,27 @@ def _switch_half(oscillator, parameters, free, states, seed):
                 oscillator, p, record["state"], states[i, :half], generator
             )
     return size
+
+
+def switched_on(oscillator, p, state, loose, generator):
+    """Return states at the beginning of the forcing cycle after the damper is switched on.
+
+    The switching takes place at random times of the free subharmonic, whose state at the strobe is
+    `state`. Z2 and Z2' are the last two columns of `loose` (m, 4) then; in every second row Z2' is
+    0, so that the loose mass moves with the primary mass.
+    """
+    period = 2 * np.pi / p[FREQUENCY]
+    begin = strobe_map.strobe_time(p)
+    times = begin + np.sort(generator.random(len(loose))) * 3 * period
+    states, log = np.empty((len(loose), 4)), np.empty((0, 5))
+    free = pack(oscillator, None, p[FREQUENCY])
+    traces.trace(free, state.copy(), begin, times, strobe_map.POLISH_TOLERANCE, states, log)
+    states[:, 2:] = loose[:, 2:]
+    states[::2, 3] = 0.0
+    for time, y in zip(times, states, strict=True):
+        until = np.array([np.ceil(time / period) * period])
+        traces.trace(p, y, time, until, strobe_map.POLISH_TOLERANCE, np.empty((1, 4)), log)
+    return states
 
 
 def _subharmonic_table(data, free):
@@ -226,8 +224,8 @@ def _branch_table(data, frequencies):
 def _shares(data, present, count):
     """Return the share of the first `count` starts that lead to each of SWITCHED_MOTIONS.
 
-    These starts lie on the free subharmonic. The shares are NaN at frequencies at which it does not
-    exist (`present` is False).
+    The shares are NaN at frequencies at which the free subharmonic does not exist (`present` is
+    False).
     """
     settled = data["outcome"][1] == flag("outcome", "settled")
     period = data["period"][1]
@@ -248,3 +246,100 @@ def _shares(data, present, count):
     reached = np.take_along_axis(kinds, data["run_motion"][1][:, :count], axis=1)
     shares = np.stack([np.mean(reached == k, axis=1) for k in range(len(SWITCHED_MOTIONS))], axis=1)
     return np.where(present[:, None], shares, np.nan)
+
+
+def is_subharmonic(data):
+    """Return the mask of the settled motions whose period is a multiple of 3."""
+    return (data["outcome"][1] == flag("outcome", "settled")) & (data["period"][1] % 3 == 0)
+
+
+def branch_ends(data, branch, grid, rows):
+    """Return both ends of a branch of a `sweep` over `grid`, and flags of their events.
+
+    `rows` are those at which the branch was found. If an end was not located, the value is the last
+    point on the branch, and the event sweep_ends if this is the end of the grid, otherwise
+    not_found.
+    """
+    ends = grid[[min(rows), max(rows)]]
+    events = np.full(2, flag("free_subharmonic_event", "not_found"))
+    for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
+        if not 0 <= row + step < len(grid):
+            events[side] = flag("free_subharmonic_event", "sweep_ends")
+            continue
+        value = data["end_value"]
+        away = step * (value - grid[row])
+        fits = (
+            (data["end_branch"] == branch)
+            & (away >= 0)
+            & (data["end_direction"] == flag("end_direction", turn))
+            & (away <= abs(grid[row + step] - grid[row]))
+        )
+        if fits.any():
+            last = np.argmax(np.where(fits, away, -1.0))
+            ends[side], events[side] = value[last], data["end_event"][last]
+    return ends, events
+
+
+class FreeSubharmonic(NamedTuple):
+    """The free one-third subharmonic.
+
+    Attributes
+    ----------
+    parameters, states : numpy.ndarray, shapes (n, packed.COUNT) and (n, 4)
+        Packed parameters at the frequencies at which the motion was found, and its states there at
+        the strobe.
+    ends : numpy.ndarray, shape (2,)
+        Lowest and highest frequency of the motion, NaN if no motion was found.
+    events : numpy.ndarray, shape (2,)
+        Events at the two ends, flags of `free_subharmonic_event`.
+    """
+
+    parameters: np.ndarray
+    states: np.ndarray
+    ends: np.ndarray
+    events: np.ndarray
+
+    @property
+    def found(self):
+        """True if there is a subharmonic."""
+        return len(self.states) > 0
+
+    def at(self, frequency):
+        """Return the record at a frequency, or None beyond the ends of the branch."""
+        if not self.ends[0] <= frequency <= self.ends[1]:
+            return None
+        k = np.argmin(np.abs(self.parameters[:, FREQUENCY] - frequency))
+        return record_at(self.parameters[k], self.states[k], 3, FREQUENCY, frequency)
+
+
+def free_subharmonic(
+    oscillator, first, last, *, starts=96, radius=None, seed=1995, settling=None, workers=1
+) -> FreeSubharmonic:
+    """Find the free symmetric motion of period 3 between two frequencies.
+
+    Of several branches it is the one that was found at the largest number of frequencies. The other
+    arguments are those of `frequency_response`.
+    """
+    frequencies = np.linspace(first, last, SEARCHED)
+    parameters = np.array([pack(oscillator, None, value) for value in frequencies])
+    settling = check_settling(settling)
+    systems = [(None, value) for value in frequencies]
+    search = search_starts(oscillator, systems, starts, radius, seed, settling)
+    data = sweep(
+        parameters,
+        FREQUENCY,
+        "frequency",
+        search,
+        settling,
+        workers=workers,
+    )
+    chosen = is_subharmonic(data) & (data["period"][1] == 3) & (data["asymmetry"][1] < SAME)
+    branches, counts = np.unique(data["branch"][1][chosen], return_counts=True)
+    if len(branches) == 0:
+        events = np.full(2, flag("free_subharmonic_event", "not_found"))
+        none = np.empty((0, packed.COUNT)), np.empty((0, 4))
+        return FreeSubharmonic(*none, np.full(2, np.nan), events)
+    branch = branches[np.argmax(counts)]
+    row, column = np.nonzero(chosen & (data["branch"][1] == branch))
+    ends, events = branch_ends(data, branch, frequencies, row)
+    return FreeSubharmonic(parameters[row], data["state"][1][row, column], ends, events)

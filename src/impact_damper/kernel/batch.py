@@ -126,7 +126,8 @@ def choose(pool, chosen):
     """Take up to LANES trajectories from the longest queue, and write their indices to `chosen`.
 
     If there are fewer, the last index fills the remaining entries. Return their number and the
-    queue."""
+    queue.
+    """
     waiting = pool.waiting
     kind = FLIGHT
     for other in range(1, 4):
@@ -195,7 +196,8 @@ def advance_some(pool, chosen, arrived):
     """Step trajectories of a pool, which is not empty, until at least one of them is at its end.
 
     Return the number of these; `arrived` (LANES,) receives their indices. `chosen` is working
-    memory."""
+    memory.
+    """
     ended = 0
     a, d = pointer(pool.a), pointer(pool.d)
     while ended == 0:

@@ -134,7 +134,8 @@ def by_address(function):
     steps of the integration, and one step takes most of a second to compile. A cached caller refers
     to the kernel by name, and this name must be bound to an address before the caller is loaded.
     Therefore `by_address` is called when a module is imported that the modules of all callers
-    import."""
+    import.
+    """
     name = f"{function.__module__}.{function.__name__}"
     llvmlite.binding.add_symbol(name, compiled(function).address)
     return types.ExternalFunction(name, signature_of(function))
@@ -157,7 +158,8 @@ class Progress(event.Listener):
     """Adds up the time spent on compiling functions of this package, and prints MESSAGE once.
 
     The garbage collector is switched off during compilation, because it finds little garbage and
-    would take a fifth of the time."""
+    would take a fifth of the time.
+    """
 
     def __init__(self):
         self.depth = 0

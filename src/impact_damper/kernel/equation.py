@@ -61,7 +61,8 @@ def forcing_amplitude(p, lane=0, lanes=1):
     """Return the amplitude F + U W^2 + V/W^2 of the forcing per unit of primary mass.
 
     For trajectories side by side `p` has a row of `lanes` numbers for each parameter, and `lane` is
-    the index of one of them."""
+    the index of one of them.
+    """
     frequency = p[FREQUENCY * lanes + lane]
     without = p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
     return without + p[SHAKER * lanes + lane] / (frequency * frequency)
@@ -99,7 +100,8 @@ def acceleration_by_parameters(p, x, v, cosine):
     """Return the derivatives of `acceleration` by the packed parameters, shape (COUNT, n).
 
     They hold at a fixed phase W T of the forcing. x, v and cosine are Z1, Z1' and cos(W T), shape
-    (n,)."""
+    (n,).
+    """
     frequency = p[FREQUENCY]
     slopes = np.zeros((COUNT, len(x)))
     slopes[DAMPING], slopes[STIFFNESS], slopes[CUBIC] = -v, -x, -(x**3)
@@ -114,7 +116,8 @@ def spring_slope_changes(p, x, change, parameters):
     """Return first-order changes of `spring_slope`, shape (k, n), under k changes.
 
     `x` is Z1, shape (n,), `change` (k, n) are changes of Z1, and `parameters` (COUNT, k) changes of
-    the packed parameters."""
+    the packed parameters.
+    """
     bent = np.outer(parameters[CUBIC], x) + 2 * p[CUBIC] * change
     return parameters[STIFFNESS][:, None] + 3 * x * bent
 

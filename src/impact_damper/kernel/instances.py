@@ -115,7 +115,8 @@ class Writer:
     """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
 
     With one lane the trajectory can have up to four tangents, which stand side by side. With
-    several lanes each trajectory has one tangent."""
+    several lanes each trajectory has one tangent.
+    """
 
     def __init__(self, lanes, flight_order, contact_order):
         self.lanes = lanes
@@ -289,7 +290,8 @@ class Source(Writer):
         for the derivative of the sum, "|X|" for the sum of the moduli of the terms. A sum begins at
         the order `begin` and has at most `terms` terms; the lines `then` follow. Each sum is split
         into four partial sums, each of every fourth term, which the processor can compute at the
-        same time. With one lane the four stand in one vector register."""
+        same time. With one lane the four stand in one vector register.
+        """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
         for number, (result, series) in enumerate(results.items()):
@@ -337,7 +339,8 @@ class Source(Writer):
         """Yield lines for the second and third derivatives ("curve", "jerk") of Z1 and penetration.
 
         Before these lines Z1_CURVE and Z1_JERK hold g and g'. The lines subtract the force of the
-        wall and its rate."""
+        wall and its rate.
+        """
         mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
         for force, depth_row, rate, derivative in (
             ("force", "DEPTH", "DEPTH_SLOPE", "CURVE"),

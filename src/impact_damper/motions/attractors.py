@@ -62,7 +62,7 @@ LABELS = {
 
 
 class Attractors(NamedTuple):
-    """Attracting orbits of the free oscillator, by ascending max |Z1|, and their neighbourhoods.
+    """Attracting orbits of the free oscillator, by ascending max |Z1|, and their m neighbourhoods.
 
     Attributes
     ----------
@@ -72,8 +72,8 @@ class Attractors(NamedTuple):
     centre : numpy.ndarray, shape (m, 2)
         States Z1, Z1' at strobes.
     shape : numpy.ndarray, shape (m, 2, 2)
-        Matrices S such that |S (z - c)| < 1 is the neighbourhood of a centre c. If no neighbourhood
-        was proven, S is infinite, so the neighbourhood is empty.
+        Matrices S such that |S (z - c)| < 1 is the neighbourhood of a centre c; infinite, so that
+        it is empty, if no neighbourhood was proven.
     """
 
     records: np.ndarray
@@ -198,30 +198,11 @@ def _radius(coefficients, step, contraction):
 
 
 def label_damped(p, states, phase, settling, workers=1, progress=None):
-    """Return labels of states with the damper on, and the attractors that the labels refer to.
+    """Return labels of states with the damper on, cycles until then, and the attractors.
 
     No proven neighbourhoods exist for motions with contacts, so each motion is run until it has
-    settled.
-
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters with a damper.
-    states : array, shape (n, 4)
-        States at the phase.
-    phase : float
-        Phase W T of the forcing, radian.
-    settling, workers, progress
-        As in `ensemble.settle`.
-
-    Returns
-    -------
-    labels : numpy.ndarray of int, shape (n,)
-        Index of the attractor, or a negative flag of `basin_label`.
-    periods : numpy.ndarray of int, shape (n,)
-        Number of cycles for which each motion was run.
-    attractors : numpy.ndarray of records.MOTION, shape (k,)
-        By ascending max |Z1|.
+    settled. A label is the index of an attractor, a record, by ascending max |Z1|, or a negative
+    flag of `basin_label`. `states` (n, 4) are those at the forcing phase `phase`, radian.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     strobe = strobe_time(p) + (2 * np.pi / p[FREQUENCY] if begin > strobe_time(p) else 0.0)

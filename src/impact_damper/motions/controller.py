@@ -1,16 +1,9 @@
-"""One run of the migration controller.
+"""One run of the migration controller, the scheme of figure 17.
 
-The controller is the scheme of figure 17. Without the damper the oscillator has two motions of
-period 1 at the same frequency: a large one on the resonance branch and a small one on the
-non-resonance branch. A run begins with the large one. The damper is switched on and off repeatedly
-until the oscillator without the damper settles to the small one. `damper_release` describes how the
-damper is switched on. The damper is switched off after the motion with it has settled, at a phase
-drawn uniformly over the period of this motion. If the motion has not settled after `longest_hold`
-forcing cycles, the damper is switched off during the next cycle.
-
-A strobe is the time in each forcing cycle at which the forcing has the phase W T = pi/2.
-
-Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass.
+A run begins with the large free motion of period 1. The damper is switched on and off repeatedly
+until the free oscillator settles to the small one: off after the motion with it has settled, at a
+phase drawn uniformly over the period of this motion, or after `longest_hold` forcing cycles, during
+the next cycle.
 """
 
 import numpy as np
@@ -124,9 +117,8 @@ def control(case, draws, longest_hold, settling, periods, stop=NEVER):
 def course(case, path, log, tolerance):
     """Return times T and Z1 along a run, with MARGIN forcing cycles before and after the run.
 
-    `path` and `log` are the results of `control`. Each interval between two rows of the path is
-    integrated from the state in the path. If the run were integrated from its first state alone,
-    the error would grow in chaotic parts until the result differs from the run.
+    Each interval between two rows of the path is integrated from the state in the path. From the
+    first state alone the error would grow in chaotic parts until the result differs from the run.
     """
     period = 2 * np.pi / case.on[FREQUENCY]
     path = np.vstack([np.append(-MARGIN, case.state), path])

@@ -44,7 +44,8 @@ def run_chunks(work, count, workers, progress, stop, size=CHUNK):
 
     `progress` is the title of a progress bar, or None. An error or Ctrl-C sets `stop[0]`; the
     function then returns without waiting for the slices that are being computed, so `work` must end
-    soon after."""
+    soon after.
+    """
     check_count("workers", workers, most=4096)
     slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
     pool = ThreadPoolExecutor(workers)
@@ -70,15 +71,10 @@ def settle(
     progress=None,
     stop=None,
 ):
-    """Run motions until each has settled, and measure them.
+    """Run motions from states (m, 4), each with its packed parameters, until each has settled.
 
     Parameters
     ----------
-    parameters : array, shape (m, packed.COUNT)
-        Packed parameters of each motion.
-    states : array, shape (m, 4)
-        First states Z1, Z1', Z2, Z2'.
-    settling : Settling, optional
     start : float
         Time T of all states, in the forcing cycle that ends at the first strobe.
     from_strobe : bool
@@ -93,11 +89,6 @@ def settle(
     Returns
     -------
     numpy.ndarray of records.MOTION, shape (m,)
-
-    Raises
-    ------
-    ValueError
-        If parameters or states do not have these shapes.
     """
     settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)
@@ -138,20 +129,9 @@ def settle(
 def settle_many(parameters, states, start, tolerance, patience, limit, out, stop):
     """Run each motion until it has settled or is certainly chaotic, for at most `limit` cycles.
 
-    Parameters
-    ----------
-    parameters : array, shape (m, packed.COUNT)
-    states : array, shape (m, 4)
-        First states.
-    start : array, shape (m,)
-        Times of the first states, not after the first strobe.
-    tolerance, patience, limit
-        The attributes of `Settling`.
-    out : array of records.MOTION, shape (m,)
-        Filled by `watch`. The field `state` receives the last state at a strobe or, for a settled
-        motion, the state on the orbit.
-    stop : array of bool, shape (1,)
-        Another thread may set this flag to end the run. The records are then incomplete.
+    The states are those at the times `start`, not after the first strobe. The records `out` are
+    filled by `watch`; their `state` receives the last state at a strobe or, for a settled motion,
+    the state on the orbit. If another thread sets `stop[0]`, the records are incomplete.
     """
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
@@ -227,13 +207,10 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
     p : array, shape (packed.COUNT,)
         Packed parameters without a damper.
     states : array, shape (n, 2)
-        Z1 and Z1' at the phase.
-    phase : float
-        Phase W T of the forcing, radian.
+        Z1 and Z1' at the forcing phase `phase`, radian.
     attractors : attractors.Attractors
-    tolerance, limit, workers, progress
-        Largest local error of a step, forcing cycles after which a motion counts as unresolved, and
-        arguments of `settle`.
+    limit : int
+        Forcing cycles after which a label is UNKNOWN.
 
     Returns
     -------
@@ -272,20 +249,10 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
 def label_many(p, states, begin, tolerance, limit, owner, centre, shape, labels, periods, stop):
     """Label states of the free oscillator by the orbit whose neighbourhood their motions enter.
 
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters without a damper.
-    states : array, shape (n, 2)
-        Z1 and Z1' at the time `begin`, at most a forcing cycle before the first strobe.
-    limit : int
-        Number of forcing cycles after which a motion counts as unresolved.
-    owner, centre, shape : array
-        The attributes of `attractors.Attractors`.
-    labels, periods : array of int, shape (n,)
-        Receive the index of the orbit, or GONE or UNKNOWN, and the number of strobes until then.
-    stop : array of bool, shape (1,)
-        Another thread may set this flag to end the run. The labels are then incomplete.
+    `states` are Z1 and Z1' at the time `begin`, at most a forcing cycle before the first strobe.
+    `owner`, `centre` and `shape` are the attributes of `attractors.Attractors`. `labels` and
+    `periods` receive the index of the orbit, or GONE or UNKNOWN, and the number of strobes until
+    then.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

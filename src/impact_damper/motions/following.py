@@ -1,12 +1,7 @@
 """Follow an orbit from one value of a parameter to another, by prediction and correction.
 
-The functions step towards a given value of the parameter and stop at folds. By contrast,
-`orbits.continuation` steps along the branch and passes folds. A step predicts the state at the next
-value of the parameter and corrects it by Newton's method, which the caller passes as a function. A
-step that fails is halved.
-
-Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
-forcing frequency, and T the time.
+A step predicts the state at the next value and corrects it by a function of the caller, Newton's
+method. A step that fails is halved. Following stops at folds, unlike `orbits.continuation`.
 """
 
 import math
@@ -31,19 +26,11 @@ RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two orbits on the way to a value of the parameter.
+    """The last two orbits on the way to a value of the parameter, and how following ended.
 
-    Attributes
-    ----------
-    values : (float, float)
-        Values of the parameter at the last but one and at the last orbit. Both are the first value
-        if no step succeeded.
-    orbits : tuple of two
-        The last but one and the last orbit.
-    status : str
-        Status that the correction returned for the last attempted step.
-    arrived : bool
-        Whether the last orbit is at the target.
+    `values` and `orbits` are those of the last but one and the last orbit, `status` is what the
+    correction returned for the last attempted step, and `arrived` tells whether the target was
+    reached.
     """
 
     values: tuple[float, float]
@@ -108,15 +95,10 @@ def follow(
         A step also fails if Z1, Z1' or Z2 changes by `reach` or more, because it may have led to
         another orbit.
     extrapolating : bool
-        If True, the prediction is extrapolated from the last two orbits. Otherwise the prediction
-        is the state of the last orbit.
+        If True, the prediction is extrapolated from the last two orbits. Otherwise it is the last
+        state.
     behind : optional
-        Orbit at the value 2 start - target, on the other side of `start`. With this orbit the first
-        prediction is extrapolated too.
-
-    Returns
-    -------
-    Followed
+        Orbit at the value 2 start - target. With it the first prediction is extrapolated too.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -148,29 +130,11 @@ def extrapolate(state, before, ratio):
 def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -> tuple:
     """Follow a stable orbit while one parameter changes to a target value, as far as possible.
 
-    Following stops where the orbit becomes unstable, or where it repeats after fewer cycles.
-
-    Parameters
-    ----------
-    p : array, shape (COUNT,)
-        Packed parameters.
-    state : array, shape (4,)
-        State of the orbit at W T = pi/2.
-    periods : int
-        Period of the orbit in forcing cycles.
-    parameter : int
-        Index in the packed parameters, such as `packed.FREQUENCY`.
-    target : float
-    resolution : float
-        Accuracy, in units of the parameter, to which the value where following stops is located.
-
-    Returns
-    -------
-    p : numpy.ndarray, shape (COUNT,)
-        Packed parameters of the last orbit. The parameter equals `target` exactly if the target was
-        reached.
-    orbit : StrobeOrbit
-        The last orbit. Its multiplier is NaN if no orbit was found near the given state.
+    Following stops where the orbit becomes unstable, or where it repeats after fewer cycles; this
+    value is located with the accuracy `resolution`. `parameter` is an index in the packed
+    parameters. Return the packed parameters and the `StrobeOrbit` of the last orbit. The parameter
+    equals the target exactly if this was reached; the multiplier is NaN if no orbit was found near
+    the given state.
     """
     # Records hold periods as two-byte integers; for these numba would compile the kernels again.
     periods = int(periods)
@@ -198,8 +162,7 @@ def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
     """Return the record of a stable orbit followed to a value, or None if it ends before.
 
-    The arguments are as in `follow_stable`. `tolerance` is the largest local error of a step in the
-    measurement.
+    The arguments are as in `follow_stable`; `tolerance` is that of the measurement.
     """
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

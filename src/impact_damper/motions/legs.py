@@ -3,7 +3,8 @@
 A leg begins when the damper is switched, at any phase of the forcing, with Z1 and Z1' continuous.
 It ends at the first strobe at which the motion is near a stable orbit, when a rule releases the
 damper, or after a given time. The state is not moved onto the orbit, so that a run is one
-continuous motion."""
+continuous motion.
+"""
 
 import math
 
@@ -37,15 +38,12 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
 
     Parameters
     ----------
-    p : array, shape (COUNT,)
     y : array, shape (4,)
         State at the beginning, replaced by the last state.
     ahead : float
         Forcing cycles from the beginning to the first strobe.
     strobe : float
         Number of the first strobe of this leg, counted from the first strobe of the first leg.
-    tolerance : float
-        Largest local error of a step.
     limit : int
         Number of the last strobe, counted from 0.
     path : array, shape (limit + 2, 5)
@@ -103,7 +101,7 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop=NEVER):
-    """Wait after a strobe, switch the damper, call `run`, and measure a settled motion.
+    """Wait, switch the damper, `run`, measure a settled motion; return the last strobe.
 
     Parameters
     ----------
@@ -118,15 +116,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop
         then at rest relative to the primary mass. Not used when the damper is switched off.
     strobe : float
         Number of this strobe, at which the waiting begins.
-    tolerance, limit, path, stop
-        Arguments of `run`.
     out : array of records.MOTION, shape (1,)
-        Filled by `run` and, for a settled motion, by `measure`.
-
-    Returns
-    -------
-    float
-        Number of the last strobe.
     """
     none = np.empty((0, 4))
     t = strobe_time(before)
@@ -175,12 +165,10 @@ def depth_of(depth, half, phase, x, v):
 
 @kernel
 def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, work):
-    """Run a motion with the damper on until a rule releases it; return how this ended.
+    """Run a motion with the damper on until a rule releases it.
 
     Parameters
     ----------
-    on : array, shape (packed.COUNT,)
-        Packed parameters with the damper.
     y : array, shape (4,)
         State at the time `begin`, replaced by the state at the release.
     side : int
@@ -196,8 +184,6 @@ def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, wo
         The attributes of a `ReleaseSet`.
     path : array, shape (m, 5)
         Receives a row for each of the first m strobes: forcing cycles since `begin`, and the state.
-    work : array
-        A `workspace`.
 
     Returns
     -------

@@ -1,12 +1,9 @@
 """Lives of chaotic motions: mean lives of transients, and lower bounds on lives of attractors.
 
-A motion that is chaotic for some hundred cycles may still be a transient. Runs that begin close
-together on such a motion are independent after a few tens of cycles. On a transient the runs end at
-random times, and their lives are distributed exponentially. The number of runs that end, divided by
-the sum of the lives of all runs, therefore estimates the rate of ending, even if some runs do not
-end. The mean life is the inverse of this rate.
-
-Z1 is the displacement of the primary mass, W the forcing frequency, and T the time.
+Runs that begin close together on a chaotic motion are independent after a few tens of cycles. On a
+transient they end at random times, distributed exponentially. The number of runs that end, divided
+by the sum of the lives of all runs, therefore estimates the rate of ending, even if some do not
+end.
 """
 
 from dataclasses import replace
@@ -31,30 +28,18 @@ CHECKED = 300
 
 
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
-    """Return the lives of the chaotic motions of a sweep.
+    """Return the lives of the chaotic motions of a sweep, registered variables of shape (n, m).
 
     Parameters
     ----------
     parameters : array, shape (n, packed.COUNT)
-        Packed parameters along the sweep.
-    outcomes : array, shape (n, m)
-        Flags `outcome` of the motions at each value of the parameter.
-    states : array, shape (n, m, 4)
-        States of the motions once in each cycle, at the phase W T = pi/2 (the strobe).
+    outcomes, states : array, shape (n, m) and (n, m, 4)
+        Flags `outcome` of the motions at each value of the parameter, and their states at the
+        strobe.
     runs, periods : int
         Number of runs of each chaotic motion, and forcing cycles of a run.
-    seed : int
-    settling : Settling
     **running
         `workers` and `progress` of `ensemble.settle`.
-
-    Returns
-    -------
-    dict of numpy.ndarray, shape (n, m)
-        `life_ends`: number of runs that ended. `mean_life`: mean life in forcing cycles, NaN if no
-        run ended. `mean_life_lower` and `mean_life_upper`: ends of its 95 % interval; the upper end
-        is infinite if no run ended. For motions that are not chaotic `life_ends` is -1 and the
-        other values are NaN.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}

@@ -257,28 +257,12 @@ def tabulate(records):
 
 
 def envelope(parameters, lengths, y, tolerance):
-    """Run a motion through successive windows of time, each with its own parameters.
+    """Run a motion through windows of time (n,), each with its packed parameters (n, COUNT).
 
-    The kernel of a step requires a fixed frequency. In a sweep the frequency changes at the strobe,
-    where the force is zero, so neither the force nor its phase jumps.
-
-    Parameters
-    ----------
-    parameters : array, shape (n, packed.COUNT)
-        Packed parameters in each window.
-    lengths : array, shape (n,)
-        Lengths of the windows in units of T, with forcing a forcing cycle: each begins at the
-        strobe.
-    y : array, shape (4,)
-        First state, replaced by the last state or by the state at an escape.
-    tolerance : float
-        Largest local error of a step.
-
-    Returns
-    -------
-    largest, contacts : numpy.ndarray, shape (n,)
-        Largest |Z1| and number of contacts begun in each window. Where the motion escapes they are
-        infinite and NaN, afterwards NaN.
+    Return the largest |Z1| and the number of contacts begun in each window; where the motion
+    escapes they are infinite and NaN, afterwards NaN. The state y is replaced by the last one. The
+    kernel of a step requires a fixed frequency, so in a sweep it changes at the strobe, where the
+    force is zero: each window begins at the strobe, and with forcing its length is a forcing cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)

@@ -3,7 +3,8 @@
 The damper is switched on during the resonance motion, at a random phase, with the loose mass at
 rest relative to the primary mass at a random place in the gap, as if a clamp had held it. Then the
 motion can be irregular for many cycles, its lifetime, before it settles to a periodic orbit. A
-release switches the damper off again, so that the free motion settles."""
+release switches the damper off again, so that the free motion settles.
+"""
 
 from dataclasses import replace
 from itertools import count
@@ -39,14 +40,9 @@ DESTINATIONS = list(FREE_MOTION)[1:]
 class ReleaseCase(NamedTuple):
     """Parameters, first state and known free motions for releases at one frequency.
 
-    Attributes
-    ----------
-    on, off : array, shape (packed.COUNT,)
-        Packed parameters with and without the damper.
-    state : array, shape (4,)
-        State of the free resonance motion at a strobe.
-    known : array, shape (2,)
-        max |Z1| of the free non-resonance motion and of the free resonance motion.
+    `on` and `off` are packed parameters with and without the damper, `state` is the free resonance
+    motion at a strobe, and `known` the max |Z1| of the free non-resonance motion and of the
+    resonance motion.
     """
 
     on: np.ndarray
@@ -110,7 +106,8 @@ def kinds(period, displacement, known):
     """Return flags (`DAMPED_MOTION`) that classify motions by period and max |Z1|, arrays.
 
     A motion of period 1 is quiet if its max |Z1| is below half the max |Z1| of the free resonance
-    motion."""
+    motion.
+    """
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
     return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
@@ -155,7 +152,8 @@ def _watch_one(case, draws, lifetime, settling, path, records, entry, stop):
     place of the loose mass, the strobe of the release, and the phase after this strobe. The strobe
     of the release lies between strobe LEAD, before which the run still depends on its start, and
     the capture by an orbit, which ends the lifetime. A run that is captured before strobe LEAD is
-    not released."""
+    not released.
+    """
     legs.leg(
         case.off,
         case.on,
@@ -182,23 +180,9 @@ def _watch_one(case, draws, lifetime, settling, path, records, entry, stop):
 def watch_runs(case, seeds, lifetime, settling, workers, progress):
     """Run with the damper on from the resonance branch, and release each run once.
 
-    Parameters
-    ----------
-    case : ReleaseCase
-    seeds : list of numpy.random.SeedSequence
-        One for each run.
-    lifetime : int
-        Largest number of forcing cycles of a run.
-    settling, workers, progress
-        As in `ensemble.settle`.
-
-    Returns
-    -------
-    lives : numpy.ndarray, shape (n,)
-        Forcing cycles before each run is captured by an orbit (`legs.CAPTURE`), or `lifetime`.
-    motions : numpy.ndarray of records.MOTION, shape (n,)
-        Motions that the runs settle to.
-    entries : numpy.ndarray of RELEASE, shape (n,)
+    Return for each of the `seeds` (SeedSequence) the forcing cycles before the run is captured by
+    an orbit (`legs.CAPTURE`), at most `lifetime`; the record of the motion that it settles to; and
+    the RELEASE.
     """
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     lives = np.empty(len(draws))
@@ -226,7 +210,8 @@ def transient_data(lives, motions, lifetime, known):
 
     A capture is detected only after the run has settled, so a run that was captured shortly before
     its end is not counted as captured. To avoid a bias, lifetimes are evaluated only up to a
-    horizon: `lifetime` minus the longest time between capture and settling in any run."""
+    horizon: `lifetime` minus the longest time between capture and settling in any run.
+    """
     settled = is_settled(motions)
     delay = np.max(motions["periods_run"][settled] - lives[settled], initial=0)
     horizon = lifetime - delay
@@ -248,7 +233,8 @@ def release_data(case, motions, entries, settling):
     `entries` are the releases from the unsettled motion, and `motions` the settled motions, each
     with equally many releases, spread evenly over its period. While the loose mass flies, the
     primary mass moves as without the damper, so all releases within one flight lead to the same
-    free motion."""
+    free motion.
+    """
     number = len(entries)
     rows = [entries]
     path = np.empty((settling.limit + 2, 5))

@@ -40,14 +40,10 @@ def survey(p, states, phases, tolerance, log, sums):
 
     Parameters
     ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters.
     states : array, shape (m, 4)
         States at the beginnings of the segments, replaced by the states at their ends.
     phases : array, shape (m + 1,)
         Phases W T at which the segments begin, and at which the last one ends, radian.
-    tolerance : float
-        Largest local error of a step.
     log : array, shape (n, 5)
         Receives a row for each of the first n contacts, as from `traces.trace`.
     sums : array, shape (2, 2)
@@ -57,9 +53,7 @@ def survey(p, states, phases, tolerance, log, sums):
     Returns
     -------
     contacts : int
-        Number of contacts.
     largest : float
-        Largest |Z1|.
     """
     work, start = workspace(), np.empty(4)
     frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
@@ -99,15 +93,10 @@ def survey(p, states, phases, tolerance, log, sums):
 
 @kernel
 def list_turns(p, states, phases, tolerance, turns):
-    """List the extrema of Z2 of a motion in segments; return their number.
+    """List the extrema of Z2 of a motion in segments (see `survey`); return their number.
 
-    Parameters
-    ----------
-    p, states, phases, tolerance
-        As in `survey`.
-    turns : array, shape (n, 4)
-        Receives a row for each of the first n extrema: segment, phase W T, 1 for a maximum of |Z2|
-        or 0 for a minimum, and |Z2| minus the clearance.
+    `turns` (n, 4) receives a row for each of the first n: segment, phase W T, 1 for a maximum of
+    |Z2| or 0 for a minimum, and |Z2| minus the clearance.
     """
     work, start = workspace(), np.empty(4)
     c = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
@@ -164,7 +153,8 @@ def sweep(factors, basis, triangles):
     """Compute the QR factors of a product of matrices, A_k Q_(k-1) = Q_k R_k, by Gram-Schmidt.
 
     `factors` (m, n, n) are the A_k, `triangles` receives the R_k, and `basis` Q_0 is replaced by
-    Q_m."""
+    Q_m.
+    """
     m, n = factors.shape[:2]
     moved = np.empty((n, n))
     for k in range(m):
@@ -212,16 +202,13 @@ def separate(factors, apart, sweeps, settled, coupled, blocks, cuts):
     sweeps : int
         Largest number of iterations.
     settled : float
-        The iteration stops once the subspaces of the groups turn by less than this angle (radian)
-        in an iteration.
+        The iteration stops once the subspaces turn by less than this angle (radian) in an
+        iteration.
     coupled : float
-        While the subspaces of two groups turn by more than this angle (radian) in an iteration, the
-        groups count as one. The two vectors of a complex pair keep turning in their plane, so they
-        stay one group even if the ratio of their growth factors exceeds `apart`.
-    blocks : array, shape (n, n)
-        Receives the diagonal blocks.
-    cuts : array of int, shape (n + 1,)
-        Receives the first row of each group, then n.
+        While the subspaces of two groups turn by more than this angle, the groups count as one. The
+        two vectors of a complex pair keep turning in their plane, so they stay one group.
+    blocks, cuts : array, shape (n, n) and (n + 1,)
+        Receive the diagonal blocks, and the first row of each group, then n.
     """
     m, n = factors.shape[:2]
     basis, first, turned = np.zeros((n, n)), np.empty((n, n)), np.empty((n, n))
@@ -296,20 +283,10 @@ def separate(factors, apart, sweeps, settled, coupled, blocks, cuts):
 def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
     """Compute the derivatives of the ends of segments by a parameter, as central differences.
 
-    Parameters
-    ----------
-    p, rate : array, shape (packed.COUNT,)
-        Packed parameters, and their derivatives by the parameter.
-    phases : array, shape (m + 1,)
-        Phases W T at which the segments begin, and at which the last one ends, radian.
-    states, ends : array, shape (m, 4)
-        States at the beginnings and at the ends of the segments.
-    sign : int
-        -1 if the segments cover half a symmetric orbit, else 1. The last end is multiplied by it.
-    tolerance : float
-        Largest local error of a step.
-    slopes : array, shape (m, n)
-        Receives the derivatives of the first n components, n = 2 without a damper or 4 with one.
+    `rate` (COUNT,) are the derivatives of the packed parameters by it; `sign` is -1 if the segments
+    cover half a symmetric orbit, else 1, and multiplies the last end. `slopes` (m, n) receives the
+    derivatives of the first n components, n = 2 without a damper or 4 with one. The other arguments
+    are those of `correction`.
     """
     work, none = workspace(), np.empty((0, 4))
     ahead, behind, moved = np.empty(4), np.empty(4), np.empty(COUNT)
@@ -340,14 +317,16 @@ def correction(p, rate, phases, states, sign, row, fresh, tolerance, ends, tange
 
     Parameters
     ----------
-    p, rate, phases, states, sign, tolerance, slopes
+    p, rate, sign, slopes
         As in `slopes_of_ends`.
+    phases : array, shape (m + 1,)
+        Phases W T at which the segments begin, and at which the last one ends, radian.
+    states, ends : array, shape (m, 4)
+        States at the beginnings of the segments. `ends` receives those at their ends.
     row : array, shape (m n + 1,)
         The correction is orthogonal to this row.
     fresh : bool
         Whether `slopes` are computed; otherwise they are taken as they are.
-    ends : array, shape (m, 4)
-        Receives the states at the ends of the segments.
     tangents : array, shape (m, 4, 4)
         Receives the transposed derivatives of the ends by the states.
     out : array, shape (m n + 1, 2)
@@ -356,10 +335,9 @@ def correction(p, rate, phases, states, sign, row, fresh, tolerance, ends, tange
 
     Returns
     -------
-    touching : float
-        Time in contact.
-    residual : float
-        Largest difference between the end of a segment and the beginning of the next one.
+    touching, residual : float
+        Time in contact, and largest difference between an end and the beginning of the next
+        segment.
     """
     work, touching, residual = workspace(), 0.0, 0.0
     m, n = slopes.shape

@@ -72,20 +72,11 @@ RULE_OF_THREE = 3.0
 
 
 class Search(NamedTuple):
-    """Start states of a search at several systems.
+    """Start states of a search at n systems, at T = 0.
 
-    Attributes
-    ----------
-    random : numpy.ndarray, shape (n, m, 4)
-        Random starts at T = 0.
-    placed : list of numpy.ndarray, shape (k, 4)
-        Placed starts at T = 0 of each system; empty if a radius is given.
-    loose : list of numpy.ndarray, shape (k, 2)
-        Argument of `sweep.stable_orbits` for each system; empty if a radius is given.
-    displacement, speed : numpy.ndarray, shape (n,)
-        Largest |Z1| and |Z1'| of a random start.
-    free_displacement, free_speed : numpy.ndarray, shape (n,)
-        Largest |Z1| and |Z1'| of the free motions; with a radius by harmonic balance.
+    `random` has the shape (n, m, 4). `placed`, and `loose` (an argument of `sweep.stable_orbits`),
+    have an array for each system, empty if a radius is given. The other fields are the largest |Z1|
+    and |Z1'| of a random start and of the free motions, shape (n,).
     """
 
     random: np.ndarray
@@ -111,7 +102,6 @@ def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
 
     Parameters
     ----------
-    oscillator : Oscillator
     systems : list of tuple
         Damper or None, and frequency W, of each system.
     count : int
@@ -198,22 +188,9 @@ def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
 
 
 def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return the random starts of a search without a radius, and the range of the search.
+    """Return random starts (count, 4) scaled by the free motions, and the largest |Z1| and |Z1'|.
 
-    Parameters
-    ----------
-    oscillator, damper, frequency
-        Oscillator, damper or None, and frequency W of one system.
-    count : int
-    seed : int or sequence of int
-    settling : Settling
-        Settings of the runs of free motions.
-
-    Returns
-    -------
-    states : numpy.ndarray, shape (count, 4)
-    most : numpy.ndarray, shape (2,)
-        Largest |Z1| and |Z1'| of a start.
+    `settling` has the settings of the runs of free motions.
     """
     generator = np.random.default_rng(seed)
     free = free_motions(oscillator, frequency, settling)
@@ -303,13 +280,9 @@ def barrier(oscillator):
 class FreeMotions(NamedTuple):
     """States and sizes of the free motions at one frequency.
 
-    Attributes
-    ----------
-    states : numpy.ndarray, shape (k, 2)
-        Z1, Z1' of each motion at W T = 0, once in each forcing cycle until the motion repeats, but
-        at most MOST_STATES times.
-    displacement, speed : float
-        Largest |Z1| and |Z1'| of all these motions.
+    `states` (k, 2) are Z1, Z1' of each motion at W T = 0, once in each forcing cycle until the
+    motion repeats, but at most MOST_STATES times. `displacement` and `speed` are the largest of all
+    motions.
     """
 
     states: np.ndarray
@@ -319,11 +292,10 @@ class FreeMotions(NamedTuple):
 
 @lru_cache(1024)
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
-    """Find the free motions at one frequency W, by runs from start states.
+    """Find the free motions at one frequency W, by runs from rest and from harmonic balance.
 
-    The starts are the state of rest, and states with the amplitudes of harmonic balance and of the
-    resonance peak, each at PHASES phases. The amplitude of the peak leads to motions near a fold
-    that harmonic balance does not predict.
+    These have the amplitudes of harmonic balance and of the resonance peak, each at PHASES phases.
+    The amplitude of the peak leads to motions near a fold that harmonic balance does not predict.
     """
     p = pack(oscillator, None, frequency)
     angles = 2 * np.pi * np.arange(PHASES) / PHASES

@@ -1,10 +1,7 @@
 """The strobe map, from one forcing cycle to the next, and Newton's method for its periodic orbits.
 
-The strobe is the time in each forcing cycle at which the forcing has the phase W T = pi/2. It lies
-midway between the contacts of a damper at its design point, which occur near W T = 0 and pi.
-
-Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
-forcing frequency, and T the time.
+The strobe, at the forcing phase W T = pi/2, lies midway between the contacts of a damper at its
+design point, which occur near W T = 0 and pi.
 """
 
 import math
@@ -47,10 +44,9 @@ def one_period(p, y, tangents, side, tolerance, work):
 
 @kernel_only
 def speed_weight(p, side):
-    """Return the weight of Z2' in `distance`.
+    """Return the weight of Z2' in `distance`: 1 in flight, in contact nearly 1/w.
 
-    The weight is 1 in flight. In contact it is nearly 1/w with the natural frequency w of the
-    contact, so that a velocity counts as the penetration that it causes.
+    With the natural frequency w of the contact a velocity counts as the penetration that it causes.
     """
     if side == 0:
         return 1.0
@@ -68,9 +64,8 @@ def distance(a, b, weight):
 def flow(p, state, tangents, begin, periods, half, tolerance):
     """Integrate over `periods` forcing cycles from `begin`, and half a cycle more if `half`.
 
-    The state (4,) and the tangents, rows of an array (n, 4), are replaced. Return the number of
-    contacts begun and the time in contact. The function returns no array, because numba loses a
-    Ctrl-C that arrives while an array is returned.
+    The state (4,) and the tangents (n, 4) are replaced. Return the number of contacts begun and the
+    time in contact. No array is returned, because numba loses a Ctrl-C that arrives meanwhile.
     """
     period = 2.0 * math.pi / p[FREQUENCY]
     work = workspace()
@@ -159,16 +154,9 @@ def polish(p, y, periods, reach, tolerance):
     """Move a state y onto the periodic orbit near it, by Newton's method on the map over `periods`.
 
     Without contacts only Z1 and Z1' are unknown, and Z2 - Z1 and Z2' - Z1' do not change. y is
-    replaced if the method converges.
-
-    Returns
-    -------
-    converged : bool
-        Whether the method converged to an orbit within `reach` of y, in all components but Z2'.
-    residual : float
-        Largest difference between the state and its image, NaN if the method did not converge.
-    multiplier : complex
-        Dominant Floquet multiplier, NaN if the method did not converge.
+    replaced if the method converges to an orbit within `reach` of it in Z1, Z1' and Z2. Return
+    whether it did, the largest difference between the state and its image, and the dominant
+    multiplier; otherwise NaN.
     """
     orbit = y.copy()
     for _ in range(ITERATIONS):

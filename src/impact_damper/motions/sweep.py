@@ -57,15 +57,10 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
     Parameters
     ----------
     parameters : array, shape (n, packed.COUNT)
-        Packed parameters in the order of the sweep, which differ in one parameter.
-    index : int
-        Index of this parameter in the packed array: FREQUENCY or CLEARANCE.
+        Packed parameters in the order of the sweep, which differ in the parameter of this `index`.
     dimension : str
         Name of the dimension of the data for this parameter.
     search : start_states.Search
-    settling : Settling
-    workers, progress
-        As in `ensemble.settle`.
 
     Returns
     -------
@@ -139,7 +134,8 @@ def _follow(source, target, index, settling, links, ends):
     """Follow all motions of the catalogue `source` to the next value, and enter what they lead to.
 
     For two motions on the same branch the pair of their numbers is appended to `links`. For each
-    branch that ends between the two values a dictionary is appended to `ends`."""
+    branch that ends between the two values a dictionary is appended to `ends`.
+    """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
         if is_settled(record)
@@ -179,7 +175,8 @@ def _end_event(record, multiplier, beyond):
 
     `multiplier` is the dominant multiplier of the last orbit, NaN if the motion does not depend
     smoothly on its start. `beyond` is the motion that the state of the last orbit leads to at the
-    next value."""
+    next value.
+    """
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
     if abs(multiplier.imag) > COMPLEX:
@@ -197,7 +194,8 @@ def _branches(catalogues, links):
     """Return the branch of each motion, indexed by the number of the motion.
 
     Branches are the connected components of the links and the matches of motions that have not
-    settled."""
+    settled.
+    """
     links = links + [
         (first.numbers[i], second.numbers[j])
         for first, second in pairwise(catalogues)
@@ -258,24 +256,10 @@ def _tables(catalogues, branches, dimension, starts):
 
 
 class Catalogue:
-    """Distinct motions at one value of the swept parameter.
+    """Distinct motions at one value of the swept parameter, with packed parameters p.
 
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters.
-    numbering : iterator of int
-        Numbers for new motions.
-
-    Attributes
-    ----------
-    records : list of records.MOTION
-    numbers : list of int
-        Numbers of the motions, unique over the sweep.
-    origins : list of int
-        Flags of `origin`, which say how each motion was first found.
-    starts : list of int
-        For each motion the number of random starts that lead to it.
+    For each motion it holds a record, a number that is unique over the sweep (`numbering` is an
+    iterator), the flag of `origin`, and the number of random starts that lead to it.
     """
 
     def __init__(self, p, numbering):
@@ -301,7 +285,8 @@ class Catalogue:
         """Return the index of a motion, and enter it if it is new.
 
         A new record of a known motion replaces the old record if its max |Z1| is larger by more
-        than SAME."""
+        than SAME.
+        """
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -386,20 +371,9 @@ def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
     """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
 
     On most of these orbits the primary mass moves nearly as in another motion of the same system,
-    while the loose mass moves differently. Start k of Newton's method therefore has the primary
-    mass on known motion k modulo m and the loose mass anywhere in the gap.
-
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-    motions : array, shape (m, 2)
-        Z1 and Z1' of known motions at the strobe.
-    loose : array, shape (n, 2)
-        Z2, and velocity Z1' - Z2' of the loose mass, of each start.
-    tolerance : float
-        Largest local error of a step.
-    stop : array of bool, shape (1,)
-        Another thread may set this flag to end the search.
+    while the loose mass moves differently. So start k of Newton's method has the primary mass on
+    motion k modulo m of `motions` (m, 2), Z1 and Z1' at the strobe, and the loose mass with Z2 and
+    Z1' - Z2' in row k of `loose` (n, 2).
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

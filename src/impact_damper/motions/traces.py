@@ -1,8 +1,6 @@
 """Traces of motions: states at given times, and a log of the contacts.
 
 This module imports no kernels with tangents, so that `simulate` does not compile them.
-
-Z1 is the displacement of the primary mass, and Z2 its displacement relative to the loose mass.
 """
 
 import numpy as np
@@ -33,29 +31,19 @@ def series_of_step(work, side, y, t):
 
 
 def trace(p, y, t, times, tolerance, states, log):
-    """Compute the states of a motion at given times, and a log of its contacts.
+    """Compute the states of a motion at given times and a log of contacts; return their number.
 
     Parameters
     ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters.
     y : array, shape (4,)
         State at time t, replaced by the last state.
-    t : float
     times : array, shape (n,)
         Increasing times, not before t.
-    tolerance : float
-        Largest local error of a step.
     states : array, shape (n, 4)
         Receives the states; NaN after the motion has escaped (`kernel.equation.no_return`).
     log : array, shape (m, 5)
         Receives a row for each of the first m contacts: wall, beginning, end, and Z2' at the
         beginning and the end. Further contacts are only counted.
-
-    Returns
-    -------
-    int
-        Number of contacts.
     """
     t, side, contacts = float(t), side_of(p, y), 0
     if side != 0:

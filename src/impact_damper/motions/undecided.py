@@ -79,7 +79,8 @@ def run_block(p, y, tangent, states, growth, stop):
 
     The state `y` and the tangent (1, 4), scaled to length 1 after each cycle, are replaced.
     `states` (n, 4) and `growth` (n,) receive the state and the logarithm of the growth of the
-    tangent after each cycle. Return the number of contacts, and whether the motion escaped."""
+    tangent after each cycle. Return the number of contacts, and whether the motion escaped.
+    """
     work = workspace()
     side = side_of(p, y)
     total = 1 if side != 0 else 0
@@ -106,7 +107,8 @@ def name_undecided(parameters, records, limit, further, stop):
 
     The first block has the length of the run before, `limit`, but at most FIRST; all blocks
     together have at most `further` forcing cycles. If another thread sets `stop[0]`, the records
-    are incomplete."""
+    are incomplete.
+    """
     curves = []
     for i in np.flatnonzero(records["outcome"] == UNRESOLVED):
         p, record = parameters[i], records[i : i + 1]
@@ -249,7 +251,8 @@ class Rotation(NamedTuple):
     """Rotation number of a map on a closed curve, in revolutions per iterate, from 0 to 1/2.
 
     `error` is the largest difference between the numbers of the first, middle and last half of an
-    orbit."""
+    orbit.
+    """
 
     number: float
     error: float
@@ -273,7 +276,8 @@ def find_rotation(points):
     The rotation number is the average advance of the angle around the average of the complex
     points, which are stretched first to have the same spread in all directions: on a slender curve
     the angle advances mainly at the two ends. Sorted by the phases that follow from the number, the
-    points of a closed curve go around once; on other sets they jump from side to side."""
+    points of a closed curve go around once; on other sets they jump from side to side.
+    """
     if len(points) < FEWEST:
         return None
     angle = np.angle(_rounded(points)) / (2 * math.pi)

@@ -231,7 +231,8 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
 
     The tangent is followed from cycle `patience`/2 on. From this cycle on `reach` is updated too.
     For a motion on an orbit the exponent is computed from the dominant multiplier instead, because
-    the motion before is a transient. y is moved onto the orbit if there is one."""
+    the motion before is a transient. y is moved onto the orbit if there is one.
+    """
     k = seen.strobes
     bounded = p[CLEARANCE] < math.inf
     if k == limit:

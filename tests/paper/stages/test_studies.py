@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 from chatterjee1995.stages import studies
-from chatterjee1995.stages.study_grid import blocks, gather_chunks
+from chatterjee1995.stages.studies import blocks, gather_chunks
 from chatterjee1995.variables.studies import OUTCOMES
 from impact_damper.data.datasets import dataset, load, save
 from impact_damper.data.whole_files import BrokenFileError

@@ -13,12 +13,13 @@ from numpy.testing import assert_allclose
 from chatterjee1995.stages.subharmonic import (
     SWITCHED_MOTIONS,
     _suppression,
+    free_subharmonic,
     subharmonic_suppression,
+    switched_on,
 )
 from impact_damper.data.datasets import flag, load, save
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.motions.free_subharmonic import free_subharmonic, switched_on
 from impact_damper.motions.simulate import simulate
 from impact_damper.motions.steady import steady_motion
 

@@ -35,7 +35,8 @@ def safe_advance(f, closing, bound):
     """Return a time within which the event function f cannot vanish.
 
     It is the first root t of f - closing t - bound t^2/2, where `closing` is -f' and `bound` is an
-    upper bound on |f''|."""
+    upper bound on |f''|.
+    """
     f = max(f, 0.0)
     root = math.sqrt(closing * closing + 2.0 * bound * f)
     above = 2.0 * f if closing > 0.0 else root - closing
@@ -84,7 +85,8 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
     `first` may be another estimate of the move to the root than a Newton step; `bend` then belongs
     to the terms which that estimate neglects. `rate` is a lower limit of the rate that
-    `is_last_move` gets, and `fine` the rounding error of the event function."""
+    `is_last_move` gets, and `fine` the rounding error of the event function.
+    """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t
     length = a[LENGTH + i]
@@ -108,7 +110,8 @@ def store_end(a, i, row, end, move, going):
     """Store value and slope after a move in `end` and the next row, if the search is `going` on.
 
     They are extrapolated from the value and three derivatives in the four rows that begin with
-    `row`."""
+    `row`.
+    """
     value, slope = a[row + i], a[row + LANES + i]
     curve, jerk = a[row + 2 * LANES + i], a[row + 3 * LANES + i]
     value += move * (slope + move * (0.5 * curve + move * (jerk / 6.0)))
