@@ -24,7 +24,7 @@ slurm: $(READY)
 # Compile the kernels (functions compiled by numba) before the tests, so that the processes of the
 # tests load them instead of each compiling them.
 kernels: $(READY)
-	$(BIN)/python -m chatterjee1995.workflow.compile_kernels '[2, []]'
+	$(BIN)/python -m chatterjee1995.workflow.kernels '[2, []]'
 
 # On all cores. One process runs all tests of a file, so that the fixtures are made once. The files
 # run in the order in which tests/conftest.py puts them, the longest first.

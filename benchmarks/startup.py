@@ -17,7 +17,7 @@ FIRST = {
     "steady_motion": f"import impact_damper as idm; idm.steady_motion({SYSTEM})",
 }
 ALL = (
-    "from chatterjee1995.workflow.compile_kernels import warm_up_orbits, warm_up_settling; "
+    "from impact_damper.command.warm_up import warm_up_orbits, warm_up_settling; "
     "warm_up_orbits(); warm_up_settling()"
 )
 IMPORTS = ("numpy", "numba", "xarray", "scipy.integrate", "matplotlib.figure", "impact_damper")

@@ -13,7 +13,7 @@ from snakemake.exceptions import WorkflowError
 from chatterjee1995.sections.configuration import configuration
 from chatterjee1995.sections.registry import CHAPTERS, PAPER, STAGES, TABLES
 from chatterjee1995.workflow import selection
-from chatterjee1995.workflow.compiled import compiled_kernels
+from chatterjee1995.workflow.kernels import compiled_kernels
 from impact_damper.command.yaml_files import ConfigurationError, check_file
 from impact_damper.kernel.sources import KERNEL, module_file, sources
 
@@ -217,7 +217,7 @@ def compile_again():
     if not marker.exists() or marker.read_bytes() == now.encode():
         return
     logger.info("Compiling the kernels again: they were edited")
-    program = [sys.executable, "-m", "chatterjee1995.workflow.compile_kernels"]
+    program = [sys.executable, "-m", "chatterjee1995.workflow.kernels"]
     arguments = json.dumps([workflow.cores or 1, orders])
     if subprocess.run([*program, arguments]).returncode:
         raise WorkflowError("The kernels cannot be compiled: see the error above.")

@@ -3,8 +3,7 @@
 from pathlib import Path
 
 from chatterjee1995.workflow.job import Job
-from chatterjee1995.workflow.compile_kernels import compile_all
-from chatterjee1995.workflow.compiled import compiled_kernels
+from chatterjee1995.workflow.kernels import compile_all, compiled_kernels
 
 Job(snakemake)
 orders = snakemake.config["comparison"]["orders"]

@@ -12,18 +12,14 @@ from chatterjee1995.sections.system import (
     FREQUENCY,
     NEEDED,
     OSCILLATOR,
-    Entry,
     MaybeWithDamper,
     given,
     keys_of,
-    limits,
     range_of,
 )
-from impact_damper.command.messages import dotted, missing, problem
+from impact_damper.command.messages import missing, problem
 from impact_damper.command.values import choice, count, number
 from impact_damper.model.bounds import FREQUENCY_RANGE, HARMONIC_RANGE, plain
-from impact_damper.model.parameters import Oscillator
-from impact_damper.theory.design_rule import peak_frequency, rule_clearance
 
 # Parameters that may change from row to row of a map.
 MAPPED = ("damping", "mass_ratio", "clearance", "restitution")
@@ -54,7 +50,7 @@ class HarmonicConvergence(MaybeWithDamper):
 
 
 class BalanceMap(
-    keys_of(OSCILLATOR, needed=["linear_frequency"]), keys_of(DAMPER, without=[COMMON]), Entry
+    keys_of(OSCILLATOR, needed=["linear_frequency"]), keys_of(DAMPER, without=[COMMON])
 ):
     """Maps of the errors of harmonic balance, over frequency and another parameter."""
 
@@ -80,27 +76,6 @@ class BalanceMap(
                 yield problem((*path, key), value, reason)
             elif key != self.parameter and value is None:
                 yield missing((*path, key), f"needed where {self.parameter} changes")
-
-    def workload(self, path, config):
-        fixed = given(self, [*OSCILLATOR, *DAMPER])
-        for end in (self.values.first, self.values.last):
-            row = fixed | {self.parameter: end}
-            oscillator = Oscillator(**{key: row[key] for key in OSCILLATOR if key in row})
-            try:
-                peak = peak_frequency(oscillator)
-                if row["clearance"] == "rule":
-                    row["clearance"] = rule_clearance(oscillator, row["mass_ratio"])
-            except ValueError as error:
-                yield f"{dotted(path)}: no clearance by `rule`, or no peak: {error}"
-                continue
-            yield from limits(
-                path,
-                ("mass_ratio", row["mass_ratio"]),
-                config.contact_stiffness,
-                self.frequency_ratios.first * peak,
-                ("clearance", row["clearance"]),
-                config,
-            )
 
     def job(self, config) -> dict:
         # Without a clearance the stage takes the clearance of the paper's rule (19) in each row.

@@ -105,9 +105,6 @@ class Study(WithOscillator):
         if self.cells() < config.chunks:
             reason = f"must be at most {self.cells()} (the cells of {dotted(path)})"
             yield problem(("chunks",), config.chunks, reason)
-
-    def workload(self, path, config):
-        yield from super().workload(path, config)
         cells = self.cells()
         if cells > MOST_CELLS:
             reason = f"must be at most {MOST_CELLS} (combinations of the points of its four axes)"

@@ -121,7 +121,7 @@ class Settings(Section):
     comparison: Comparison
     captions: Captions
 
-    def workload(self, path, config):
+    def contradictions(self, path, config):
         for keys in COUNTS:
             yield from too_many(path, self, keys)
 
@@ -148,15 +148,11 @@ def configuration(given, trusted=False):
         found = Configuration.model_validate(without_left_out(given), context=trusted)
     except ValidationError as error:
         raise ConfigurationError("\n".join(problems_of(error))) from None
-    lines = []
-    if not trusted:
-        lines = [x for path, part in parts(found) for x in part.contradictions(path, found)]
-        lines = lines or [
-            line
-            for path, part in parts(found)
-            if hasattr(part, "workload")
-            for line in part.workload(path, found)
-        ]
+    lines = [
+        line
+        for path, part in (() if trusted else parts(found))
+        for line in part.contradictions(path, found)
+    ]
     if lines:
         raise ConfigurationError("\n".join(dict.fromkeys(lines)))
     return found

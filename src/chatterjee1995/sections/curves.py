@@ -46,6 +46,12 @@ class Curve(MaybeWithDamper):
             reason = "must be a number with stages other than harmonic_balance and design_orbit"
             reason = f"{reason} (see table harmonic_balance)"
             yield problem((*path, "clearance"), self.clearance, reason)
+        if self.clearance == "rule" and self.oscillator in config.oscillators and self.has_damper():
+            try:
+                self.system(config)
+            except ValueError as error:
+                reason = f"must be a number with the oscillator {self.oscillator} ({error})"
+                yield problem((*path, "clearance"), self.clearance, reason)
 
     def span(self, config):
         """Return the range of frequencies of the curve."""

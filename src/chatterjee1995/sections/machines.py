@@ -21,7 +21,8 @@ PAGE = (
 class Machine(machine_entry.MachineEntry):
     """Machines for which a damper is designed, in SI units: numbers, or texts with units."""
 
-    def workload(self, path, config):
+    def contradictions(self, path, config):
+        yield from super().contradictions(path, config)
         yield from too_many(path, self, self.counts)
 
     def job(self, config) -> dict:

@@ -7,7 +7,6 @@ from chatterjee1995.sections.system import (
     FREQUENCIES,
     FREQUENCY,
     NEEDED,
-    Entry,
     MaybeWithDamper,
     WithDamper,
     WithOscillator,
@@ -72,7 +71,7 @@ class Basins(MaybeWithDamper):
         return self.system(config) | plane | config.settling.job()
 
 
-class PolicyDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), Entry):
+class PolicyDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON])):
     """One of the dampers to compare."""
 
 

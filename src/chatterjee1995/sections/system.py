@@ -9,17 +9,10 @@ from typing import ClassVar
 
 from pydantic import create_model
 
-from impact_damper.command.messages import dotted, missing, one_of, problem
+from impact_damper.command.messages import missing, one_of, problem
 from impact_damper.command.section import Section
 from impact_damper.command.values import count, number, number_or_word, points_of, text
-from impact_damper.model.bounds import (
-    FREQUENCY_RANGE,
-    MOST_RADIUS,
-    MOST_RUNS,
-    MOST_STIFF,
-    PERIODS_RANGE,
-    RADIUS_RANGE,
-)
+from impact_damper.model.bounds import FREQUENCY_RANGE, MOST_RUNS, PERIODS_RANGE, RADIUS_RANGE
 from impact_damper.model.parameters import Damper, Oscillator, parameters_in
 from impact_damper.theory.design_rule import rule_clearance
 
@@ -110,10 +103,8 @@ class Entry(Section):
 
     counts: ClassVar = ()
 
-    def workload(self, path, config):
-        """Yield a line for each reason why a job would run without end or out of memory."""
+    def contradictions(self, path, config):
         yield from too_many(path, self, self.counts)
-        yield from too_hard(path, self, config)
 
 
 class WithOscillator(Entry):
@@ -186,66 +177,3 @@ def too_many(path, section, keys):
         reason = f"with {' and '.join(others)} makes {math.prod(counts)}: must be at most "
         reason += f"{MOST_RUNS} in all (a job keeps them in memory)"
         yield problem((*path, *keys[largest].split(".")), counts[largest], reason)
-
-
-def too_hard(path, entry, config):
-    """Yield the lines of `limits` for an entry, none if it has no mass ratio."""
-    key, mass_ratio = _first(entry, "mass_ratios", "mass_ratio")
-    if mass_ratio is None:
-        return
-    _, stiffness = _first(entry, "stiffnesses", "contact_stiffnesses", "contact_stiffness")
-    _, frequency = _first(entry, "frequencies", "frequency")
-    oscillator = getattr(entry, "oscillator", None)
-    if frequency is None and oscillator:
-        frequency = config.oscillators[oscillator].frequencies
-    place, clearance = _first(entry, "clearances", "clearance")
-    if clearance == "rule":
-        try:
-            clearance = damper_values(entry, config)["clearance"]
-        except ValueError as error:
-            yield f"{dotted(path)}: no clearance by `rule` with this oscillator: {error}"
-            return
-    yield from limits(
-        path,
-        (key, _ends(mass_ratio)[0]),
-        _ends(stiffness or config.contact_stiffness)[1],
-        _ends(frequency or 1.0)[0],
-        (place, clearance and _ends(clearance)[0]),
-        config,
-    )
-
-
-def limits(path, mass_ratio, stiffness, frequency, clearance, config):
-    """Yield a line if contacts are too stiff for the forcing, or a gap too narrow or too wide.
-
-    `mass_ratio` and `clearance` are pairs of key and smallest value.
-    """
-    ratio = math.sqrt(stiffness * (1 + 1 / mass_ratio[1])) / frequency
-    if ratio > MOST_STIFF:
-        reason = f"with r1 = {stiffness:g} and W = {frequency:g} must be so large that "
-        reason += (
-            f"sqrt(r1 (1 + 1/rm))/W = {ratio:g} is at most {MOST_STIFF:g} (steps of a contact)"
-        )
-        yield problem((*path, mass_ratio[0]), mass_ratio[1], reason)
-    key, value = clearance
-    least, most = config.search.radius / MOST_RADIUS, BOUNDS["clearance"]["most"]
-    if value is not None and value < least:
-        reason = f"must be at least search.radius/{MOST_RADIUS:g} = {least:g} "
-        yield problem((*path, key), value, f"{reason}(hardly any start is within the gap)")
-    if value is not None and value > most:
-        reason = f"must be at most {most:g} (`rule` gives this clearance)"
-        yield problem((*path, key), value, reason)
-
-
-def _first(section, *keys):
-    """Return the first of some keys with a value in a section, and the value; or None, None."""
-    found = ((key, getattr(section, key, None)) for key in keys)
-    return next(((key, value) for key, value in found if value is not None), (None, None))
-
-
-def _ends(value):
-    """Return the smallest and the largest value of a number, a list or a range."""
-    if isinstance(value, Range):
-        return value.first, value.last
-    values = value if isinstance(value, list) else [value]
-    return min(values), max(values)

@@ -74,17 +74,10 @@ def counts(first, last, points):
 
 
 class Job:
-    """A job that Snakemake has started.
+    """A job, made from the variable `snakemake` of its script.
 
-    Creating the object redirects all output to the log, and makes the process end soon after
-    Snakemake ends. An error about a file is reported in one line, in the log and on the terminal,
-    since on a full disk the log stays empty. When the job ends, its time and memory are written
-    into the folder `timings`, at the same relative path as its log in the folder `logs`.
-
-    Parameters
-    ----------
-    snakemake : object
-        The variable `snakemake` of a script.
+    All output goes to the log, and the process ends soon after Snakemake. When the job ends, its
+    time and memory are written to the folder `timings`, at the same relative path as its log.
     """
 
     def __init__(self, snakemake):
@@ -155,7 +148,7 @@ def _content(files):
 
 
 def _report_file_errors():
-    """Report errors about files in one line, on the terminal and in the log."""
+    """Report errors about files in one line, on the terminal too: on a full disk the log is empty."""
     terminal, show = sys.stderr, sys.excepthook
 
     def report(kind, error, trace):
@@ -180,19 +173,18 @@ def _report_file_errors():
 
 
 def end_with_parent() -> None:
-    """End this process soon after the process that started it has ended.
+    """End this process soon after its parent, here Snakemake, was killed.
 
-    Otherwise a job would continue after Snakemake was killed, and could overwrite the results of a
-    newer run with results of an older configuration.
+    Otherwise the job could overwrite results of a newer run with results of an older configuration.
     """
-    threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
+    parent = os.getppid()
 
+    def watch():
+        while os.getppid() == parent:
+            time.sleep(LOOK)
+        os._exit(1)
 
-def _end_with(parent):
-    """Wait until the process with the id `parent` is no longer the parent, then end."""
-    while os.getppid() == parent:
-        time.sleep(LOOK)
-    os._exit(1)
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def _write_timing(path):
@@ -210,15 +202,13 @@ def _write_timing(path):
 
 
 def peak_memory() -> float:
-    """Return the peak memory in MB of this process, or of a child process that needed more.
+    """Return the peak memory in MB of this process.
 
-    On Linux `ru_maxrss` of a new process starts at the value of its parent, here Snakemake. On
-    Linux the peak of this process is therefore read from `/proc`.
+    On Linux it is read from `/proc`, because `ru_maxrss` of a new process starts at the value of
+    its parent.
     """
-    own, children = resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN
-    peak, largest_child = (resource.getrusage(who).ru_maxrss / MEGABYTE for who in (own, children))
     status = Path("/proc/self/status")
-    if status.exists():
-        lines = status.read_text().splitlines()
-        (peak,) = (int(line.split()[1]) / 2**10 for line in lines if line.startswith("VmHWM:"))
-    return max(peak, largest_child)
+    if not status.exists():
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / MEGABYTE
+    lines = status.read_text().splitlines()
+    return next(int(line.split()[1]) / 2**10 for line in lines if line.startswith("VmHWM:"))

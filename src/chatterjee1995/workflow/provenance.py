@@ -11,22 +11,10 @@ from pathlib import Path
 
 
 def provenance(configuration, root) -> dict:
-    """Return the provenance of results: configuration, code, packages and computer.
+    """Return digests of configuration and lock file, commit, versions and computer.
 
-    Parameters
-    ----------
-    configuration : dict
-        The merged configuration of the run; its digest does not depend on the order of keys.
-    root : path-like
-        Folder of the project, with its lock file.
-
-    Returns
-    -------
-    dict
-        `configuration` and `lock`: SHA-256 digests of the configuration and of the lock file.
-        `commit`: the git commit; `modified`: whether tracked files differ from it. Both are None
-        outside of a repository. `versions`: of Python and of all installed packages that the lock
-        file lists. `machine`: the computer.
+    `root` is the folder of the project. Outside of a repository `commit` and `modified`, whether
+    tracked files differ from the commit, are None.
     """
     root = Path(root)
     lock = (root / "requirements.lock").read_bytes()

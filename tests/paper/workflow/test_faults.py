@@ -8,7 +8,7 @@ import time
 import pytest
 from faults.project import DELETE, Project
 
-from chatterjee1995.workflow.compiled import compiled_kernels
+from chatterjee1995.workflow.kernels import compiled_kernels
 
 pytestmark = pytest.mark.workflow
 

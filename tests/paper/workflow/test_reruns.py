@@ -17,9 +17,9 @@ from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
 
 from chatterjee1995.sections.configuration import configuration
-from chatterjee1995.sections.registry import CHAPTERS
+from chatterjee1995.sections.registry import CHAPTERS, STAGES
 from chatterjee1995.workflow import selection
-from chatterjee1995.workflow.compiled import compiled_kernels
+from chatterjee1995.workflow.kernels import compiled_kernels
 from impact_damper.kernel.sources import module_file, sources
 
 pytestmark = pytest.mark.workflow
@@ -143,6 +143,8 @@ def changed(config, path):
         place[path[-1]] = f"{value} Again."
     elif path[-1] == "orders":
         place[path[-1]] = value[:1]
+    elif path[-1] == "restitution":
+        place[path[-1]] = 0.97 * value
     elif isinstance(value, int | float):
         place[path[-1]] = value + 1 if isinstance(value, int) else 1.01 * value
     else:
@@ -215,8 +217,8 @@ def test_snakemake_reruns_what_edits_concern(project, edit, config, jobs):
     Jobs that both an edit of a value and an edit of a file concern are jobs of chapters.
     """
     paths = [
-        "workflow/scripts/motion.py",
-        "src/impact_damper/stages/studies.py",
+        "workflow/scripts/machine_pages.py",
+        "src/chatterjee1995/stages/studies.py",
         "src/impact_damper/plot/pages/templates/page.html",
     ]
     edited = config
@@ -235,10 +237,12 @@ def test_snakemake_reruns_what_edits_concern(project, edit, config, jobs):
 def test_sources_of_a_script_are_what_python_imports(script, config):
     """Python's own search for imports finds the files that `sources` finds."""
     paths = [ROOT / f"workflow/scripts/{script}.py"]
+    whole = configuration(config, trusted=True)
     if script == "chapter":
-        whole = configuration(config, trusted=True)
         modules = {m for chapter in CHAPTERS for m in selection.chapter_modules(whole, chapter)}
         paths += map(module_file, modules)
+    if script == "stage":
+        paths += {module_file(stage.function.split(":")[0]) for stage in STAGES.values()}
     finder = ModuleFinder(path=[str(ROOT / "src")])
     for path in paths:
         finder.run_script(str(path))

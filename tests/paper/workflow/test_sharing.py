@@ -14,7 +14,7 @@ from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
 
 from chatterjee1995.workflow import job
-from chatterjee1995.workflow.compiled import compiled_kernels
+from chatterjee1995.workflow.kernels import compiled_kernels
 
 pytestmark = pytest.mark.workflow
 

@@ -1,0 +1,76 @@
+"""Compile and cache every kernel (numba function) before the jobs that need them."""
+
+import gc
+import json
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+
+from impact_damper.kernel.sources import kernel_digest, module_file
+
+WARM_UP = "impact_damper.command.warm_up"
+
+
+def compiled_kernels(orders) -> str:
+    """Return the text of the marker file: digest of the sources, and orders of Taylor series."""
+    return f"{kernel_digest(*map(module_file, (WARM_UP, __name__)))} {orders}\n"
+
+
+def compile_all(processes, orders) -> None:
+    """Compile and cache all kernels on up to two cores.
+
+    `orders` are pairs of orders of the Taylor series that the stage `accuracy` compares.
+    """
+    from chatterjee1995.workflow.job import end_with_parent
+    from impact_damper.command.warm_up import warm_up_orbits, warm_up_settling
+
+    # Compilation makes little garbage, and collecting garbage takes a fifth of its time. Forked
+    # processes inherit this setting.
+    gc.disable()
+    fork = get_context("fork")
+    with ProcessPoolExecutor(processes, fork, initializer=end_with_parent) as pool:
+        for half in [pool.submit(warm_up_orbits), pool.submit(warm_up_settling)]:
+            half.result()
+        # This task starts last, because it needs kernels that the other two tasks compile.
+        pool.submit(warm_up_paper, orders).result()
+
+
+def warm_up_paper(orders=()) -> None:
+    """Call each kernel of the paper's stages and of the integrators that are compared.
+
+    A kernel loaded from the cache can give results that differ in the last digit from the results
+    of a kernel compiled in the same process, and a method that integrates through a jump of the
+    force amplifies this difference. With all kernels compiled here, every job loads them.
+    """
+    import numpy as np
+
+    from chatterjee1995.methods.integrators import integrators
+    from chatterjee1995.methods.integrators.taylor import ORDERS, taylor
+    from chatterjee1995.methods.orbit_models import rigid
+    from chatterjee1995.methods.passages import draw_passages, without_walls
+    from chatterjee1995.stages.release_policies import release_policies
+    from impact_damper.command.warm_up import DAMPER, FREQUENCY, OSCILLATOR
+    from impact_damper.model.packed import pack
+    from impact_damper.model.settling import Settling
+    from impact_damper.motions.strobe_map import strobe_time
+
+    settling = Settling(patience=100, limit=100, watched=1)
+    numbers = {"trials": 1, "tested": 1, "cells": 4, "settling": settling}
+    release_policies(OSCILLATOR, [DAMPER], [FREQUENCY], **numbers)
+    p = pack(OSCILLATOR, DAMPER, 2.0)
+    start, begin = np.array([0.082, 0.169, 0.381, -1.088]), strobe_time(p)
+    for each in (ORDERS, *map(tuple, orders)):
+        taylor(p, start, begin, 1, 1e-3, each)
+    rigid(p, 0.75, start, begin, 1, 1e-3)
+    for each in integrators("accuracy").values():
+        for locate in each.located:
+            each.run(p, start, begin, 1, 1e-3, locate, 1000)
+    for each in integrators("missed_contacts").values():
+        each.flight(without_walls(p), start, 1.0, 100 if each.fixed else 1e-3, 0.5)
+    for each in integrators("stable_steps").values():
+        each.largest_displacements(p, start, begin, 1, 100)
+    draw_passages(p, 1, 2.0, 0.1, 1995)
+
+
+if __name__ == "__main__":
+    compile_all(*json.loads(sys.argv[1]))

@@ -1,0 +1,80 @@
+"""Calls with hardly any work that compile and cache every kernel (numba function) of the library.
+
+Some kernels are compiled when their module is imported. Each function therefore imports the modules
+whose kernels it calls, so that two processes can share the compilation.
+"""
+
+import numpy as np
+
+from impact_damper.model.packed import pack
+from impact_damper.model.parameters import Damper, Oscillator
+
+OSCILLATOR = Oscillator(damping=0.215)
+# Motions with this damper settle soon at this frequency. Settled motions are followed by Newton's
+# method, so that its kernels are called, and compiled, too.
+DAMPER = Damper(mass_ratio=0.25, clearance=1.0, restitution=0.75)
+FREQUENCY = 1.95
+
+
+def warm_up_orbits() -> None:
+    """Call each kernel that processes one motion at a time.
+
+    The kernels that `warm_up_settling` also calls come first, and the kernels that call kernels of
+    `warm_up_settling` come last, so that the two processes rarely compile the same kernel.
+    """
+    from impact_damper.motions import ensemble, records, strobe_map, traces
+
+    on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
+    strobe_map.polish(on, np.zeros(4), 1, 1e-3, 1e-9)
+    strobe_map.repeats_sooner(on, np.zeros(4), 1, 1e-9)
+    strobe_map.flow_map(on, np.zeros(4), strobe_map.strobe_time(on), 1, False, 1e-9)
+    states, log = np.zeros((1, 4)), np.empty((0, 5))
+    traces.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9, states, log)
+    ensemble.collide(on[None], states, 1, 1e-9)
+    records.envelope(on[None], np.zeros(1), np.zeros(4), 1e-9)
+
+    from impact_damper.orbits.paths import follow_path
+
+    follow_path(on, np.zeros(4), 0.0, 0.01)
+
+    from impact_damper.orbits import segments
+    from impact_damper.orbits.continuation import Problem
+    from impact_damper.orbits.shooting import orbit_of
+
+    chain = segments.chain_of(on, np.array([0.0, 0.01, 0.02]), np.zeros((2, 4)), 1)
+    segments.multipliers(chain.factors)
+    chain.turns()
+    orbit = orbit_of(chain, 1)
+    problem = Problem.of(lambda value: np.append(value, on[1:]), orbit, symmetric=False)
+    problem.correct(np.append(orbit.state, on[0]), np.eye(5)[-1])
+
+    from impact_damper.motions import following, legs
+
+    following.extrapolate(np.zeros(4), np.zeros(4), 1.0)
+    path, out = np.zeros((4, 5)), np.zeros(1, records.MOTION)
+    legs.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2, path, out)
+
+
+def warm_up_settling() -> None:
+    """Call each kernel that runs many motions until they settle."""
+    from impact_damper.kernel import batch
+
+    pool, places = batch.make_pool(1), np.zeros(batch.LANES, np.int64)
+    batch.enter(pool, 0, pack(OSCILLATOR, DAMPER, FREQUENCY), np.zeros(4), 0, 1e-9)
+    batch.send(pool, 0, 0.0, 0.01, False)
+    batch.advance_some(pool, places, places.copy())
+
+    from impact_damper.motions import undecided
+
+    p, tangent, stop = pack(OSCILLATOR, DAMPER, FREQUENCY), np.ones((1, 4)), np.zeros(1, bool)
+    undecided.run_block(p, np.zeros(4), tangent, np.empty((1, 4)), np.empty(1), stop)
+
+    from impact_damper.model.settling import Settling
+    from impact_damper.motions.response import frequency_response
+    from impact_damper.orbits.basins import basins
+
+    settling = Settling(patience=100, limit=100, watched=1)
+    basins(OSCILLATOR, None, FREQUENCY, cells=2, settling=settling)
+    frequency_response(
+        OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling
+    )
