@@ -13,7 +13,7 @@ import pandas as pd
 from typer.testing import CliRunner
 
 from chatterjee1995.claims.verdicts import document
-from chatterjee1995.workflow.reference import reference
+from chatterjee1995.sections.reference import reference
 from impact_damper.command.command_line import app as command
 from impact_damper.data.variables import VARIABLES
 

@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import NamedTuple
 
+from chatterjee1995.sections import selection
 from chatterjee1995.sections.configuration import configuration
 from chatterjee1995.sections.registry import CHAPTERS, STAGES
-from chatterjee1995.workflow import selection
 
 
 class Job(NamedTuple):

@@ -12,7 +12,7 @@ from snakemake.exceptions import WorkflowError
 
 from chatterjee1995.sections.configuration import configuration
 from chatterjee1995.sections.registry import CHAPTERS, PAPER, STAGES, TABLES
-from chatterjee1995.workflow import selection
+from chatterjee1995.sections import selection
 from chatterjee1995.workflow.kernels import compiled_kernels
 from impact_damper.command.yaml_files import ConfigurationError, check_file
 from impact_damper.kernel.sources import KERNEL, module_file, sources

@@ -148,7 +148,7 @@ def _content(files):
 
 
 def _report_file_errors():
-    """Report errors about files in one line, on the terminal too: on a full disk the log is empty."""
+    """Report errors about files in one line, also on the terminal, since a full disk has no log."""
     terminal, show = sys.stderr, sys.excepthook
 
     def report(kind, error, trace):

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import pytest
 from helpers import configurations
 
-from chatterjee1995.workflow import selection
-from chatterjee1995.workflow.captions import caption, cases_in_words, in_words
+from chatterjee1995.sections import selection
+from chatterjee1995.sections.captions import caption, cases_in_words, in_words
 
 CONFIG = configurations.paper()
 

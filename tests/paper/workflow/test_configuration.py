@@ -16,8 +16,8 @@ from helpers.running import ROOT
 
 from chatterjee1995.figures import schematics
 from chatterjee1995.sections.configuration import configuration, without_left_out
+from chatterjee1995.sections.reference import reference
 from chatterjee1995.sections.report import SCHEMATICS
-from chatterjee1995.workflow.reference import reference
 from impact_damper.command.yaml_files import ConfigurationError, check_file
 from impact_damper.model.bounds import CLEARANCE_RANGE, FREQUENCY_RANGE
 from impact_damper.model.parameters import Damper, Oscillator, parameters_in
@@ -215,7 +215,7 @@ def test_the_check_of_a_machine_imports_no_numba():
 
 
 def test_the_reference_is_up_to_date():
-    """To write it again: python -m chatterjee1995.workflow.reference > config/reference.md"""
+    """To write it again: python -m chatterjee1995.sections.reference > config/reference.md"""
     assert (ROOT / "config/reference.md").read_text() == reference()
 
 

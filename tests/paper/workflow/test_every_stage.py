@@ -11,8 +11,8 @@ import pytest
 from helpers import configurations
 from helpers.running import ROOT
 
+from chatterjee1995.sections import selection
 from chatterjee1995.sections.registry import KINDS, STAGES, TABLES
-from chatterjee1995.workflow import selection
 
 CONFIG = configurations.paper()
 

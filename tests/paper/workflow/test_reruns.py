@@ -16,9 +16,9 @@ from helpers import configurations, planning
 from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
 
+from chatterjee1995.sections import selection
 from chatterjee1995.sections.configuration import configuration
 from chatterjee1995.sections.registry import CHAPTERS, STAGES
-from chatterjee1995.workflow import selection
 from chatterjee1995.workflow.kernels import compiled_kernels
 from impact_damper.kernel.sources import module_file, sources
 

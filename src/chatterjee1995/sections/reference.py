@@ -9,7 +9,7 @@ from impact_damper.command.values import NAME, Allowed
 HEAD = f"""# Reference of the configuration
 
 Every key of `config.yaml` with its allowed values. This page is generated from the classes that
-check the configuration, by `python -m chatterjee1995.workflow.reference > config/reference.md`.
+check the configuration, by `python -m chatterjee1995.sections.reference > config/reference.md`.
 `NAME` stands for a name of your choice: {NAME.__metadata__[-1].words}.
 The text after a semicolon in the column "meaning" is mostly the reason for a bound.
 """

@@ -1,7 +1,7 @@
 """Entries of a configuration that a stage, a figure, a table or a chapter of the report uses."""
 
+from chatterjee1995.sections.captions import caption, cases_in_words, in_words, machine_in_words
 from chatterjee1995.sections.registry import KINDS, PAPER, STAGES, TABLES, section_of
-from chatterjee1995.workflow.captions import caption, cases_in_words, in_words, machine_in_words
 
 # Key of an entry that holds several values of a parameter -> name of the parameter.
 SWEPT = {
