@@ -22,7 +22,7 @@ from benchmarks import (
 )
 from benchmarks.timing import one_core
 from impact_damper.data import table_files
-from impact_damper.plot.panels.style import save_figure
+from impact_damper.plot.style import save_figure
 
 # Amounts of work: in full, and as little as possible, to try the scripts.
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,

@@ -9,14 +9,14 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.timing import interleaved, spread
-from chatterjee1995.stages.release_trials import free_case
 from impact_damper.kernel.compiling import kernel
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Oscillator
 from impact_damper.model.settling import Settling
+from impact_damper.motions.attractors import free_attractors
 from impact_damper.motions.ensemble import label_states
-from impact_damper.motions.release_set import depth_of
-from impact_damper.orbits.basins import free_attractors
+from impact_damper.motions.legs import depth_of
+from impact_damper.motions.release_set import release_set
 
 # Half widths of the plane in Z1 and Z1'.
 PLANE = np.array([3.2, 5.0])
@@ -52,7 +52,7 @@ def table(count, rounds):
         return label_states(p, states, np.pi / 2, attractors, *limits)
 
     _, periods = label()
-    releases = free_case(Oscillator(0.215), 1.85, CELLS, settling, 1).releases
+    releases = release_set(Oscillator(0.215), 1.85, settling, cells=CELLS)
     mixed = np.random.default_rng(1).permutation(states)
 
     def look():

@@ -15,7 +15,7 @@ from benchmarks.methods import RIVALS, TIMED, applying, starts_of
 from benchmarks.timing import interleaved
 from chatterjee1995.methods.integrators import runs_of_accuracy
 from chatterjee1995.methods.labels import colour_of
-from impact_damper.plot.panels.style import (
+from impact_damper.plot.style import (
     BLACK,
     BLUE,
     GREY,

@@ -18,7 +18,7 @@ from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions.records import measured
 from impact_damper.motions.simulate import random_states
-from impact_damper.plot.panels.style import curve, figure, legend, letter_panels, points, style
+from impact_damper.plot.style import curve, figure, legend, letter_panels, points, style
 
 OSCILLATOR = Oscillator(0.215)
 DAMPER = Damper(0.12, 2.0)

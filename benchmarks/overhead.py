@@ -21,8 +21,8 @@ from types import SimpleNamespace
 from snakemake.iocontainers import Snakemake
 from snakemake.logging import logger
 
-import impact_damper.stages.response
-from impact_damper.workflow.job import Job
+import impact_damper.motions.response
+from chatterjee1995.workflow.job import Job
 
 log = Path(__file__).parent / "logs/empty.log"
 log.parent.mkdir(exist_ok=True)

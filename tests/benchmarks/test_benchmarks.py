@@ -7,7 +7,7 @@ import pytest
 from helpers.known_orbits import DESIGN, PAPER
 from references import extended
 
-from benchmarks import accuracy, chart, costs, machine, overhead, ratios, scaling, scenes, stages
+from benchmarks import accuracy, costs, overhead, scaling, scenes, stages
 from benchmarks.heyoka_runs import BATCH, SETTINGS
 from benchmarks.methods import TIMED, heyoka, starts_of
 from impact_damper.data import table_files
@@ -49,7 +49,7 @@ def test_the_tolerance_found_is_the_loosest_within_the_limit(short, name):
 
 @pytest.mark.parametrize("name", TIMED)
 def test_every_method_comes_to_the_exact_state(short, name):
-    _, error = accuracy.measured(short, name, 1e-7 if name.startswith("Radau") else 1e-10)
+    _, error = accuracy.measured(short, name, 1e-10)
     assert error < 1e-4
 
 
@@ -57,34 +57,6 @@ def test_every_method_comes_to_the_exact_state(short, name):
 def test_every_setting_of_heyoka_solves_the_same_equations(short, change):
     run = heyoka(short, 1e-12, **SETTINGS[change])
     assert short.error(run(short.starts)) < 1e-9
-
-
-def test_an_unreachable_limit_is_told():
-    scene = scenes.make("short", pack(PAPER, DESIGN, 2.0), STATE, 1, 1)
-    found = accuracy.loosest(scene, "kernel", 1e-30)
-    assert not found.met and found.error > 1e-30
-
-
-def test_ratios_are_of_times_in_the_same_run(short):
-    times, made = ratios.compared([short], 2, 1e-7, timed=("kernel", "heyoka"))
-    assert list(times["method"]) == [TIMED[name].title for name in ("kernel", "heyoka")]
-    assert (times["error"] <= 1e-7).all() and (times["within_limit"] == "yes").all()
-    assert (times["least_us"] <= times["median_us"]).all()
-    (row,) = made.itertuples()
-    assert row.lower_quartile <= row.times_faster <= row.upper_quartile
-    text = machine.document(ratios.HOW)(made.astype(str))
-    assert "numba" in text and TIMED["heyoka"].title in text
-
-
-def test_chart_has_a_row_for_each_point_and_shows_failures(short):
-    table = chart.points([short], (3, 9), 1, ("kernel", "merson_kink"))
-    assert len(table) == 4
-    assert set(table["status"]) <= {"found", "lost"}
-    coarse, fine = table[table["method"] == "kernel"]["error"]
-    assert fine < coarse
-    lost = table.assign(status="given_up", error=math.nan)
-    axes = chart.draw(lost).axes[0]
-    assert any(line.get_marker() == "x" and len(line.get_xdata()) for line in axes.lines)
 
 
 def test_cost_of_a_period_is_fitted_exactly_where_it_is_linear():
