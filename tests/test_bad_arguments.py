@@ -36,9 +36,7 @@ state = st.sampled_from(
 no_si = no_numbers.filter(lambda value: value is not None)
 no_start = no_si | not_finite | huge
 si = no_si | not_finite | negative
-STEEL = idm.Material(2.1e11, 0.3)
 MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
-BALL = MACHINE.damper(mass=0.6, gap=0.008, contact=idm.HertzContact(0.01, STEEL))
 no_oscillator = st.sampled_from([None, 0.215, "h215", {}, DAMPER, idm.Oscillator])
 no_damper = st.sampled_from([0.12, "rm", {}, (0.12, 2.0), OSCILLATOR, idm.Damper, False, 0])
 no_settling = st.sampled_from([0, 300, "", "long", {}, False, idm.Settling, (1e-9, 300)])
@@ -86,21 +84,12 @@ FUNCTIONS = {
             "force": si | st.just("40 kg"),
         },
     ),
-    "Material": (
-        {"youngs_modulus": 2.1e11, "poissons_ratio": 0.3},
-        {"youngs_modulus": si | st.just(0), "poissons_ratio": si | st.just(0.7)},
-    ),
     "HertzContact": (
-        {"radius": 0.01, "loose": STEEL},
-        {"radius": si | st.just(0), "loose": st.sampled_from([None, "steel", 2.1e11, {}])},
-    ),
-    "hertz_stiffness": (
-        {"machine": MACHINE, "damper": BALL, "frequency": 20.0},
+        {"radius": 0.01, "youngs_modulus": 2.1e11, "poissons_ratio": 0.3},
         {
-            "machine": no_oscillator,
-            "damper": no_damper | st.sampled_from([None, DAMPER]),
-            "frequency": si | st.just(0),
-            "settling": no_settling,
+            "radius": si | st.just(0),
+            "youngs_modulus": si | st.just(0),
+            "poissons_ratio": si | st.just(0.7),
         },
     ),
     "design_damper": (
@@ -113,7 +102,7 @@ FUNCTIONS = {
             | st.sampled_from([(21, 20), (30, 34), ("20 m", 21), (-20, 21)]),
             "restitution": si | st.sampled_from([0, 1.1]),
             "contact_stiffness": si | st.just(0),
-            "contact": st.sampled_from([STEEL, 2e7, "steel", {}]),
+            "contact": st.sampled_from([MACHINE, 2e7, "steel", {}]),
             "frequencies": count | st.just(2),
             "candidates": count | st.just(2),
             "starts": count | st.just(72),
@@ -140,17 +129,9 @@ FUNCTIONS = {
         GOOD | {"frequencies": [2.0], "starts": 1},
         search | {"damper": no_damper, "frequencies": increasing},
     ),
-    "harmonic_balance_response": (
+    "harmonic_balance": (
         GOOD | {"frequencies": [2.0]},
         {"system": no_oscillator, "damper": no_damper, "frequencies": increasing},
-    ),
-    "suppression_band": (
-        GOOD,
-        {"system": no_oscillator, "damper": no_damper | st.none()},
-    ),
-    "optimum_clearance": (
-        {"system": OSCILLATOR, "mass_ratio": 0.1},
-        {"system": no_oscillator, "mass_ratio": positive},
     ),
     "clearance_sweep": (
         {"system": OSCILLATOR, "damper": {"mass_ratio": 0.12}, "frequency": 2.0}
@@ -196,7 +177,7 @@ FUNCTIONS = {
 
 
 def test_every_public_name_is_tried():
-    assert set(FUNCTIONS) == set(idm.__all__)
+    assert set(FUNCTIONS) == set(idm.__all__) - {"plot"}
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
@@ -217,13 +198,8 @@ def test_a_bad_argument_names_itself(name):
 
 
 def test_an_inelastic_damper_has_no_harmonic_balance():
-    dull = idm.Damper(0.12, 2.0, 0.9)
-    for call in (
-        lambda: idm.suppression_band(OSCILLATOR, dull),
-        lambda: idm.harmonic_balance_response(OSCILLATOR, dull, [2.0]),
-    ):
-        with pytest.raises(ValueError, match="restitution = 0.9: must be 1"):
-            call()
+    with pytest.raises(ValueError, match="restitution = 0.9: must be 1"):
+        idm.harmonic_balance(OSCILLATOR, idm.Damper(0.12, 2.0, 0.9), [2.0])
 
 
 def test_a_contact_too_fast_for_the_forcing_is_told():

@@ -13,7 +13,7 @@ from references.masri_caughey import flight_with_speed, two_impact_motions
 
 from impact_damper.data.datasets import is_settled
 from impact_damper.model.families import family_of
-from impact_damper.model.hertz import DURATION, HertzContact, Material
+from impact_damper.model.hertz import DURATION, HertzContact
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
@@ -131,8 +131,7 @@ def test_jumps_are_folds_of_the_branch(cubic, damping_ratio):
 def test_impact_on_a_hertz_contact(speed):
     """The linear spring that stores the same energy: 4/5 of the force, 6.7 % more time."""
     machine, ball, half_gap = 12.0, 0.6, 1.0
-    steel = Material(youngs_modulus=210e9, poissons_ratio=0.3)
-    contact = HertzContact(radius=0.0264, loose=steel)
+    contact = HertzContact(radius=0.0264, youngs_modulus=210e9, poissons_ratio=0.3)
     hertz = contact.impact(speed, ball * machine / (ball + machine))
     motion = simulate(
         Oscillator(1e-9, 0.0, cubic=0.0, force=0.0),

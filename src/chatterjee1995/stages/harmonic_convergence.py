@@ -82,7 +82,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     --------
     >>> import impact_damper as idm
     >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
-    >>> found = idm.harmonic_convergence(oscillator, damper, 2.0, [1, 3, 5])
+    >>> found = harmonic_convergence(oscillator, damper, 2.0, [1, 3, 5])
     >>> float(found.series_maximum[0].round(5))
     0.00819
     """

@@ -38,7 +38,7 @@ MADE = {
     "Damper": "impact_damper.model.parameters:Damper",
     "Settling": "impact_damper.model.settling:Settling",
     "Machine": "impact_damper.model.machine:Machine",
-    "HertzContact": "impact_damper.model.hertz:HertzContact.of_ball",
+    "HertzContact": "impact_damper.model.hertz:HertzContact",
     "linspace": "numpy:linspace",
     "geomspace": "numpy:geomspace",
     "counts": "chatterjee1995.workflow.job:counts",

@@ -221,7 +221,7 @@ def hertz_contact(given):
     from impact_damper.model.hertz import HertzContact
 
     ball = given.get("contact")
-    return HertzContact.of_ball(**ball) if ball else None
+    return HertzContact(**ball) if ball else None
 
 
 def damper(given, gap):

@@ -3,7 +3,6 @@
 Quantities are numbers in SI units, or texts with a unit such as "12 kg".
 """
 
-import re
 from dataclasses import MISSING, fields
 from typing import Annotated, Any, ClassVar
 
@@ -14,7 +13,7 @@ from impact_damper.command.messages import dotted, missing, problem
 from impact_damper.command.section import Section
 from impact_damper.command.values import Allowed, count, number, points_of, starts_of
 from impact_damper.model.bounds import RESTITUTION_RANGE, plain
-from impact_damper.model.hertz import HertzContact, Material
+from impact_damper.model.hertz import HertzContact
 from impact_damper.model.machine import Machine
 from impact_damper.model.units import QUANTITIES, check_si, si_value, wrong_unit
 
@@ -59,10 +58,11 @@ def quantity_of(quantity, meaning="", **bounds):
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning)]
 
 
-def fields_of(part, **meanings):
+def fields_of(part, *, optional=False, **meanings):
     """Return the fields of a model for a dataclass with quantities in SI units.
 
-    `meanings` holds the description of each field. A field with a default may be left out.
+    `meanings` holds the description of each field. A field with a default, or any with `optional`,
+    may be left out.
     """
     found = {}
     for each in fields(part):
@@ -70,7 +70,8 @@ def fields_of(part, **meanings):
             kind = quantity_of(
                 each.metadata["quantity"], meanings.get(each.name, ""), **each.metadata["bounds"]
             )
-            found[each.name] = kind if each.default is MISSING else (kind, None)
+            needed = each.default is MISSING and not optional
+            found[each.name] = kind if needed else (kind, None)
     return found
 
 
@@ -151,23 +152,17 @@ Tolerances = create_model(
 Ball = create_model(
     "Ball",
     __base__=Given,
-    radius=(
-        quantity_of(
-            "displacement",
-            "radius of the loose mass where it touches (without it no pressure is computed)",
-            above=0,
-        ),
-        None,
+    **fields_of(
+        HertzContact,
+        optional=True,
+        radius="radius of the loose mass where it touches (without it no pressure is computed)",
+        youngs_modulus="Young's modulus of the loose mass",
+        poissons_ratio="Poisson's ratio of the loose mass",
+        yield_strength="yield strength in tension (without it yielding is not judged)",
+        wall_youngs_modulus="Young's modulus of the walls, if they are of another material",
+        wall_poissons_ratio="Poisson's ratio of the walls, if they are of another material",
+        wall_yield_strength="yield strength of the walls, if they are of another material",
     ),
-    **{
-        name: (kind if isinstance(kind, tuple) else (kind, None))
-        for name, kind in fields_of(
-            Material,
-            youngs_modulus="Young's modulus of loose mass and walls",
-            poissons_ratio="Poisson's ratio of loose mass and walls",
-            yield_strength="yield strength in tension (without it yielding is not judged)",
-        ).items()
-    },
 )
 
 
@@ -197,14 +192,16 @@ class MachineEntry(Section):
         lacking = list(self._lacking(path))
         yield from lacking
         try:
-            where = (*path, "machine")
             machine = Machine(**self.machine.values())
             machine.oscillator()
-            where = path
+        except (TypeError, ValueError) as error:
+            yield f"{dotted((*path, 'machine'))}.{error}"
+            return
+        try:
             if not lacking:
                 self._task(machine)
         except (TypeError, ValueError) as error:
-            yield f"{dotted(where)}.{_in_entry(str(error))}"
+            yield f"{dotted(path)}: {error}" if path else str(error)
 
     def _lacking(self, path):
         """Yield a line for each missing key of the contact."""
@@ -222,7 +219,7 @@ class MachineEntry(Section):
         from impact_damper.design.task import Task
 
         band, ball = (self.band.first, self.band.last), self.contact.values()
-        contact = HertzContact.of_ball(**ball) if ball else None
+        contact = HertzContact(**ball) if ball else None
         stiffness = contact_stiffness_of(
             machine, self.damper.mass, band, self.damper.contact_stiffness, contact
         )
@@ -239,24 +236,6 @@ class MachineEntry(Section):
             tolerances=self.tolerances.values(),
             displacement_limit=self.displacement_limit,
         )
-
-
-# A message of `design.task.Task` begins with an argument of `Task`. Pairs of a pattern for this
-# argument, and the key of the entry that holds its value.
-PLACES = (
-    (r"(mass|restitution|contact_stiffness)\b", r"damper.\1"),
-    (r"band\[0\]", "band.first"),
-    (r"band\[1\]", "band.last"),
-    (r"frequencies\b", "band.points"),
-    (r"tolerances\['(\w+)'\]", r"tolerances.\1"),
-)
-
-
-def _in_entry(message):
-    """Return a message of `Task` that begins with the key of the entry, not with the argument."""
-    for pattern, key in PLACES:
-        message = re.sub(f"^{pattern}", key, message)
-    return message
 
 
 SECTIONS = {"machines": MachineEntry}

@@ -19,8 +19,10 @@ from impact_damper.design.task import Task
 from impact_damper.design.tolerances import TOLERANCES
 from impact_damper.design.words import conclusion
 from impact_damper.model.machine import describe_si
+from impact_damper.model.names import names_arguments
 
 
+@names_arguments
 def design_damper(
     machine,
     *,

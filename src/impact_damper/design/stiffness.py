@@ -47,4 +47,4 @@ def contact_stiffness_of(machine, mass, band, stiffness, contact):
     task = Task(**asked, restitution=1.0, contact_stiffness=typical)
     middle = sum(task.band) / 2
     reduced = machine.mass * task.mass / (machine.mass + task.mass)
-    return contact.impact(2 * task.rule_gap(middle) * middle, reduced).stiffness
+    return contact.stiffness(2 * task.rule_gap(middle) * middle, reduced)

@@ -25,8 +25,7 @@ from impact_damper.model.bounds import (
     shown,
 )
 from impact_damper.model.checks import check_starts
-from impact_damper.model.dampers import MachineDamper
-from impact_damper.model.machine import Machine
+from impact_damper.model.machine import Machine, MachineDamper
 from impact_damper.model.packed import pack
 from impact_damper.model.settling import Settling, check_settling
 from impact_damper.model.units import check_si

@@ -19,8 +19,7 @@ from impact_damper.model.bounds import (
     check_number,
     shown,
 )
-from impact_damper.model.dampers import MachineDamper
-from impact_damper.model.machine import Machine
+from impact_damper.model.machine import Machine, MachineDamper
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, describe
 from impact_damper.model.scales import UNITLESS, Scales

@@ -8,64 +8,8 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from impact_damper.model.bounds import shown
 from impact_damper.model.names import names_arguments
 from impact_damper.model.units import convert, physical
-
-
-@names_arguments
-@dataclass(frozen=True)
-class Material:
-    """An elastic material.
-
-    Attributes
-    ----------
-    youngs_modulus : float
-        E, Pa; given as a number, text with units or quantity of pint.
-    poissons_ratio : float
-        nu, from 0 to 0.5.
-    yield_strength : float or None
-        Y in tension, Pa; None if it is not known.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If a value is out of range.
-
-    Examples
-    --------
-    >>> Material("210 GPa", 0.3).youngs_modulus
-    210000000000.0
-    """
-
-    youngs_modulus: float = physical("pressure", above=0)
-    poissons_ratio: float = physical("number", least=0, most=0.5)
-    yield_strength: float | None = physical("pressure", above=0, default=None)
-
-    def __post_init__(self):
-        convert(self)
-
-
-class Impact(NamedTuple):
-    """An elastic impact of two bodies by Hertz's law.
-
-    Attributes
-    ----------
-    compression : float
-        Largest approach of the bodies, m.
-    force : float
-        Largest force, N.
-    duration : float
-        s.
-    stiffness : float
-        Stiffness of the linear spring that is compressed as far in this impact, N/m.
-    """
-
-    compression: float
-    force: float
-    duration: float
-    stiffness: float
-
 
 # Duration of an impact, in units of the largest compression divided by the speed:
 # (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
@@ -73,6 +17,15 @@ DURATION = 2.9432752
 # Pressure p0 of a ball at which a material begins to yield, in units of its yield strength, for
 # nu = 0.3 (Johnson, section 6.1).
 YIELD = 1.6
+POISSON_RANGE = {"least": 0, "most": 0.5}
+
+
+class Impact(NamedTuple):
+    """Largest compression (m) and force (N) of an elastic impact, and its duration (s)."""
+
+    compression: float
+    force: float
+    duration: float
 
 
 @names_arguments
@@ -80,13 +33,21 @@ YIELD = 1.6
 class HertzContact:
     """Contact of a loose mass that is a ball, or has a rounded face, with the walls of its gap.
 
+    Each value is a number in the SI unit, text with units, or a quantity of pint.
+
     Attributes
     ----------
     radius : float
         Radius R of the loose mass where it touches the wall, m. If the wall is curved too, 1/R is
         the sum of the curvatures.
-    loose, wall : Material
-        Materials of the loose mass and of the walls; `wall` is `loose` if it is not given.
+    youngs_modulus : float
+        E of the loose mass, Pa.
+    poissons_ratio : float
+        nu of the loose mass, from 0 to 0.5.
+    yield_strength : float or None
+        Yield strength of the loose mass in tension, Pa; None if it is not known.
+    wall_youngs_modulus, wall_poissons_ratio, wall_yield_strength : float or None
+        The same for walls of another material, with at least the first two.
 
     Raises
     ------
@@ -96,35 +57,32 @@ class HertzContact:
     Examples
     --------
     >>> import impact_damper as idm
-    >>> contact = idm.HertzContact("20 mm", idm.Material("210 GPa", 0.3))
-    >>> f"{contact.pressure(500.0):.3g}"
-    '1.48e+09'
+    >>> steel = idm.HertzContact("20 mm", "210 GPa", 0.3)
+    >>> f"{steel.pressure(500.0):.3g} Pa, {steel.stiffness(speed=0.3, mass=0.57):.3g} N/m"
+    '1.48e+09 Pa, 3.98e+07 N/m'
     """
 
     radius: float = physical("displacement", above=0)
-    loose: Material
-    wall: Material | None = None
+    youngs_modulus: float = physical("pressure", above=0)
+    poissons_ratio: float = physical("number", **POISSON_RANGE)
+    yield_strength: float | None = physical("pressure", above=0, default=None)
+    wall_youngs_modulus: float | None = physical("pressure", above=0, default=None)
+    wall_poissons_ratio: float | None = physical("number", **POISSON_RANGE, default=None)
+    wall_yield_strength: float | None = physical("pressure", above=0, default=None)
 
     def __post_init__(self):
         convert(self)
-        if self.wall is None:
-            object.__setattr__(self, "wall", self.loose)
-        for name in ("loose", "wall"):
-            if not isinstance(getattr(self, name), Material):
-                raise TypeError(f"{name} = {shown(getattr(self, name))}: must be a Material")
-
-    @classmethod
-    def of_ball(cls, radius, **material):
-        """Return the contact of a ball and walls of one material, with arguments of `Material`."""
-        return cls(radius, Material(**material))
+        if self.wall_youngs_modulus is None:
+            for name in ("youngs_modulus", "poissons_ratio", "yield_strength"):
+                object.__setattr__(self, f"wall_{name}", getattr(self, name))
+        elif self.wall_poissons_ratio is None:
+            raise ValueError("wall_poissons_ratio: must be given with wall_youngs_modulus")
 
     @property
     def modulus(self) -> float:
         """Effective modulus E*, Pa."""
-        compliances = [
-            (1 - each.poissons_ratio**2) / each.youngs_modulus for each in (self.loose, self.wall)
-        ]
-        return 1 / sum(compliances)
+        loose = (1 - self.poissons_ratio**2) / self.youngs_modulus
+        return 1 / (loose + (1 - self.wall_poissons_ratio**2) / self.wall_youngs_modulus)
 
     @property
     def coefficient(self) -> float:
@@ -141,32 +99,31 @@ class HertzContact:
     def yields(self, pressure) -> str:
         """Return whether the loose mass or the wall yields at a largest pressure p0, Pa.
 
-        Returns
-        -------
-        str
-            "yes" if p0 is at least YIELD times the yield strength of one material. Otherwise
-            "unknown" if a yield strength is not given, and "no" if both are.
+        "yes" if p0 is at least YIELD times the yield strength of one of them. Otherwise "unknown"
+        if a yield strength is not given, and "no" if both are.
         """
-        strengths = [each.yield_strength for each in (self.loose, self.wall)]
+        strengths = [self.yield_strength, self.wall_yield_strength]
         if any(each is not None and pressure >= YIELD * each for each in strengths):
             return "yes"
         return "unknown" if None in strengths else "no"
 
-    def impact(self, speed, mass) -> Impact:
-        """Return the elastic impact of two bodies.
+    def compression(self, speed, mass) -> float:
+        """Return the largest compression q of an elastic impact, m.
 
-        At the largest compression q the elastic energy (2/5) K q^(5/2) equals the kinetic energy
-        mass speed^2/2. A linear spring of the stiffness (4/5) K sqrt(q) stores the same energy at
-        the same compression. Its largest force is 4/5 of Hertz's, and the impact lasts 6.7 %
-        longer.
-
-        Parameters
-        ----------
-        speed : float
-            Relative speed before the impact, m/s, above 0.
-        mass : float
-            Effective mass m1 m2/(m1 + m2), kg.
+        At q the elastic energy (2/5) K q^(5/2) equals the kinetic energy mass speed^2/2. The speed
+        (m/s) is the relative one before the impact, the mass (kg) the effective m1 m2/(m1 + m2).
         """
-        k = self.coefficient
-        q = (5 * mass * speed**2 / (4 * k)) ** 0.4
-        return Impact(q, k * q**1.5, DURATION * q / speed, 0.8 * k * q**0.5)
+        return (5 * mass * speed**2 / (4 * self.coefficient)) ** 0.4
+
+    def impact(self, speed, mass) -> Impact:
+        """Return an elastic impact; the arguments are those of `compression`, the speed above 0."""
+        q = self.compression(speed, mass)
+        return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
+
+    def stiffness(self, speed, mass) -> float:
+        """Return the stiffness of the linear spring that is compressed as far in an impact, N/m.
+
+        The spring stores the same energy. Its largest force is 4/5 of Hertz's, and the impact lasts
+        6.7 % longer. The arguments are those of `compression`.
+        """
+        return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

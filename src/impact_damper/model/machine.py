@@ -1,13 +1,20 @@
-"""A machine on a spring, with its excitation, in SI units."""
+"""A machine on a spring with its excitation, and its impact damper, in SI units."""
 
 import math
 from dataclasses import dataclass, fields
 from functools import cached_property
 
-from impact_damper.model.bounds import DAMPING_RANGE, FREQUENCY_RANGE, shown
-from impact_damper.model.dampers import MachineDamper
+from impact_damper.model.bounds import (
+    CLEARANCE_RANGE,
+    DAMPING_RANGE,
+    FREQUENCY_RANGE,
+    MASS_RATIO_RANGE,
+    RESTITUTION_RANGE,
+    STIFFNESS_RANGE,
+    shown,
+)
 from impact_damper.model.names import names_arguments
-from impact_damper.model.parameters import Oscillator
+from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.scales import Scales, static_deflection
 from impact_damper.model.text import with_unit
 from impact_damper.model.units import check_si, convert, physical
@@ -18,6 +25,79 @@ EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
 LIGHT = 0.02
 # Largest damping ratio. At 1, critical damping, the machine no longer vibrates.
 MOST_DAMPING = 0.99
+
+
+@names_arguments
+@dataclass(frozen=True, kw_only=True)
+class MachineDamper:
+    """A loose mass in a gap of a machine, in SI units; made and checked by `Machine.damper`.
+
+    Each value is a number in the SI unit, text with units, or a quantity of pint.
+
+    Attributes
+    ----------
+    mass : float
+        kg.
+    gap : float
+        Full play of the loose mass from wall to wall, m.
+    restitution : float
+        Coefficient of restitution, 1 for elastic contact.
+    contact_stiffness : float
+        Stiffness of the contact, N/m; for curved bodies by `HertzContact.stiffness`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is missing or out of range.
+    """
+
+    mass: float = physical("mass", above=0)
+    gap: float = physical("clearance", above=0)
+    restitution: float = physical("number", **RESTITUTION_RANGE, default=1.0)
+    contact_stiffness: float = physical("stiffness", above=0)
+
+    def __post_init__(self):
+        convert(self)
+
+    @property
+    def clearance_each_side(self) -> float:
+        """Half of the gap, between the centred loose mass and either wall, m."""
+        return self.gap / 2
+
+    def check_for(self, machine):
+        """Raise ValueError, with the range allowed, if the damper does not fit a machine.
+
+        The gap must be larger than the static play. If the static force of the machine accelerates
+        both masses together, a contact passes the fraction m2/(m1 + m2) of this force on to the
+        loose mass m2. The static play is the compression of both contacts under this fraction.
+        """
+        scales = machine.scales
+        clearances = scales.range_to_si(CLEARANCE_RANGE, "clearance")
+        gaps = {end: 2 * value for end, value in clearances.items()}
+        check_si("mass", self.mass, "mass", **scales.range_to_si(MASS_RATIO_RANGE, "mass"))
+        check_si("gap", self.gap, "clearance", **gaps)
+        bounds = scales.range_to_si(STIFFNESS_RANGE, "stiffness")
+        check_si("contact_stiffness", self.contact_stiffness, "stiffness", **bounds)
+        share = self.mass / (machine.mass + self.mass)
+        play = 2 * share * machine.static_force / self.contact_stiffness
+        why = "static play: compression of the contacts on both sides"
+        check_si("gap", self.gap, "clearance", above=play, why=why)
+
+    def scaled(self, scales) -> Damper:
+        """Return the dimensionless damper, in the scales of its machine."""
+        return Damper(
+            mass_ratio=scales.from_si(self.mass, "mass"),
+            clearance=scales.from_si(self.clearance_each_side, "clearance"),
+            restitution=self.restitution,
+            contact_stiffness=scales.from_si(self.contact_stiffness, "stiffness"),
+        )
+
+    def __str__(self):
+        return (
+            f"mass {with_unit(self.mass, 'kg')}, gap {with_unit(1e3 * self.gap, 'mm')} (full "
+            f"play), restitution {self.restitution:g}, contact stiffness "
+            f"{with_unit(self.contact_stiffness, 'N/m')}"
+        )
 
 
 @names_arguments
@@ -259,7 +339,7 @@ class Machine:
         clearance_each_side : float, str or pint.Quantity, optional
             Half of the gap, from the centred loose mass to either wall, m; in place of `gap`.
         contact
-            The other arguments of `MachineDamper`: restitution, contact_stiffness or contact.
+            The other arguments of `MachineDamper`: contact_stiffness and restitution.
 
         Raises
         ------
@@ -308,7 +388,6 @@ def describe_si(machine, damper=None) -> dict:
             "damper_mass": damper.mass,
             "gap": damper.gap,
             "restitution": damper.restitution,
+            "contact_stiffness": damper.contact_stiffness,
         }
-        if damper.contact_stiffness is not None:
-            found["contact_stiffness"] = damper.contact_stiffness
     return found

@@ -18,6 +18,7 @@ from impact_damper.model.bounds import (
     SEED_RANGE,
     check_count,
 )
+from impact_damper.model.names import names_arguments
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.controller import (
@@ -56,6 +57,7 @@ def _checked(model, longest_hold, periods, switchings, settling):
     return release_case(model.oscillator, model.damper, model.frequency, settling), made
 
 
+@names_arguments
 def migrate(
     system,
     damper,

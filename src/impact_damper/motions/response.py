@@ -17,6 +17,7 @@ from impact_damper.model.bounds import (
     check_number,
 )
 from impact_damper.model.checks import check_starts
+from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import Settling, check_settling
@@ -27,6 +28,7 @@ from impact_damper.motions.start_states import describe_search, free_motions, se
 from impact_damper.motions.sweep import sweep
 
 
+@names_arguments
 def frequency_response(
     system,
     damper,

@@ -17,6 +17,7 @@ from impact_damper.model.bounds import (
     check_count,
     check_number,
 )
+from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions import traces
 
@@ -72,6 +73,7 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
     return np.hstack([states, states]) if damper is None else states
 
 
+@names_arguments
 def simulate(
     system,
     damper,

@@ -8,6 +8,7 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.model.arguments import read_forced, read_start, read_state
+from impact_damper.model.names import names_arguments
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import tabulate
@@ -15,6 +16,7 @@ from impact_damper.motions.simulate import COMPONENTS, simulate
 from impact_damper.motions.strobe_map import STROBE
 
 
+@names_arguments
 def steady_motion(
     system, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, start=None, settling=None
 ):

@@ -15,6 +15,7 @@ from impact_damper.data.datasets import flag, from_si
 from impact_damper.model.arguments import read_span, read_system
 from impact_damper.model.bounds import FREQUENCY_RANGE, shown
 from impact_damper.model.checks import check_frequency
+from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.orbits.branch_datasets import branches_dataset
 from impact_damper.orbits.branches import follow_branch
@@ -27,6 +28,7 @@ from impact_damper.orbits.switching import follow_others
 BEYOND = 300
 
 
+@names_arguments
 def complete_branches(system, damper, frequencies, motions, *, progress=None):
     """Follow every branch of orbits over frequency on which a settled motion lies.
 

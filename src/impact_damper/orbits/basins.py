@@ -16,6 +16,7 @@ from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.model.arguments import read_forced, read_pair
 from impact_damper.model.bounds import FARTHEST, FASTEST, check_count, check_number, shown
+from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import check_settling
 from impact_damper.motions.attractors import (
@@ -45,6 +46,7 @@ CELLS_RANGE = {"least": 2, "most": 10**4}
 STROBE = math.pi / 2
 
 
+@names_arguments
 def basins(
     system,
     damper,

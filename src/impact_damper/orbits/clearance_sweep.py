@@ -20,6 +20,7 @@ from impact_damper.model.bounds import CLEARANCE_RANGE, SEED_RANGE, check_count
 from impact_damper.model.checks import (
     check_starts,
 )
+from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import CLEARANCE, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import check_settling
@@ -34,6 +35,7 @@ from impact_damper.theory.optimum_clearance import analytical_table, excess_tabl
 SWEPT_WITH = {"mass_ratio", "restitution", "contact_stiffness"}
 
 
+@names_arguments
 def clearance_sweep(
     system,
     damper,

@@ -15,6 +15,7 @@ from impact_damper.data.datasets import dataset
 from impact_damper.model.arguments import carried_phase, read_forced, read_state
 from impact_damper.model.bounds import check_count, check_number
 from impact_damper.model.families import LINEAR, family_of, read_followed
+from impact_damper.model.names import names_arguments
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.orbits.branch_datasets import branches_dataset, orbit_variables
 from impact_damper.orbits.branches import follow_branch
@@ -22,6 +23,7 @@ from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import find_orbit
 
 
+@names_arguments
 def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     """Find the periodic orbit near a state by Newton's method.
 
@@ -87,6 +89,7 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     return dataset(data, {"component": list(COMPONENTS)}, made, "Periodic orbit", model)
 
 
+@names_arguments
 def orbit_branch(system, damper, frequency, state, *, span, parameter="frequency", period=1):
     """Find the orbit near a state, and follow its branch over one parameter.
 

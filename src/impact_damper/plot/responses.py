@@ -49,7 +49,7 @@ def response(data, axes=None):
     Examples
     --------
     >>> import impact_damper as idm
-    >>> free = idm.harmonic_balance_response(idm.Oscillator(0.215), None, [1.8, 1.9, 2.0])
+    >>> free = idm.harmonic_balance(idm.Oscillator(0.215), None, [1.8, 1.9, 2.0])
     >>> axes = idm.plot.response(free)
     """
     given = datasets_in(

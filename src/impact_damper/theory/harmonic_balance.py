@@ -15,6 +15,7 @@ import xarray as xr
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.model.arguments import read_frequencies, read_system
 from impact_damper.model.bounds import MASS_RATIO_RANGE
+from impact_damper.model.names import names_arguments
 from impact_damper.theory import single_harmonic
 from impact_damper.theory.branch_order import branches_over
 from impact_damper.theory.design_rule import rule_clearance
@@ -50,7 +51,7 @@ def optimum_clearance(system, mass_ratio) -> float:
     Examples
     --------
     >>> import impact_damper as idm
-    >>> round(idm.optimum_clearance(idm.Oscillator(0.215), 0.12), 4)
+    >>> round(optimum_clearance(idm.Oscillator(0.215), 0.12), 4)
     2.0688
     """
     model = read_system(system)
@@ -58,6 +59,7 @@ def optimum_clearance(system, mass_ratio) -> float:
     return model.scales.to_si(rule_clearance(model.oscillator, mass_ratio), "clearance")
 
 
+@names_arguments
 def harmonic_balance(system, damper, frequencies):
     """Return `harmonic_balance_response` and, with a damper, `suppression_band` in one dataset."""
     response = harmonic_balance_response(system, damper, frequencies)
@@ -99,7 +101,7 @@ def harmonic_balance_response(system, damper, frequencies):
     --------
     >>> import impact_damper as idm
     >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
-    >>> found = idm.harmonic_balance_response(oscillator, damper, [1.5, 2.0])
+    >>> found = idm.harmonic_balance(oscillator, damper, [1.5, 2.0])
     >>> found.frequency.values
     array([1.5, 2. ])
     """

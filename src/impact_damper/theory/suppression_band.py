@@ -66,7 +66,7 @@ def suppression_band(system, damper):
     Examples
     --------
     >>> import impact_damper as idm
-    >>> band = idm.suppression_band(idm.Oscillator(0.215), idm.Damper(0.12, 2.0))
+    >>> band = suppression_band(idm.Oscillator(0.215), idm.Damper(0.12, 2.0))
     >>> band.edge_frequency.values.round(3)
     array([1.911, 2.008])
     """

@@ -19,8 +19,7 @@ from impact_damper.motions.strobe_map import strobe_time
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
 LINEAR = idm.Machine(**SPRING, force=40)
 HARD = idm.Machine(**SPRING, cubic_stiffness=4e9, unbalance=0.003)
-STEEL = idm.Material("210 GPa", 0.3, "400 MPa")
-HERTZ = idm.HertzContact("2 cm", STEEL)
+HERTZ = idm.HertzContact("2 cm", "210 GPa", 0.3, "400 MPa")
 
 
 def damper_of(machine, **others):
@@ -158,7 +157,7 @@ def test_pressure_is_that_of_the_fastest_impact():
     ("wrong", "told"),
     [
         ({"machine": PAPER}, "machine = Oscillator("),
-        ({"contact": STEEL}, "contact = Material("),
+        ({"contact": 2e7}, "contact = 20000000.0"),
         ({"periods": 0}, "periods = 0: must be from 1 to 10000"),
         ({"damper": None}, "damper = None: must be a MachineDamper"),
         ({"frequency": -1}, "frequency = -1 Hz: must be at least"),

@@ -88,7 +88,7 @@ def test_a_motion_at_an_extreme_has_an_outcome(extreme):
 def test_harmonic_balance_at_an_extreme_has_a_status(extreme):
     oscillator, damper, frequency = system(extreme)
     if damper.restitution == 1 and has_closed_forms(oscillator):
-        found = idm.harmonic_balance_response(oscillator, damper, [frequency])
+        found = idm.harmonic_balance(oscillator, damper, [frequency])
         solved, unresolved = flag("balance_status", "solved"), flag("balance_status", "unresolved")
         assert found["balance_status"].item() in (solved, unresolved)
 

@@ -43,13 +43,6 @@ def test_a_misspelt_parameter_of_a_branch_is_answered():
         idm.orbit_branch(MACHINE, None, 20.0, (0, 0), parameter="frequnecy", span=(18, 22))
 
 
-def test_a_misspelt_public_name_is_answered():
-    with pytest.raises(AttributeError, match="no attribute 'simulat'; did you mean simulate"):
-        idm.simulat  # noqa: B018
-    with pytest.raises(AttributeError, match="no attribute 'desing'; did you mean design"):
-        idm.plot.desing  # noqa: B018
-
-
 def test_the_version_is_stated_alike_everywhere():
     assert f'version = "{idm.__version__}"' in (ROOT / "pyproject.toml").read_text()
     assert f"version: {idm.__version__}" in (ROOT / "CITATION.cff").read_text()
@@ -60,8 +53,7 @@ def test_the_version_is_stated_alike_everywhere():
 
 
 def test_the_help_begins_with_the_public_names():
-    for name in idm.__all__:
-        assert name in idm.__doc__
+    assert len(idm.__all__) <= 19 and all(name in idm.__doc__ for name in idm.__all__)
 
 
 def test_a_number_of_a_dataset_is_an_argument():

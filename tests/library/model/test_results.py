@@ -154,7 +154,7 @@ def quiet_start():
 CALLS = {
     "simulate": lambda m, d: idm.simulate(m, d, 21.0, (1e-3, 0, 0, 0.1), periods=5),
     "steady_motion": lambda m, d: idm.steady_motion(m, d, AT_RESONANCE, quiet_start()),
-    "harmonic_balance_response": lambda m, d: idm.harmonic_balance_response(m, None, [19.0, 22.0]),
+    "harmonic_balance": lambda m, d: idm.harmonic_balance(m, None, [19.0, 22.0]),
     "frequency_response": lambda m, d: idm.frequency_response(
         m, d, [20.5, 20.8], starts=3, radius="3 mm"
     ),

@@ -17,9 +17,10 @@ import signal
 import threading
 import time
 import impact_damper as idm
-from impact_damper.stages.response import collisions
-from impact_damper.stages.stable_steps import stable_steps
-from impact_damper.stages.studies import study_chunk
+from impact_damper.motions.response import collisions
+from chatterjee1995.methods.stable_steps import stable_steps
+from chatterjee1995.stages.harmonic_convergence import harmonic_convergence
+from chatterjee1995.stages.studies import study_chunk
 
 # A shell that starts the tests in the background makes its processes ignore Ctrl-C.
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -55,7 +56,7 @@ CALLS = {
     "collisions": "collisions(oscillator, idm.Damper(0.12, 1000.0), 1.7, {})",
     "study_chunk": "study_chunk(free, cells, (0, 2), settling={})",
     "stable_steps": "stable_steps(oscillator, damper, 2.0, stiffnesses=[2000.0], {})",
-    "harmonic_convergence": "idm.harmonic_convergence(oscillator, damper, 2.0, {})",
+    "harmonic_convergence": "harmonic_convergence(oscillator, damper, 2.0, {})",
 }
 ARGUMENTS = {
     "simulate": ("1", "1e6"),
