@@ -1,10 +1,11 @@
 """The equations of motion, (3), (4) and (20) to (24) of the paper, independent of the package.
 
-p is the array of packed parameters (`system.packed`). x, v are Z1, Z1', and z, w are Z2, Z2'. The
-functions take numbers, arrays, or expressions of heyoka.py.
+p is the array of packed parameters. x, v are Z1, Z1', and z, w are Z2, Z2'. The functions take
+numbers, arrays, or polynomials. SPRINGS has oscillators with every term of the equation.
 """
 
 import math
+from dataclasses import replace
 
 from impact_damper.model.packed import (
     CLEARANCE,
@@ -19,6 +20,17 @@ from impact_damper.model.packed import (
     STIFFNESS,
     UNBALANCE,
 )
+from impact_damper.model.parameters import Oscillator
+
+SPRINGS = {
+    "linear": Oscillator(0.1, 1.3, cubic=0.0, force=0.7),
+    "softening": Oscillator(0.05, 1.0, cubic=-0.5, force=0.04),
+    "shaken": Oscillator(0.2, 0.8, cubic=0.3, force=0.4, unbalance=0.15),
+    "unbalance": Oscillator(0.1, 1.0, cubic=0.02, force=0.0, unbalance=0.3),
+    "soft and shaken": Oscillator(0.1, 1.0, cubic=-0.1, force=0.05, unbalance=0.05),
+    "on a shaker": Oscillator(0.1, 1.2, cubic=0.0, force=0.1, unbalance=0.05, shaker=0.4),
+    "hard": Oscillator(0.3, 0.0, cubic=20.0, force=5.0),
+}
 
 
 def amplitude(p):
@@ -64,3 +76,41 @@ def rates(p, side=0):
         return [v, free - force, w, free - force - p[INVERSE_MASS_RATIO] * force]
 
     return right
+
+
+def has_closed_forms(oscillator):
+    """Return whether the closed forms for one harmonic accept the spring."""
+    try:
+        return math.isfinite(oscillator.hardening)
+    except ValueError:
+        return False
+
+
+# Springs that the closed forms for one harmonic know.
+KNOWN = {name: each for name, each in SPRINGS.items() if has_closed_forms(each)}
+
+
+def in_other_units(oscillator, damper, frequency, length, time):
+    """Return oscillator, damper and frequency in other units: the motion Z/length over T/time.
+
+    The equation Z1'' + h Z1' + omega_l^2 Z1 + k3 Z1^3 = (F + U W^2 + V/W^2) cos(W T) keeps its
+    form. F, U and V are the fields `force`, `unbalance` and `shaker` of `Oscillator`. If both units
+    are powers of two, the conversion is exact.
+    """
+    acceleration = length / time**2
+    other = replace(
+        oscillator,
+        damping=oscillator.damping * time,
+        linear_frequency=oscillator.linear_frequency * time,
+        cubic=oscillator.cubic * (length * time) ** 2,
+        force=oscillator.force / acceleration,
+        unbalance=oscillator.unbalance / length,
+        shaker=oscillator.shaker / acceleration * time**2,
+    )
+    if damper is not None:
+        damper = replace(
+            damper,
+            clearance=damper.clearance / length,
+            contact_stiffness=damper.contact_stiffness * time**2,
+        )
+    return other, damper, frequency * time

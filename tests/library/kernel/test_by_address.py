@@ -3,12 +3,10 @@
 import os
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 from helpers.pointed import pointed
-from numba.core.errors import NumbaError
 
 from impact_damper.kernel.compiling import by_address, kernel
 
@@ -18,11 +16,6 @@ def add(a, d):
     """Add the number at d to the number at a."""
     for i in range(2):
         a[i] += d[i]
-
-
-@kernel
-def wrong(a):
-    a[0] = "a text"
 
 
 called = by_address(add)
@@ -106,23 +99,10 @@ def test_calls_by_address_do_the_same():
     assert np.array_equal(direct, by) and direct[0] == 1.5 + np.pi
 
 
-def test_threads_may_call_at_once():
-    call, arrays = pointed(called), np.zeros((16, 2))
-    with ThreadPoolExecutor(4) as pool:
-        list(pool.map(lambda each: call(each, np.ones(2)), arrays))
-    assert np.all(arrays == 1.0)
-
-
 @pytest.mark.thorough
 def test_callers_are_loaded_from_the_cache(tmp_path):
     assert run(tmp_path, USE) == "2.0 0\n"
     assert run(tmp_path, USE) == "2.0 1\n"
-
-
-def test_an_error_in_compiling_raises():
-    for _ in range(2):
-        with pytest.raises(NumbaError):
-            by_address(wrong)
 
 
 def test_an_interruption_of_compiling_raises_and_python_goes_on(tmp_path):

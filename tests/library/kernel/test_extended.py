@@ -117,28 +117,6 @@ def test_replay_by_extrapolation(case):
     assert np.max(np.abs(np.array(samples) - run.states)) < allowed
 
 
-def test_tolerance_and_step_do_not_matter(case):
-    p, state, start, times = case
-    first = extended.run(p, state, start, times)
-    second = extended.run(p, state, start, times, tolerance=1e-22, longest=0.02)
-    allowed = DIGITS * first.growth
-    assert second.steps > 2 * first.steps
-    assert first.begun == second.begun and len(first.turnings) == len(second.turnings)
-    for name in ("states", "contacts", "extremes"):
-        difference = np.abs(getattr(first, name) - getattr(second, name))
-        assert np.nanmax(difference, initial=0) < 10 * allowed
-
-
-def test_many_are_as_one(case):
-    p, state, start, times = case
-    one = extended.run(p, state, start, times)
-    many = extended.run_many([p, p], [state, state], [start, start], [times, times])
-    assert np.array_equal(many.states, [one.states[-1]] * 2)
-    assert many.begun.tolist() == [one.begun] * 2
-    for name in ("growth", "margin"):
-        assert getattr(many, name).tolist() == [getattr(one, name)] * 2
-
-
 def test_flow_by_differences_and_liouville(case):
     p, state, start, times = case
     run = extended.run(p, state, start, times)
@@ -180,45 +158,6 @@ def test_grazing_to_the_last_digit(damper, exponent):
         if sign == -1:
             assert abs(run.turnings[0, 0] - instant) < 1e-17
             assert abs(run.turnings[0, 2] - depth) < 1e-18
-
-
-@pytest.mark.parametrize("exponent", range(2, 15))
-def test_quick_return_to_the_wall_left(exponent):
-    """A mass that leaves the wall at speed v, pushed back with acceleration a, returns after 2 v/a.
-
-    The search for this contact must not end at the separation at time 0.
-    """
-    p = pack(PAPER, DESIGN, 2.0)
-    for wall in (1, -1):
-        speed = Real(10) ** -exponent
-        state = np.array([-0.9 * wall, 0.0, 2.0 * wall, -wall * speed], Real)
-        start = 0.0 if wall == 1 else math.pi / 2  # the forcing pushes outward
-        pushed = wall * field(p, 0, Real(start), state)[1]
-        run = extended.run(p, state, start, [start + 0.1])
-        assert run.begun and run.contacts[0, 0] == wall
-        expected = 2 * speed / pushed
-        assert abs(run.contacts[0, 1] - start - expected) < 2 * expected**2 + 1e-18
-        assert abs(run.contacts[0, 3] - wall * speed) < 10 * speed**2
-
-
-def test_heyoka_in_the_same_digits(case):
-    heyoka = pytest.importorskip("heyoka")
-    p, state, start, times = case
-    x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
-    drive = (p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2) * heyoka.cos(p[FREQUENCY] * heyoka.time)
-    spring = p[STIFFNESS] * x + p[CUBIC] * x**3
-    motion = heyoka.taylor_adaptive(
-        [(x, v), (v, drive - p[DAMPING] * v - spring)],
-        np.array(state[:2], Real),
-        time=Real(start),
-        fp_type=Real,
-    )
-    alone = p.copy()
-    alone[CLEARANCE] = np.inf
-    alone[[CONTACT_STIFFNESS, INVERSE_MASS_RATIO, DASHPOT]] = 0
-    run = extended.run(alone, state, start, times)
-    motion.propagate_until(Real(times[-1]))
-    assert np.max(np.abs(motion.state - run.states[-1, :2])) < 10 * DIGITS * run.growth
 
 
 @pytest.mark.parametrize("scene", list(scenes.configured_scenes()), ids=lambda scene: scene[0])

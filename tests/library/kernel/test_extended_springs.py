@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from helpers.springs import SPRINGS, in_other_units
 from references import equation, extended
+from references.equation import SPRINGS, in_other_units
 from scipy.integrate import solve_ivp
 
 from impact_damper.model.packed import pack

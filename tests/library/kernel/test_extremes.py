@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from helpers.springs import has_closed_forms
 from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
@@ -82,31 +81,6 @@ def test_a_motion_at_an_extreme_has_an_outcome(extreme):
     assert escapes or np.isfinite(motion["displacement"]).all()
     steady = idm.steady_motion(oscillator, damper, frequency, state, settling=SHORT)
     assert int(steady["outcome"]) in OUTCOMES
-
-
-@pytest.mark.parametrize("extreme", EXTREMES, ids=named)
-def test_harmonic_balance_at_an_extreme_has_a_status(extreme):
-    oscillator, damper, frequency = system(extreme)
-    if damper.restitution == 1 and has_closed_forms(oscillator):
-        found = idm.harmonic_balance(oscillator, damper, [frequency])
-        solved, unresolved = flag("balance_status", "solved"), flag("balance_status", "unresolved")
-        assert found["balance_status"].item() in (solved, unresolved)
-
-
-@pytest.mark.parametrize("extreme", EXTREMES, ids=named)
-def test_a_response_at_an_extreme_has_outcomes(extreme):
-    oscillator, damper, frequency = system(extreme)
-    if not has_closed_forms(oscillator):
-        pytest.skip("starts come from closed forms")
-    found = idm.frequency_response(
-        oscillator,
-        damper,
-        np.linspace(frequency, 1.01 * frequency, 2).clip(0, 1e3)[: 1 if frequency == 1e3 else 2],
-        starts=2,
-        radius=min(2.0, 500 * damper.clearance),
-        settling=SHORT,
-    )
-    assert np.isin(found["run_outcome"], OUTCOMES).all()
 
 
 def scale(least, most):

@@ -11,10 +11,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from helpers.pointed import part
-from helpers.springs import SPRINGS
 from numpy.polynomial import Polynomial
 from numpy.testing import assert_allclose
 from references import equation
+from references.equation import SPRINGS
 
 from impact_damper.kernel import equation as recurrence
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, instance
@@ -36,7 +36,7 @@ LANE = 5
 ORDERS = {"flight": FLIGHT_ORDER, "contact": CONTACT_ORDER}
 LENGTH = max(ORDERS.values()) + 1
 widths = pytest.mark.parametrize("lanes", [1, 16])
-GIVEN = ("x0", "x1", "q0", "q1", "r1", "mobility", "STIFFNESS", "CUBIC")
+GIVEN = ("x0", "x1", "q0", "q1", "r1", "mobility", *packed.NAMES)
 SIGNS = [(0.3, -1.1, 0.02, 0.9), (-1.7, 0.4, -0.01, -2.0), (0.0, 0.0, 0.0, 1.0)]
 
 
@@ -216,7 +216,7 @@ def exact(lines, numbers):
 @pytest.mark.parametrize("phase", ORDERS)
 @pytest.mark.parametrize("order", range(2, 28))
 def test_recurrence_without_rounding(phase, order):
-    """Compare the recurrence of every order with the equations with all products written out.
+    """Compare the recurrence of every order with the independent equation, without rounding.
 
     Coefficients of the forcing and parameters are arbitrary fractions.
     """
@@ -233,26 +233,25 @@ def test_recurrence_without_rounding(phase, order):
     squares = exact(recurrence.squares(order - 1), given | squares)
     cubed = {f"u{k}": squares[f"u{k}"] for k in range(order - 1)}
     tangent = exact(recurrence.tangent(order, phase, lambda k: []), given | cubed)
-    x = [found[f"x{k}"] for k in range(order + 1)]
-    dx = [tangent[f"x{k}"] for k in range(order + 1)]
+    p = [given[name] for name in packed.NAMES]
+    x, dx = ([numbers[f"x{k}"] for k in range(order + 1)] for numbers in (found, tangent))
+    slope = equation.slope(p, Polynomial(x))
+    force, change = equation.spring(p, Polynomial(x)).coef, (slope * Polynomial(dx)).coef
     for k in range(order - 1):
-        square = [given["CUBIC"] * sum(x[i] * x[j - i] for i in range(j + 1)) for j in range(k + 1)]
-        assert cubed[f"u{k}"] == 3 * square[k]
-        for numbers, of, cube in (
-            (found, x, sum(square[j] * x[k - j] for j in range(k + 1))),
-            (tangent, dx, 3 * sum(square[j] * dx[k - j] for j in range(k + 1))),
-        ):
+        linear = given["STIFFNESS"] if k == 0 else 0
+        assert cubed[f"u{k}"] == slope.coef[k] - linear
+        for numbers, of, spring in ((found, x, force[k]), (tangent, dx, change[k])):
             a, b = (f"a{k - 1}", f"b{k - 1}") if k else ("x1", "q1")
             drive = kept[k]["e"] if numbers is found else 0
-            g = drive - given["STIFFNESS"] * of[k] - cube - kept[k]["h"] * numbers[a]
+            g = drive - spring - kept[k]["h"] * numbers[a]
             assert numbers[f"g{k}"] == g
-            force = 0
+            wall = 0
             if phase == "contact":
-                force = given["r1"] * numbers[f"q{k}"] + kept[k]["d"] * numbers[b]
-                b = g - given["mobility"] * force
+                wall = given["r1"] * numbers[f"q{k}"] + kept[k]["d"] * numbers[b]
+                b = g - given["mobility"] * wall
                 assert numbers[f"b{k}"] == b and numbers[f"q{k + 2}"] == b / ((k + 1) * (k + 2))
-            assert numbers[f"a{k}"] == g - force
-            assert of[k + 2] == (g - force) / ((k + 1) * (k + 2))
+            assert numbers[f"a{k}"] == g - wall
+            assert of[k + 2] == (g - wall) / ((k + 1) * (k + 2))
 
 
 def test_constant_series(p):

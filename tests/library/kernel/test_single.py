@@ -18,11 +18,10 @@ from numpy.polynomial import Polynomial
 from numpy.testing import assert_allclose
 
 from impact_damper.kernel import single
-from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER, SERIES, SINGLE, instance
+from impact_damper.kernel.instances import FLIGHT_ORDER, SERIES, SINGLE, instance
 from impact_damper.kernel.tangents import advance
-from impact_damper.model.packed import CLEARANCE, pack
+from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.motions.strobe_map import period_map
 
 # Bound on the rounding error of the polynomials in this module. A larger penetration means that a
 # wall was passed.
@@ -202,36 +201,6 @@ def test_grazing_parabola(lanes, exponent, sign):
         assert_allclose(t, 1 + math.sqrt(2 + depth), rtol=1e-14)
 
 
-@widths
-def test_no_contact_without_walls(lanes):
-    assert first_contact(lanes, [0.0, 1e3, 0.0], 0.0, 0.0, math.inf, 2.0) == (2.0, 0)
-
-
-@widths
-@pytest.mark.parametrize("side", [1, -1])
-def test_start_on_a_wall_that_recedes(lanes, side):
-    """A start on the wall, moving away from it, is no contact; the next contact is found."""
-    c = [side * 1.0, side * -1e-3, side * 1.0]
-    t, found_side = first_contact(lanes, c, 0.0, 0.0, 1.0, 1.0)
-    assert found_side == side
-    assert_allclose(t, 1e-3, rtol=1e-9)
-
-
-@pytest.mark.parametrize("roundings", [0, 1, 2, 7, 1000])
-@pytest.mark.parametrize("sign", [1, -1])
-def test_start_within_rounding_of_a_wall(roundings, sign):
-    """The mass moves towards a wall at a distance of some rounding errors.
-
-    The time until the contact is below the rounding error of the time, so one step must find it.
-    """
-    p, work = pack(Oscillator(0.3, 1.1), DESIGN, 1.9), single.workspace()
-    wall = p[CLEARANCE] * (1 - roundings * 2.0**-53)
-    y = sign * np.array([-2.6, 1.3, wall, 1.7])
-    length, side = single.step(p, y, 0, 9.2, 1.0, 1e-12, work)
-    assert side == sign
-    assert length < 1e-12
-
-
 @pytest.mark.thorough
 @widths
 @examples
@@ -261,13 +230,6 @@ def test_first_separation_of_random_polynomials(lanes, c, depth, length, side, s
         assert t == length
 
 
-def test_side_of():
-    p = pack(PAPER, DESIGN, 2.0)
-    for z, w, side in [(2, 1, 1), (2, -1, 0), (2.1, -1, 1), (-2, -1, -1), (-2, 1, 0), (0, 9, 0)]:
-        assert single.side_of(p, np.array([0.0, 0.0, z, w])) == side
-    assert single.side_of(pack(PAPER, None, 2.0), np.array([9.0, 0.0, 9.0, 1.0])) == 0
-
-
 def integrated(p, state, side, length, steps, tolerance):
     """Return the state after equal steps without an event."""
     y, work = np.array(state), single.workspace()
@@ -287,34 +249,6 @@ def test_order_of_flight_steps():
     assert np.all(orders > FLIGHT_ORDER - 2)
 
 
-def contact_series(p, state, t):
-    """Return the series of Z1 and of the penetration, which the state has in place of Z2."""
-    work = single.workspace()
-    y = np.array(state, float)
-    y[2] += p[CLEARANCE]
-    single.step(p, y, 1, t, 1e-9, 1e-9, work)
-    return work[single.X :], work[single.Q :]
-
-
-def test_order_of_contact_series():
-    """Steps in contact are too short to show an error, so the series is evaluated beyond a step."""
-    p = pack(Oscillator(0.215, 1.0), Damper(0.12, 2.0, 0.9), 2.0)
-    state = 0.5, -0.4, 0.0, 1.5
-    lengths = 0.04, 0.06, 0.09
-    errors = []
-    for length in lengths:
-        x, q = contact_series(p, state, 0.0)
-        at_end, _ = single.polynomial(q, CONTACT_ORDER, length)
-        y, n = np.array(state), 40
-        for i in range(n):
-            x, q = contact_series(p, y, length * i / n)
-            y[:2] = single.polynomial(x, CONTACT_ORDER, length / n)
-            y[2:] = single.polynomial(q, CONTACT_ORDER, length / n)
-        errors.append(abs(at_end - y[2]))
-    orders = np.diff(np.log(errors)) / np.diff(np.log(lengths))
-    assert_allclose(orders, CONTACT_ORDER + 1, atol=2)
-
-
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9, 1e-12])
 def test_contact_steps_never_pass_a_separation(tolerance):
     """A contact lasts nearly half a natural period, with stiff and with soft walls."""
@@ -324,25 +258,6 @@ def test_contact_steps_never_pass_a_separation(tolerance):
         _, log = sample(p, [0.0, 0.0, 2.0, 1.0], math.pi / 4, [math.pi / 4 + 1.0], tolerance)
         half = math.pi / math.sqrt(stiffness * (1 + 1 / damper.mass_ratio))
         assert abs(log[0, 2] - log[0, 1] - half) < 0.2 * half
-
-
-def test_tangents_against_differences(impacting_orbit):
-    """Central differences of the map between mid-flight phases converge with order two."""
-    p, state = impacting_orbit.parameters, impacting_orbit.state
-    _, matrix, _ = period_map(p, state, 1, 1e-14)
-
-    def error(h):
-        difference = np.empty((4, 4))
-        for k, unit in enumerate(np.eye(4)):
-            ahead, _, _ = period_map(p, state + h * unit, 1, 1e-14)
-            behind, _, _ = period_map(p, state - h * unit, 1, 1e-14)
-            difference[:, k] = (ahead - behind) / (2 * h)
-        return np.max(np.abs(difference - matrix))
-
-    coarse, fine = error(1e-3), error(1e-4)
-    assert fine < 1e-6 * np.max(np.abs(matrix)) * 100
-    assert 80 < coarse / fine < 125
-    assert error(1e-5) < 1e-7 * np.max(np.abs(matrix))
 
 
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC])

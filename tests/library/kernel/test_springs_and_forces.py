@@ -5,14 +5,13 @@ import math
 import numpy as np
 import pytest
 from helpers.sampling import sample
-from helpers.springs import SPRINGS, in_other_units
 from numpy.testing import assert_allclose
 from references import equation
+from references.equation import SPRINGS, in_other_units
 from scipy.integrate import quad, solve_ivp
 
 from impact_damper.kernel import batch
 from impact_damper.kernel.equation import no_return
-from impact_damper.kernel.single import side_of
 from impact_damper.model.packed import FORCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions.strobe_map import flow_map
@@ -166,8 +165,3 @@ def test_no_return_from_where_the_force_is_weaker(linear_frequency, force):
     beyond = no_return(p) * np.geomspace(1.0, 1e3, 200)
     push = -equation.spring(p, beyond)
     assert np.all(push >= p[FORCE])
-
-
-def test_side_of_a_state_is_that_of_its_clearance():
-    p = pack(OSCILLATORS["softening"], DAMPER, FREQUENCY)
-    assert [side_of(p, np.array([0.0, 0.0, z, 0.1])) for z in (-0.61, 0.0, 0.61)] == [-1, 0, 1]

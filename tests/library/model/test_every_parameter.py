@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from helpers.sampling import sample
-from helpers.springs import SPRINGS
 from numpy.testing import assert_allclose
 from references import equation, extended
+from references.equation import SPRINGS
 
 import impact_damper
 from chatterjee1995.methods.equations import rate
@@ -114,8 +114,6 @@ PLACES = {
     "kernel/equation.py": [
         lambda oscillator: kernel.acceleration(packed(oscillator), STATE, 0.4),
         lambda oscillator: rate(packed(oscillator), 0, 0.4, tuple(STATE)),
-    ],
-    "kernel/recurrence.py": [
         lambda oscillator: sample(packed(oscillator, DAMPER), STATE, 0.0, [3.0])[0],
         several,
     ],
@@ -141,9 +139,9 @@ SPRING_PLACES = {
     "kernel/equation.py": [
         lambda oscillator: kernel.energy.py_func(packed(oscillator), STATE),
         lambda oscillator: kernel.spring_slope.py_func(packed(oscillator), 0.7),
-    ],
-    "kernel/recurrence.py": [
-        lambda oscillator: flow_map(packed(oscillator), np.tile(STATE[:2], 2), 0.0, 1, False, 1e-13)
+        lambda oscillator: flow_map(
+            packed(oscillator), np.tile(STATE[:2], 2), 0.0, 1, False, 1e-13
+        ),
     ],
     "theory/slow_flow.py": [lambda oscillator: jacobian(STATE, oscillator, DAMPER, W)],
     "tests/references/extended/motion.c": [tangents_80_bit],
@@ -387,7 +385,7 @@ def test_equations_of_the_package_are_those_of_the_reference(name):
 def test_every_parameter_is_in_the_systems_of_the_tests_and_the_manual(name):
     usual = Oscillator(0.1)
     assert any(getattr(each, name) != getattr(usual, name) for each in SPRINGS.values()), (
-        f"tests/helpers/springs.py: SPRINGS need an oscillator with {name}"
+        f"tests/references/equation.py: SPRINGS need an oscillator with {name}"
     )
     symbols = (ROOT / "docs/index.md").read_text()
     assert f"`{name}`" in symbols, f"docs/index.md: the table of symbols lacks {name}"

@@ -14,10 +14,9 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
-from impact_damper.motions.attractors import find_attractors, free_attractors
+from impact_damper.motions.attractors import free_attractors
 from impact_damper.motions.ensemble import label_states
 from impact_damper.orbits.basins import basins
-from impact_damper.orbits.orbit_branch import periodic_orbit
 
 CUBIC = Oscillator(0.215)
 PAPER = Damper(0.12, 2.0)
@@ -94,14 +93,6 @@ def test_a_mirrored_state_half_a_period_later_leads_to_the_mirrored_motion(free)
         assert_array_equal(one, other)
 
 
-def test_threads_do_not_change_labels(free):
-    _, p, attractors = free
-    states = np.random.default_rng(9).uniform(-WINDOW, WINDOW, (10000, 2))
-    one = label_states(p, states, 1.0, attractors, 1e-9, 1500)
-    two = label_states(p, states, 1.0, attractors, 1e-9, 1500, workers=2)
-    assert_array_equal(one, two)
-
-
 def changes(data):
     """Return places midway between neighbouring states with different labels, in cell widths."""
     label = data["basin_label"].values
@@ -162,42 +153,11 @@ def test_boundaries_are_stable_manifolds(phase):
     assert inside.sum() > 1000 and np.max(distance[inside]) < 1
 
 
-def test_attractors_are_those_of_the_free_response():
-    """Three motions coexist at W = 1.85; the sizes are also used in the tests of `migration`."""
-    data = basins(CUBIC, None, 1.85, cells=60)
-    assert_array_equal(data["attractor_period"], [1, 3, 1])
-    assert_allclose(data["attractor_displacement"][:2], [0.29604, 0.84606], atol=1e-5)
-    assert float(data["attractor_share"].sum()) == pytest.approx(1)
-    assert int(data["label_count"].sum()) == 0
-
-
-def test_states_are_unresolved_without_attractors():
-    p = pack(CUBIC, None, 1.85)
-    none = find_attractors(p, np.empty((0, 2)), Settling())
-    labels, periods = label_states(p, np.zeros((3, 2)), 0.0, none, 1e-9, 20)
-    assert_array_equal(labels, [-1] * 3)
-    assert_array_equal(periods, [20] * 3)
-
-
 def test_a_softening_spring_lets_motions_escape():
     soft = Oscillator(0.1, 1.0, -0.2, 0.1)
     data = basins(soft, None, 0.8, displacement=4, velocity=4, cells=40)
     assert int(data["label_count"].sel(without_attractor="escaped")) > 0
     assert float(data["attractor_share"].sum()) > 0
-
-
-def test_the_loose_mass_is_given_or_averaged_over():
-    plane = {"displacement": 0.5, "velocity": 0.8, "cells": 5, "settling": Settling(limit=600)}
-    given = basins(CUBIC, PAPER, 2.0, loose=(1.6, 0.0), **plane)
-    averaged = basins(CUBIC, PAPER, 2.0, **plane)
-    quiet = periodic_orbit(CUBIC, PAPER, 2.0, (0.006, 0.187, 0.002, -2.408))
-    assert_allclose(given["attractor_displacement"][0], quiet["orbit_displacement"], rtol=1e-6)
-    lost = averaged["basin_label"] == -1
-    total = averaged["basin_share"].sum("attractor").where(~lost)
-    assert float(total.max()) <= 1 + 1e-12
-    alike = averaged["basin_label"].values >= 0
-    shares = averaged["basin_share"].values.max(axis=0)
-    assert_allclose(shares[alike], 1)
 
 
 def test_mirrored_states_with_the_damper_lead_to_motions_of_equal_size():

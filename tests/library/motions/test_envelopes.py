@@ -12,9 +12,8 @@ from helpers.known_orbits import DESIGN, PAPER
 from helpers.sampling import sample
 from numpy.polynomial import Polynomial
 
-from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.model.parameters import Oscillator
-from impact_damper.motions.records import AT_ONCE, envelope, extremum
+from impact_damper.model.packed import pack
+from impact_damper.motions.records import envelope, extremum
 
 VIOLENT = np.array([1.0, 0.5, -0.3, 2.0])
 
@@ -34,31 +33,6 @@ def test_envelope_is_that_of_the_samples():
     assert np.all(largest - dense < 1e-5)
     begun = np.floor((log[:, 1] - strobe) / period).astype(int)
     np.testing.assert_array_equal(contacts, np.bincount(begun, minlength=count))
-
-
-def test_windows_of_one_call_are_those_of_several():
-    p = pack(PAPER, DESIGN, 1.9)
-    count = AT_ONCE + 100
-    rows = np.tile(p, (count, 1))
-    rows[:, FREQUENCY] = np.linspace(1.9, 2.0, count)
-    lengths = 2 * np.pi / rows[:, FREQUENCY]
-    y = VIOLENT.copy()
-    largest, contacts = envelope(rows, lengths, y, 1e-9)
-    z, parts = VIOLENT.copy(), []
-    for part in (slice(0, AT_ONCE - 7), slice(AT_ONCE - 7, count)):
-        parts.append(envelope(rows[part], lengths[part], z, 1e-9))
-    np.testing.assert_array_equal(y, z)
-    np.testing.assert_array_equal(largest, np.concatenate([each[0] for each in parts]))
-    np.testing.assert_array_equal(contacts, np.concatenate([each[1] for each in parts]))
-
-
-def test_after_an_escape_nothing_is_known():
-    p = pack(Oscillator(0.1, linear_frequency=1.0, cubic=-1.0), DESIGN, 1.0)
-    rows, lengths = np.tile(p, (5, 1)), np.full(5, 2 * math.pi)
-    largest, contacts = envelope(rows, lengths, np.array([0.95, 0.2, 0, 0]), 1e-9)
-    assert largest[0] == np.inf
-    assert np.isnan(largest[1:]).all()
-    assert np.isnan(contacts).all()
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -17,16 +17,11 @@ import signal
 import threading
 import time
 import impact_damper as idm
-from impact_damper.motions.response import collisions
-from chatterjee1995.methods.stable_steps import stable_steps
-from chatterjee1995.stages.harmonic_convergence import harmonic_convergence
-from chatterjee1995.stages.studies import study_chunk
 
 # A shell that starts the tests in the background makes its processes ignore Ctrl-C.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
-start, large = (0.006, 0.187, 0.002, -2.408), (1.8787, -2.4769, 0.0245, -0.4529)
-cells = {"mass_ratio": 0.12, "clearance": 2.0, "frequency": [1.6, 1.7], "restitution": 1.0}
+large = (1.8787, -2.4769, 0.0245, -0.4529)
 free, slow = idm.Oscillator(1e-3), idm.Settling(patience=10**7, limit=10**8, tolerance=1e-14)
 instants = []
 
@@ -50,28 +45,15 @@ CALLS = {
     "simulate": "idm.simulate(oscillator, damper, 1.7, large, periods={}, samples=2)",
     "steady_motion": "idm.steady_motion(free, idm.Damper(0.12, 2.0), 1.7, large, settling={})",
     "frequency_response": "idm.frequency_response(oscillator, damper, {})",
-    "orbit_branch": "idm.orbit_branch(oscillator, damper, 2.0, start, span={})",
     "basins": "idm.basins(oscillator, None, 1.85, cells={})",
     "migrate": "idm.migrate(oscillator, damper, 2.0, periods={})",
-    "collisions": "collisions(oscillator, idm.Damper(0.12, 1000.0), 1.7, {})",
-    "study_chunk": "study_chunk(free, cells, (0, 2), settling={})",
-    "stable_steps": "stable_steps(oscillator, damper, 2.0, stiffnesses=[2000.0], {})",
-    "harmonic_convergence": "harmonic_convergence(oscillator, damper, 2.0, {})",
 }
 ARGUMENTS = {
     "simulate": ("1", "1e6"),
     "steady_motion": ("None", "slow"),
     "frequency_response": ("[2.0]", "[1.6 + k / 1000 for k in range(400)]"),
-    "orbit_branch": ("(1.99, 2.01)", "(0.5, 5.0)"),
     "basins": ("2", "3000"),
     "migrate": ("10", "10**6"),
-    "collisions": ("starts=1, periods=1", "starts=10**5, periods=10**6"),
-    "study_chunk": ("None", "slow"),
-    "stable_steps": (
-        "scaled_steps=[1.0], most_steps=1000, periods=1",
-        "scaled_steps=[1e-3], most_steps=10**6, periods=10**5",
-    ),
-    "harmonic_convergence": ("[1, 3]", "[1, 4001]"),
 }
 
 

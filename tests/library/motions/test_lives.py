@@ -49,18 +49,3 @@ def test_transient_is_told_from_chaos_that_lasts(violent):
     assert np.isinf(lasting["mean_life_upper"])
     assert transient["life_ends"] > 6
     assert transient["mean_life_lower"] < transient["mean_life"] < transient["mean_life_upper"]
-
-
-def test_longer_runs_agree(violent):
-    """Runs of twice the length, from other random states, have the same mean life."""
-    short, long = lives(violent, 60, 500), lives(violent, 60, 1000, seed=2)
-    for bound, sense in (("lower", 1), ("upper", -1)):
-        other = long[f"mean_life_{bound}"][1, 0] - short["mean_life"][1, 0]
-        assert sense * other < 0
-
-
-def test_other_motions_have_no_life(violent):
-    parameters, states = violent
-    outcomes = np.full((2, 1), flag("outcome", "settled"))
-    found = find_lives(parameters, outcomes, states, 4, 100, 1, Settling(), **RUNNING)
-    assert np.all(found["life_ends"] == -1) and np.all(np.isnan(found["mean_life_lower"]))

@@ -10,9 +10,7 @@ from helpers.known_orbits import DESIGN, PAPER
 import impact_damper as idm
 from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
-from impact_damper.model.settling import Settling
-from impact_damper.motions import ensemble, start_states
-from impact_damper.motions.start_states import random_starts, search_starts
+from impact_damper.motions import start_states
 from impact_damper.motions.strobe_map import period_map
 from impact_damper.motions.sweep import LONGEST, stable_orbits
 
@@ -53,14 +51,6 @@ def test_a_search_finds_an_orbit_to_which_no_start_leads(
     np.testing.assert_allclose(run.displacement[-1], run.displacement[0], atol=1e-6)
 
 
-@pytest.mark.parametrize(("oscillator", "damper", "frequency", "rare"), RARE)
-def test_few_random_starts_lead_there(oscillator, damper, frequency, rare):
-    """Fewer than 3 % of random starts lead to the orbit, so a search with 96 starts may miss it."""
-    states, _ = random_starts(oscillator, damper, frequency, 600, 3, Settling())
-    runs = ensemble.settle(np.tile(pack(oscillator, damper, frequency), (600, 1)), states)
-    assert np.mean(abs(runs["maximum_displacement"] - rare[0]) < 2e-3) < 0.03
-
-
 def test_orbits_are_stable_touch_a_wall_and_are_told_once():
     p = pack(PAPER, DESIGN, 2.0)
     loose = np.random.default_rng(1).uniform(-1, 1, (60, 2)) * (DESIGN.clearance, 4)
@@ -75,11 +65,3 @@ def test_orbits_are_stable_touch_a_wall_and_are_told_once():
         _, matrix, contacts = period_map(p, state, periods[0], 1e-12)
         assert contacts and np.max(np.abs(np.linalg.eigvals(matrix))) < 1
         assert np.sum(np.max(np.abs(found - state), axis=1) < 1e-6) == 1
-
-
-def test_there_is_no_search_for_orbits_with_a_radius_or_without_a_damper_or_motions():
-    settling = Settling()
-    assert len(search_starts(PAPER, [(DESIGN, 2.3)], 2, 2.5, 1, settling).loose[0]) == 0
-    assert len(search_starts(PAPER, [(None, 2.3)], 2, None, 1, settling).loose[0]) == 0
-    p, loose = pack(PAPER, DESIGN, 2.0), np.zeros((3, 2))
-    assert stable_orbits(p, np.empty((0, 2)), loose, 1e-9, NEVER).shape == (0, 4)

@@ -25,23 +25,6 @@ def quiet():
     return idm.steady_motion(OSCILLATOR, DAMPER, FREQUENCY, NEAR_QUIET)
 
 
-def returned(steady, state, **how):
-    """Return the largest difference of a component between a state and the state a period later."""
-    run = idm.simulate(OSCILLATOR, DAMPER, FREQUENCY, state, periods=int(steady.period), **how)
-    names = steady.component.values
-    return max(float(abs(run[name][-1] - run[name][0])) for name in names)
-
-
-def test_a_steady_state_goes_on_in_its_orbit(quiet):
-    assert idm.decode(quiet.outcome) == "settled"
-    run = idm.simulate(OSCILLATOR, DAMPER, FREQUENCY, quiet.state, periods=20)
-    assert_allclose(run.time[0], np.pi / 2 / FREQUENCY)
-    assert_allclose(abs(run.displacement).max(), quiet.maximum_displacement, rtol=1e-3)
-    assert returned(quiet, quiet.state) < 1e-8
-    # without its phase the same state is not on an orbit
-    assert returned(quiet, quiet.state.values) > 0.01
-
-
 def test_a_free_orbit_agrees_with_scipy_from_its_phase():
     steady = idm.steady_motion(OSCILLATOR, None, 1.6, (1.5, 0))
     phase = steady.state.state_phase.item()
@@ -52,46 +35,6 @@ def test_a_free_orbit_agrees_with_scipy_from_its_phase():
     span = phase / 1.6 + np.array([0, 2 * np.pi / 1.6])
     end = solve_ivp(rate, span, steady.state.values[:2], rtol=1e-11, atol=1e-11).y[:, -1]
     assert_allclose(end, steady.state[:2], atol=1e-7)
-
-
-def test_an_orbit_is_simulated_from_its_phase(quiet):
-    orbit = idm.periodic_orbit(OSCILLATOR, DAMPER, FREQUENCY, quiet.state)
-    assert returned(quiet, orbit.orbit_state) < 1e-8
-    branch = idm.orbit_branch(OSCILLATOR, DAMPER, FREQUENCY, orbit.orbit_state, span=(1.95, 2.05))
-    place = np.argmin(abs(branch.followed_value.values - FREQUENCY))
-    state = branch.orbit_state[place]
-    run = idm.simulate(OSCILLATOR, DAMPER, float(branch.followed_value[place]), state, periods=1)
-    assert_allclose(run.displacement[-1], run.displacement[0], atol=1e-8)
-
-
-def test_a_phase_survives_a_file(quiet, tmp_path):
-    import xarray as xr
-
-    quiet.to_netcdf(tmp_path / "mine.nc")
-    again = xr.load_dataset(tmp_path / "mine.nc")
-    assert returned(quiet, again.state) < 1e-8
-
-
-@pytest.mark.parametrize("turns", [0, 3, -2])
-def test_a_later_start_at_the_same_phase_settles_alike(quiet, turns):
-    start = (np.pi / 2 + 2 * np.pi * turns) / FREQUENCY
-    same = idm.steady_motion(OSCILLATOR, DAMPER, FREQUENCY, quiet.state, start=start)
-    assert_allclose(same.maximum_displacement, quiet.maximum_displacement, rtol=1e-9)
-    assert same.periods_run <= quiet.periods_run
-
-
-def test_a_start_within_a_period_leads_where_simulation_leads():
-    """A start at W T = 1 leads to the same motion as its state at the next strobe."""
-    begin = 1.0 / FREQUENCY
-    run = idm.simulate(
-        OSCILLATOR, None, FREQUENCY, (0.3, 0.1), start=begin, periods=(np.pi / 2 - 1) / (2 * np.pi)
-    )
-    later = [float(run[name][-1]) for name in ("displacement", "velocity")]
-    first = idm.steady_motion(OSCILLATOR, None, FREQUENCY, (0.3, 0.1), start=begin)
-    second = idm.steady_motion(OSCILLATOR, None, FREQUENCY, later, start=np.pi / 2 / FREQUENCY)
-    assert_allclose(first.state, second.state, atol=1e-7)
-    third = idm.steady_motion(OSCILLATOR, None, FREQUENCY, later, start=-1.5 * np.pi / FREQUENCY)
-    assert_allclose(third.state, second.state, atol=1e-7)
 
 
 def test_another_start_than_the_phase_is_refused(quiet):
@@ -128,18 +71,3 @@ def test_units_of_states_are_not_mixed_up(quiet):
         idm.simulate(OSCILLATOR, None, 2.0, steady.state)
     with pytest.raises(ValueError, match="state = .*must be in m, m/s, m, m/s, not in 1"):
         idm.simulate(MACHINE, None, 24.0, quiet.state)
-
-
-def test_a_dataset_holds_what_made_it(quiet):
-    from impact_damper.data.datasets import parameters_of
-
-    made = parameters_of(quiet)
-    assert made["state"] == list(NEAR_QUIET) and made["start"] == 0
-    assert made["contact_stiffness"] == 2000 and made["tolerance"] == idm.Settling().tolerance
-    run = idm.simulate(OSCILLATOR, None, 2.0, (1, 0), periods=2)
-    assert parameters_of(run) | {
-        "state": [1, 0, 1, 0],
-        "start": 0,
-        "periods": 2,
-        "samples": 200,
-    } == (parameters_of(run))

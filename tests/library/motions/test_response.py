@@ -12,7 +12,7 @@ from helpers.sampling import sample
 from numpy.testing import assert_allclose
 from scipy import stats
 
-from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper
 from impact_damper.motions.response import collisions, frequency_response
@@ -47,21 +47,6 @@ def test_quiet_motion_is_there(response, design_orbit):
     assert_allclose(np.abs(state[3]), np.abs(design_orbit.state[3]), atol=1e-7)
 
 
-def test_motions_absent_are_marked(response):
-    absent = response.outcome == flag("outcome", "absent")
-    assert np.array_equal(absent, np.isnan(response.maximum_displacement))
-    assert np.all(response.branch.where(absent, -1) == -1)
-    largest = response.maximum_displacement.values
-    assert np.all((np.diff(largest, axis=1) <= 1e-9) | np.isnan(largest[:, 1:]))
-
-
-def test_response_does_not_depend_on_threads(response):
-    again = frequency_response(PAPER, DESIGN, FREQUENCIES, starts=24, seed=4, workers=1)
-    assert again.identical(response)
-    assert parameters_of(response)["starts"] == 24
-    assert parameters_of(response)["seed"] == 4
-
-
 @pytest.mark.parametrize(
     "wrong, message",
     [
@@ -77,22 +62,6 @@ def test_response_does_not_depend_on_threads(response):
 def test_arguments_are_checked(wrong, message):
     with pytest.raises(ValueError, match=message):
         frequency_response(PAPER, DESIGN, **wrong)
-
-
-def test_one_frequency_has_no_ends():
-    """A single number is accepted; each motion is then a branch of its own, without ends."""
-    data = frequency_response(PAPER, None, 2.0, starts=12)
-    assert data.sizes["frequency"] == 1 and data.sizes["end"] == 0
-    branches = data.branch.values[data.branch.values >= 0]
-    assert len(np.unique(branches)) == len(branches) > 1
-    assert np.isnan(data.phase_loose).all()
-
-
-@pytest.mark.parametrize("wrong", [{"starts": 0}, {"periods": 0}, {"tolerance": 0.0}])
-def test_arguments_of_collisions(wrong):
-    (name,) = wrong
-    with pytest.raises(ValueError, match=f"{name} = 0"):
-        collisions(PAPER, DESIGN, 1.8, **wrong)
 
 
 def test_collisions():

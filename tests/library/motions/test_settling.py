@@ -13,10 +13,9 @@ from numpy.testing import assert_allclose
 
 from impact_damper.kernel import single
 from impact_damper.kernel.tangents import advance
-from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
-from impact_damper.model.parameters import Damper
+from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.settling import Settling
-from impact_damper.motions import ensemble, records, strobe_map, traces
+from impact_damper.motions import ensemble, records, strobe_map
 from impact_damper.motions.following import follow_stable
 
 NONE = np.empty((0, 4))
@@ -106,14 +105,6 @@ def test_asymmetry(known_orbit):
     assert (apart > 1) == (known_orbit.frequency == 1.7)
 
 
-def test_mass_that_drifts_is_not_taken_for_settled():
-    """A loose mass that drifts too slowly to meet a wall in the run has not settled to an orbit."""
-    p = pack(PAPER, Damper(0.12, 2.0), 2.0)
-    y = np.array([0.02716339, 0.4994648, 0.02716339, 0.4994648 + 1e-5])
-    record = settled(p, y, patience=100, limit=200)
-    assert record["outcome"] == records.NON_COLLIDING
-
-
 # Start of a chaotic motion of large amplitude, at a frequency below the band in which the damper
 # suppresses large motions.
 VIOLENT = pack(PAPER, DESIGN, 1.1), [1.0, 0.5, 0.3, -1.0]
@@ -129,28 +120,6 @@ def test_chaos_and_its_exponent():
     assert abs(record["lyapunov_exponent"] - mean) < 4 * math.hypot(record["lyapunov_error"], error)
     assert mean > 10 * error
     assert 0 < record["lyapunov_error"] < 0.05 * record["lyapunov_exponent"]
-
-
-def test_chaos_without_time_to_be_sure_is_unresolved():
-    p, state = VIOLENT
-    settling, rows = Settling(patience=100, limit=100, further=0), (p[None], np.array([state]))
-    record = ensemble.settle(*rows, settling, from_strobe=True)[0]
-    assert record["outcome"] == records.UNRESOLVED
-    assert record["periods_run"] == 99
-    settling = Settling(patience=100, limit=100)
-    assert ensemble.settle(*rows, settling, from_strobe=True)[0]["outcome"] == records.CHAOTIC
-    assert settled(p, state, patience=1000, limit=2000)["outcome"] == records.CHAOTIC
-
-
-def test_error_of_the_exponent_shrinks_with_the_run():
-    p, state = VIOLENT
-    short = settled(p, state, patience=300, limit=5000)
-    long = settled(p, state, patience=4000, limit=5000)
-    # the exponent is averaged over 15 batches in the short run and 200 in the long one
-    assert 2 < short["lyapunov_error"] / long["lyapunov_error"] < 7
-    assert_allclose(
-        short["lyapunov_exponent"], long["lyapunov_exponent"], atol=4 * short["lyapunov_error"]
-    )
 
 
 def test_exponent_of_a_settled_motion_is_its_multiplier(known_orbit):
@@ -179,14 +148,6 @@ def test_polish_comes_back_from_aside(known_orbit):
     assert_allclose(y[:2], known_orbit.state[:2], atol=1e-8)
 
 
-def test_polish_finds_no_orbit_where_none_is_near(design_orbit):
-    y = np.array([1.0, 1.0, 0.5, -1.0])
-    before = y.copy()
-    found, residual, multiplier = strobe_map.polish(design_orbit.parameters, y, 1, 1e-3, 1e-12)
-    assert not found and np.isnan(residual) and np.isnan(multiplier)
-    assert np.array_equal(y, before)
-
-
 @pytest.mark.parametrize("start, target", [((2.35, -0.78), 2.2), ((0.03, 0.5), 1.2)])
 def test_follow_ends_at_the_folds_of_the_free_response(start, target):
     """A simulated motion stays on the branch on one side of its end and leaves it on the other."""
@@ -208,17 +169,6 @@ def test_follow_ends_at_the_folds_of_the_free_response(start, target):
     assert abs(sizes[1] - here) > 0.8
 
 
-def test_follow_arrives(design_orbit):
-    """Within the branch following arrives at the orbit that a simulation settles on."""
-    p, y = design_orbit.parameters.copy(), design_orbit.state.copy()
-    p, (y, multiplier) = follow_stable(p, y, 1, CLEARANCE, 1.9)
-    assert p[CLEARANCE] == 1.9
-    record = settled(p, design_orbit.state)
-    assert record["outcome"] == records.SETTLED and record["contacts"] == 2
-    assert_allclose(y, record["state"], atol=1e-8)
-    assert_allclose(multiplier, record["multiplier"], atol=1e-6)
-
-
 def test_measures_against_dense_samples(known_orbit):
     """Extremum, contacts and harmonics of one period."""
     record = records.measured(known_orbit.parameters, known_orbit.state, 1, 1e-12)
@@ -235,32 +185,6 @@ def test_measures_against_dense_samples(known_orbit):
     atol = 2e-4 if known_orbit.damper else 1e-8
     assert_allclose(record["harmonic_displacement"], turn * np.fft.rfft(x)[1], atol=atol)
     assert_allclose(record["harmonic_relative"], turn * np.fft.rfft(z)[1], atol=10 * atol)
-
-
-def test_extremum_of_an_unsettled_motion():
-    p, state = VIOLENT
-    record = records.measured(p, np.array(state), 3, 1e-12)
-    strobe, length = 0.5 * math.pi / p[0], 6 * math.pi / p[0]
-    states, _ = sample(p, state, strobe, strobe + np.linspace(0, length, 60001))
-    largest = np.max(np.abs(states[:, 0]))
-    assert -1e-10 < record["maximum_displacement"] - largest < 1e-6
-
-
-def test_log_of_contacts_may_be_short(design_orbit):
-    """Contacts beyond the end of the log are counted but not logged."""
-    log, states = np.full((3, 5), np.nan), np.empty((1, 4))
-    end = np.array([design_orbit.strobe + 10 * design_orbit.period])
-    count = traces.trace(
-        design_orbit.parameters,
-        design_orbit.state.copy(),
-        design_orbit.strobe,
-        end,
-        1e-12,
-        states,
-        log,
-    )
-    assert count == 20
-    assert np.isfinite(log).all()
 
 
 def test_first_collision_by_simulation():

@@ -12,7 +12,7 @@ from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 from scipy import stats
 
-from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.data.datasets import flag
 from impact_damper.model import packed
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper
@@ -54,26 +54,6 @@ def test_simulation_goes_on_where_it_stopped():
     )
     assert_allclose(rest.displacement, whole.displacement[15:], atol=1e-9)
     assert_allclose(rest.relative_velocity, whole.relative_velocity[15:], atol=1e-7)
-
-
-def test_contact_cut_by_the_end():
-    data = simulate(PAPER, DESIGN, 2.0, (0, 0, 2.0, 1.0), periods=0.003, samples=1000)
-    assert data.contact_begin[0] == 0
-    assert np.isnan(data.contact_end[0]) and np.isnan(data.departure_velocity[0])
-
-
-def test_more_contacts_than_expected():
-    data = simulate(PAPER, Damper(0.12, 0.01), 2.0, (0, 0, 0, 5), periods=30, samples=2)
-    assert data.sizes["contact"] > 1024
-    assert np.all(np.diff(data.contact_begin) > 0)
-    assert np.all(data.contact_end[:-1] > data.contact_begin[:-1])
-
-
-def test_simulation_without_a_damper():
-    data = simulate(PAPER, None, 2.0, (0.4, 0.1), periods=3)
-    assert data.sizes["contact"] == 0
-    assert_allclose(data.relative_displacement, data.displacement)
-    assert "mass_ratio" not in parameters_of(data)
 
 
 @pytest.mark.parametrize(
@@ -122,32 +102,6 @@ def test_random_states_are_uniform(damper, within_gap):
         assert stats.kstest(others**3, "uniform").pvalue > 0.01
 
 
-def test_a_loose_mass_far_beyond_its_wall_is_told_with_its_speed():
-    """An elastic contact turns its energy into the relative speed that the warning states."""
-    beyond = 5 * DESIGN.clearance
-    with pytest.warns(UserWarning, match="the loose mass is beyond its wall") as told:
-        motion = simulate(PAPER, DESIGN, 2.0, (0, 0, beyond, 0), periods=0.5, samples=4000)
-    speed = float(str(told[0].message).rsplit("= ", 1)[1])
-    inside = np.abs(motion.relative_displacement) < DESIGN.clearance
-    assert np.abs(motion.relative_velocity[inside][0]) == pytest.approx(speed, rel=0.01)
-
-
-@pytest.mark.filterwarnings("error")
-def test_a_loose_mass_in_contact_is_no_mistake():
-    simulate(PAPER, DESIGN, 2.0, (0, 0, 1.01 * DESIGN.clearance, 0), periods=1)
-
-
-def test_random_states_depend_on_the_seed_only():
-    first, again = (random_states(50, 2.0, DESIGN, [3, 1]) for _ in range(2))
-    assert np.array_equal(first, again)
-    assert not np.array_equal(first, random_states(50, 2.0, DESIGN, [3, 2]))
-    assert random_states(0, 2.0, DESIGN, 1).shape == (0, 4)
-    with pytest.raises(ValueError, match="radius = 0"):
-        random_states(5, 0.0, DESIGN, 1)
-    with pytest.raises(ValueError, match="radius = 2: .*within the gap"):
-        random_states(5, 2.0, Damper(0.12, 1e-6), 1)
-
-
 def test_steady_motion_of_the_design():
     """The small motion has two symmetric contacts; a simulation returns to its state."""
     # from W T = pi/2 to T = pi, one forcing cycle after T = 0
@@ -182,32 +136,6 @@ def test_phases_of_a_steady_motion():
     assert np.isnan(tabulate(np.zeros(1, records.MOTION))["phase_relative"]).all()
 
 
-def test_results_do_not_depend_on_the_threads():
-    parameters = np.array([pack(PAPER, DESIGN, w) for w in np.linspace(1.2, 2.4, 50)])
-    states = random_states(50, 2.0, DESIGN, 11)
-    settling = Settling(patience=100, limit=300)
-    one, three = (
-        ensemble.settle(parameters, states, settling, workers=workers) for workers in (1, 3)
-    )
-    assert one.tobytes() == three.tobytes()
-    alone = ensemble.settle(parameters[17:18], states[17:18], settling)
-    assert alone.tobytes() == one[17:18].tobytes()
-    assert len(np.unique(one["outcome"])) > 1
-
-
-def test_time_of_the_first_state():
-    """The first state of a motion may be given at T = 0 or at the strobe, W T = pi/2."""
-    p = pack(PAPER, None, 2.0)
-    (later,) = np.array(simulate(PAPER, None, 2.0, (0.3, 0.2), periods=0.25, samples=4)[
-        ["displacement", "velocity", "relative_displacement", "relative_velocity"]
-    ].to_array().T[-1:])  # fmt: skip
-    settling = Settling(tolerance=1e-12)
-    start = ensemble.settle(p[None], [[0.3, 0.2, 0.3, 0.2]], settling)
-    strobe = ensemble.settle(p[None], later[None], settling, from_strobe=True)
-    assert_allclose(start["state"], strobe["state"], atol=1e-9)
-    assert start["periods_run"] == strobe["periods_run"]
-
-
 @pytest.mark.parametrize(
     "wrong", [{"tolerance": 0.0}, {"patience": 10}, {"limit": 200}, {"watched": 0}]
 )
@@ -227,9 +155,3 @@ def test_steady_orbit_closes():
     assert_allclose(*np.transpose(ends), atol=1e-8)
     assert_allclose(np.ptp(orbit.time.values), np.pi)
     assert orbit.sizes["contact"] == 2
-
-
-def test_steady_orbit_says_that_a_motion_has_not_settled():
-    with pytest.raises(ArithmeticError, match="limit = 120"):
-        settling = Settling(patience=100, limit=120, further=0)
-        steady_orbit(PAPER, DESIGN, 2.0, (1.0, 0.5, 0.0, 0.0), settling=settling)

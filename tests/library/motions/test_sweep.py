@@ -3,25 +3,19 @@
 Symbols are as in `system.parameters`.
 """
 
-import math
-
 import numpy as np
 import pytest
-from helpers.known_orbits import DESIGN, PAPER
+from helpers.known_orbits import PAPER
 from numpy.testing import assert_allclose
-from scipy import stats
 
 from impact_damper.data.datasets import flag
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import Damper
 from impact_damper.model.settling import Settling
-from impact_damper.motions import ensemble, strobe_map
-from impact_damper.motions.following import follow_stable
-from impact_damper.motions.records import MOTION
+from impact_damper.motions import strobe_map
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.start_states import NO_LOOSE, NO_STARTS, Search
-from impact_damper.motions.sweep import Catalogue, _end_event, sweep
-from impact_damper.motions.traces import trace
+from impact_damper.motions.sweep import sweep
 
 FREQUENCIES = np.array([1.25, 1.4, 1.6, 1.75, 1.9, 2.0, 2.05, 2.1])
 
@@ -85,50 +79,6 @@ def test_branches_end_at_folds(free):
     assert np.array_equal(ends[order][:, 1], [-1, -1, 1, 1])
 
 
-def test_motions_change_at_an_end(free):
-    """Simulated beyond the end of its branch, a motion settles at another displacement."""
-    p = pack(PAPER, None, 2.0)
-    for value, direction, size in ends_of(free):
-        row = np.argmin(np.abs(FREQUENCIES - value) + 10 * ((FREQUENCIES - value) * direction > 0))
-        column = np.nanargmin(np.abs(free["maximum_displacement"][1][row] - size))
-        state, period = free["state"][1][row, column].copy(), free["period"][1][row, column]
-        p[0] = FREQUENCIES[row]
-        p, (state, _) = follow_stable(p, state, period, FREQUENCY, value - 1e-4 * direction)
-        assert_allclose(p[0], value - 1e-4 * direction, rtol=1e-15)
-        sizes = []
-        for beyond in (-1e-4, 1e-3):
-            p[0] = value + beyond * direction
-            record = ensemble.settle(p[None], state[None], from_strobe=True)[0]
-            assert record["outcome"] == flag("outcome", "settled")
-            sizes.append(record["maximum_displacement"])
-        assert abs(sizes[0] - size) < 0.05
-        assert abs(sizes[1] - size) > 0.3
-
-
-def test_shares_and_runs(free):
-    dims, starts = free["motion_starts"]
-    assert dims == ("frequency", "motion")
-    assert np.array_equal(starts.sum(axis=1), np.full(len(FREQUENCIES), 12))
-    assert free["run_outcome"][1].shape == free["run_length"][1].shape == (len(FREQUENCIES), 12)
-    column = free["run_motion"][1]
-    assert np.array_equal(
-        np.take_along_axis(free["outcome"][1], column, axis=1), free["run_outcome"][1]
-    )
-    counted = [np.bincount(row, minlength=starts.shape[1]) for row in column]
-    assert np.array_equal(starts, counted)
-
-
-def test_shares_have_wilson_intervals(free):
-    present = free["outcome"][1] != flag("outcome", "absent")
-    for name in ("share_lower", "share_upper"):
-        assert np.array_equal(np.isfinite(free[name][1]), present)
-    for count in np.unique(free["motion_starts"][1][present]):
-        expected = stats.binomtest(int(count), 12).proportion_ci(method="wilson")
-        chosen = present & (free["motion_starts"][1] == count)
-        assert_allclose(free["share_lower"][1][chosen], expected.low, atol=1e-12)
-        assert_allclose(free["share_upper"][1][chosen], expected.high, atol=1e-12)
-
-
 def test_following_finds_what_random_starts_miss():
     """A start near rest does not reach the upper resonance branch; following does."""
     frequencies = np.array([0.8, 1.1, 1.4, 1.7, 2.0])
@@ -139,22 +89,6 @@ def test_following_finds_what_random_starts_miss():
     assert np.all(np.diff(top) > 0) and top[-1] > 2.3
     assert data["origin"][1][-1, 0] == flag("origin", "followed")
     assert data["motion_starts"][1][-1, 0] == 0
-
-
-def test_mirrored_motion_is_the_same():
-    """The large motion with two contacts and its mirror image count as one motion."""
-    p = pack(PAPER, DESIGN, 1.7)
-    y = np.array([1.87868319, -2.47688679, 0.02448582, -0.45289641])
-    later = y.copy()
-    half = 0.5 * math.pi / 1.7 + math.pi / 1.7
-    trace(p, later, 0.5 * math.pi / 1.7, np.array([half]), 1e-13, np.empty((1, 4)),
-                 np.empty((9, 5)))  # fmt: skip
-    records = ensemble.settle(np.tile(p, (2, 1)), np.array([y, -later]), from_strobe=True)
-    assert np.all(records["outcome"] == flag("outcome", "settled"))
-    assert np.max(np.abs(records["state"][0] - records["state"][1])) > 1
-    catalogue = Catalogue(p, iter(range(9)))
-    assert [catalogue.add(record, "random_start") for record in records] == [0, 0]
-    assert catalogue.starts == [2]
 
 
 def test_sweep_of_the_clearance():
@@ -171,19 +105,3 @@ def test_sweep_of_the_clearance():
         column = int(np.flatnonzero(data["contacts"][1][i] == 2)[0])
         back, _, _ = strobe_map.period_map(p, data["state"][1][i, column], 1, 1e-13)
         assert_allclose(back, data["state"][1][i, column], atol=1e-8)
-
-
-@pytest.mark.parametrize(
-    "multiplier, event",
-    [
-        (0.5, "not_smooth"),
-        (complex(math.nan, math.nan), "not_smooth"),
-        (-0.999, "period_doubling"),
-        (0.6 + 0.8j, "neimark_sacker"),
-        (0.999, "fold"),
-    ],
-)
-def test_event_by_the_multiplier(multiplier, event):
-    record = np.zeros(2, MOTION)
-    record["maximum_displacement"] = 1, 2
-    assert _end_event(record[0], complex(multiplier), record[1]) == event

@@ -16,7 +16,6 @@ from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble, records, strobe_map, undecided
 from impact_damper.motions.following import follow_stable
-from impact_damper.motions.undecided import find_rotation
 
 NEVER = np.zeros(1, bool)
 
@@ -82,39 +81,6 @@ def test_torus_turns_as_the_orbit_it_splits_off_from():
     assert 2 * numbers[1] - numbers[0] == pytest.approx(angle, abs=5e-6)
 
 
-def test_torus_that_is_bent_around_its_centre_in_one_plane():
-    """In the plane (Z1, Z1') the torus is a crescent without a rotation number.
-
-    In two other planes the rotation number agrees with the record.
-    """
-    p = pack(PAPER, Damper(0.43819, 2.51322, 0.70627), 1.01298)
-    starts = np.random.default_rng(3).uniform(-1, 1, (16, 4))
-    found = ensemble.settle(np.tile(p, (len(starts), 1)), starts, Settling())
-    record = found[found["outcome"] == records.QUASI_PERIODIC][0]
-    begin, period = strobe_map.strobe_time(p), 2 * math.pi / p[FREQUENCY]
-    states, _ = sample(p, record["state"], begin, begin + np.arange(1, 3000) * period)
-    assert find_rotation(states[:, 0] + 1j * states[:, 1]) is None
-    number = record["second_frequency"] / record["first_frequency"]
-    for first, second in ((0, 2), (1, 3)):
-        other = find_rotation(states[:, first] + 1j * states[:, second])
-        assert other.number == pytest.approx(number, abs=1e-8)
-
-
-def test_starts_on_one_torus_have_one_name(torus):
-    _, found = torus
-    assert np.ptp(found["second_frequency"]) < 1e-7
-    assert np.all(found["period"] == 0)
-
-
-def test_starts_examined_alone_have_the_same_frequencies(torus):
-    """The frequencies do not depend on whether a motion on the same curves was found before."""
-    p, found = torus
-    alone = examined(p, found["state"][-1])
-    assert alone["outcome"] == records.QUASI_PERIODIC
-    assert abs(alone["second_frequency"] - found["second_frequency"][0]) < 3e-8
-    assert alone["first_frequency"] == found["first_frequency"][0]
-
-
 def test_long_period():
     """Settling looks for periods up to 12; this motion returns after 15 periods and not before."""
     p = pack(Oscillator(0.107), Damper(0.12, 1.063), 2.555)
@@ -152,15 +118,3 @@ def test_drifting_mass_has_its_own_name():
     # with a longer limit the loose mass touches a wall
     later = Settling(patience=300, limit=20_000)
     assert ensemble.settle(rows, state[None], later)[0]["outcome"] != records.DRIFTING
-
-
-def test_settled_motions_have_no_growing_exponent():
-    """The exponent belongs to the orbit and not to the chaotic transient before the orbit."""
-    p = pack(PAPER, Damper(0.12, 2.0), 2.4)
-    starts = np.random.default_rng(1).uniform(-1.5, 1.5, (96, 4))
-    found = ensemble.settle(np.tile(p, (len(starts), 1)), starts, Settling())
-    settled = found[found["outcome"] == records.SETTLED]
-    assert np.max(settled["periods_run"]) > 300
-    rate = np.log(np.abs(settled["multiplier"])) * p[FREQUENCY] / (2 * np.pi * settled["period"])
-    np.testing.assert_allclose(settled["lyapunov_exponent"], rate)
-    assert np.all(settled["lyapunov_exponent"] < 0) and np.all(settled["lyapunov_error"] == 0)

@@ -5,9 +5,9 @@ Symbols are as in `system.parameters`. Numbers in brackets are equations of the 
 
 import numpy as np
 import pytest
-from helpers.springs import KNOWN, SPRINGS
 from numpy.testing import assert_allclose
 from references import equation
+from references.equation import KNOWN, SPRINGS
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
