@@ -1,44 +1,14 @@
-"""Tables of branches of periodic orbits and of their bifurcations."""
+"""Tables of branches of periodic orbits and of the bifurcations of stable ones."""
 
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.reading import datasets as extract
-from chatterjee1995.tables.columns import parameter_columns
+from chatterjee1995.reading import datasets as reading
+from chatterjee1995.tables.columns import DAMPER, parameter_columns
 from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true
 
-DAMPER = ("mass_ratio", "clearance", "restitution")
-# Columns of the Markdown tables with their heads; the CSV files have all columns.
-SHOWN = {
-    "orbits": {
-        "data": "curve",
-        "branch": "branch",
-        "period": "period [cycles]",
-        "from W": "from Ω",
-        "to W": "to Ω",
-        "stable W": "stable Ω",
-        "largest max |Z1|": "largest displacement max |Z1|",
-        "one end": "one end",
-        "other end": "other end",
-    },
-    "bifurcations": {
-        "data": "curve",
-        "branch": "branch",
-        "period": "period [cycles]",
-        "W": "forcing frequency Ω",
-        "event": "event",
-        "max |Z1|": "displacement max |Z1|",
-        "walls before": "order of the walls touched, before it",
-        "walls after": "order of the walls touched, after it",
-    },
-}
-# Table -> column and value of the rows in the Markdown table; the CSV file has all rows.
-ROWS = {"bifurcations": ("next to stable orbits", "yes")}
-# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
-# In columns without a function, underscores become spaces.
-CELLS = {"event": lambda cell: cell.replace("neimark sacker", "Neimark-Sacker")}
-# End at which a branch is left although its orbits go on -> words with the reason.
+# Ends at which a branch is left although its orbits go on, with the reason.
 LEFT = {
     "unstable": "left among unstable orbits, since it winds through chaos there",
     "point limit": "left after the largest number of orbits, since it winds through chaos",
@@ -49,7 +19,7 @@ LEFT = {
 def orbits(datasets) -> pd.DataFrame:
     """Return branches of periodic orbits: period, range of W, stable parts, ends and errors."""
     rows = []
-    for name, parameters, data in _branches(datasets):
+    for name, data in _branches(datasets):
         for branch in range(data.sizes["branch"]):
             part = data.isel(point=np.flatnonzero(data["orbit_branch"].values == branch))
             value = part["followed_value"].values
@@ -57,19 +27,18 @@ def orbits(datasets) -> pd.DataFrame:
             grazing = part["orbit_status"].values == flag("orbit_status", "near_grazing")
             ends = _ends_of(data, branch)
             rows.append(
-                {"data": name}
-                | parameters
-                | {
+                {
+                    "curve": name,
                     "branch": branch + 1,
-                    "period": int(data["branch_period"][branch]),
-                    "orbits": len(value),
-                    "near grazing": int(grazing.sum()),
-                    "from W": value.min(),
-                    "to W": value.max(),
-                    "stable W": _stable_ranges(value, stable, closed="closed" in ends),
-                    "largest max |Z1|": float(part["orbit_displacement"].max()),
+                    "period [cycles]": int(data["branch_period"][branch]),
+                    "from Ω": value.min(),
+                    "to Ω": value.max(),
+                    "stable Ω": _stable_ranges(value, stable, closed="closed" in ends),
+                    "largest displacement max |Z1|": float(part["orbit_displacement"].max()),
                     "one end": ends[0],
                     "other end": ends[1],
+                    "orbits": len(value),
+                    "near grazing": int(grazing.sum()),
                     "events": int((data["event_branch"].values == branch).sum()),
                     "not located": int(data["branch_events_lost"][branch]),
                     "largest residual, absolute": float(part["orbit_residual"].max()),
@@ -77,26 +46,27 @@ def orbits(datasets) -> pd.DataFrame:
                         part["liouville_error"].max()
                     ),
                 }
+                | parameter_columns(data, "damping", *DAMPER)
             )
     return pd.DataFrame(rows)
+
+
+def _branches(datasets):
+    """Return pairs of name and dataset of branches, those without a damper first."""
+    return [*reading.free(datasets, "branches").items()] + [
+        *reading.damped(datasets, "branches").items()
+    ]
 
 
 def _ends_of(data, branch):
     """Return why a branch ends, at both ends, with the number of the branch that it meets there."""
     ends, met = (data[name].values[branch] for name in ("branch_end", "branch_met"))
-    names = [extract.meaning("branch_end", end) for end in ends]
+    names = [reading.meaning("branch_end", end) for end in ends]
     names = [LEFT.get(name, name) for name in names]
     return [
         name if other < 0 else f"{name} of branch {other + 1}"
         for name, other in zip(names, met, strict=True)
     ]
-
-
-def _branches(datasets):
-    """Yield name, parameter columns and dataset of branches, those without a damper first."""
-    free, damped = (choose(datasets, "branches") for choose in (extract.free, extract.damped))
-    for name, data in (free | damped).items():
-        yield name, parameter_columns(data, "damping", *DAMPER), data
 
 
 def _stable_ranges(value, stable, *, closed):
@@ -113,29 +83,29 @@ def _stable_ranges(value, stable, *, closed):
 
 
 def bifurcations(datasets) -> pd.DataFrame:
-    """Return located bifurcations and changes of the contacts, sorted by branch and frequency."""
+    """Return bifurcations and changes of the contacts next to stable orbits, by branch and W."""
     rows = []
-    for name, parameters, data in _branches(datasets):
-        stable = _next_to_stable(data)
-        for k in range(data.sizes["event"]):
-            branch = int(data["event_branch"][k])
+    for name, data in _branches(datasets):
+        for k in np.flatnonzero(_next_to_stable(data)):
+            event = data.isel(event=k)
+            branch = int(event["event_branch"])
+            kind = reading.meaning("event_kind", int(event["event_kind"]))
             rows.append(
-                {"data": name}
-                | parameters
-                | {
+                {
+                    "curve": name,
                     "branch": branch + 1,
-                    "period": int(data["branch_period"][branch]),
-                    "W": f"{float(data['event_value'][k]):.10f}",
-                    "event": extract.meaning("event_kind", data["event_kind"].values[k]),
-                    "next to stable orbits": "yes" if stable[k] else "no",
-                    "max |Z1|": float(data["event_displacement"][k]),
-                    "walls before": str(data["walls_before"].values[k]),
-                    "walls after": str(data["walls_after"].values[k]),
-                    "least speed of contact": float(data["event_speed"][k]),
+                    "period [cycles]": int(data["branch_period"][branch]),
+                    "forcing frequency Ω": f"{float(event['event_value']):.10f}",
+                    "event": kind.replace("neimark sacker", "Neimark-Sacker"),
+                    "displacement max |Z1|": float(event["event_displacement"]),
+                    "order of the walls touched, before it": str(event["walls_before"].values),
+                    "order of the walls touched, after it": str(event["walls_after"].values),
+                    "least speed of contact": float(event["event_speed"]),
                 }
             )
     frame = pd.DataFrame(rows)
-    return frame.sort_values(["data", "branch", "W"], kind="stable") if rows else frame
+    keys = ["curve", "branch", "forcing frequency Ω"]
+    return frame.sort_values(keys, kind="stable") if rows else frame
 
 
 def _next_to_stable(data):

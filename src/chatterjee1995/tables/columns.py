@@ -1,14 +1,26 @@
-"""Columns with the parameters of a dataset."""
+"""Columns that several tables have."""
 
 from impact_damper.data.datasets import parameters_of
-from impact_damper.model.parameters import SYMBOLS
+
+HEADS = {
+    "damping": "damping h",
+    "linear_frequency": "linear frequency ωl",
+    "frequency": "forcing frequency Ω",
+    "mass_ratio": "mass ratio rm",
+    "clearance": "clearance d0",
+    "restitution": "restitution e",
+    "contact_stiffness": "contact stiffness r1",
+}
+DAMPER = ("mass_ratio", "clearance", "restitution")
 
 
 def parameter_columns(data, *names) -> dict:
-    """Return the values of the named parameters of a dataset, keyed by the paper's symbols.
-
-    Parameters that the dataset does not have are left out; without a damper, for example, there is
-    no mass ratio.
-    """
+    """Return the values of those named parameters that a dataset has."""
     parameters = parameters_of(data)
-    return {SYMBOLS[name]: parameters[name] for name in names if name in parameters}
+    return {HEADS[name]: parameters[name] for name in names if name in parameters}
+
+
+def bounded(head, value) -> dict:
+    """Return columns with a share or quantile and the ends of its 95 % interval."""
+    names = {"share": head, "lower": f"{head}, at least", "upper": f"{head}, at most"}
+    return {name: float(value.sel(bound=bound)) for bound, name in names.items()}

@@ -1,65 +1,21 @@
-"""Tables of the contact model and of the rigid limit, with counts of the cells of their maps.
-
-The contact force is a spring (stiffness r1) and a damper chosen for a restitution e. An exit rule
-says where a contact ends: at zero penetration, as in the paper, or already at zero force. By the
-paper's rule the wall therefore pulls at the end of a contact. The load is the relative acceleration
-that all forces except the contact force cause (`contact.contact_law`).
-
-The rigid limit compares this model with instantaneous impacts on rigid walls. "Mended" means that
-the walls are corrected for the penetration at finite r1.
-"""
+"""Tables of the contact model and of the rigid limit, with counts of the cells of their maps."""
 
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.reading import datasets as extract
+from chatterjee1995.reading import datasets as reading
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.variables import VARIABLES
 
-# Columns of the Markdown tables with their heads; the CSV files have all columns.
-SHOWN = {
-    "contact_model": {
-        "case": "case",
-        "exit": "exit rule",
-        "e": "restitution e, given",
-        "realised e": "restitution e, realised",
-        "energy lost": "fraction of energy lost",
-        "cells": "map cells",
-        "close": "cells within 1 % of e",
-        "fair": "cells within 1 % to 5 %",
-        "off": "cells beyond 5 %",
-    },
-    "rigid_limit": {
-        "case": "case",
-        "rm": "mass ratio rm",
-        "e": "restitution e",
-        "max |Z1|": "displacement max |Z1|",
-        "rigid error": "relative error of rigid walls",
-        "mended error": "relative error, corrected",
-        "order": "exponent n, error ~ r1^-n",
-        "r1 for 1%": "stiffness r1 for 1 %",
-        "stability differs": "map cells in which stability differs",
-    },
-}
-
-
-def _counts(name, values):
-    """Return the number of cells with each value of a flag, keyed by the meaning of the value.
-
-    A flag is a variable whose integers have a meaning each.
-    """
-    flags = VARIABLES[name].flags
-    return {meaning.replace("_", " "): int(np.sum(values == flags[meaning])) for meaning in flags}
-
-
-# Text shown in Markdown for each exit rule.
 EXITS = {
     "zero_penetration": "at zero penetration, as in appendix B",
     "no_tension": "at zero force, without pull",
 }
-# Column -> function that turns the text of a cell of the CSV file into the text shown in Markdown.
-# In columns without a function, underscores become spaces.
-CELLS = {"exit": lambda cell: EXITS.get(cell, cell)}
+
+
+def _count(name, values, meaning):
+    """Return the number of values of a flag with one meaning."""
+    return int(np.sum(values == VARIABLES[name].flags[meaning]))
 
 
 def contact_model(datasets) -> pd.DataFrame:
@@ -68,13 +24,26 @@ def contact_model(datasets) -> pd.DataFrame:
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
             cells = data.sel(exit_rule=rule)
-            counts = _counts("contact_verdict", cells.contact_verdict.values)
-            rows.append({"case": name, "exit": rule, "cells": cells.contact_verdict.size} | counts)
-            for i, restitution in enumerate(data.used.values):
-                rows.append(
-                    {"case": name, "exit": rule, "e": restitution}
-                    | _unloaded(cells.isel(used=i), rule == "zero_penetration")
-                )
+            head = {"case": name, "exit rule": EXITS[str(rule)]}
+            head |= dict.fromkeys(
+                ("restitution e, given", "restitution e, realised", "fraction of energy lost"),
+                np.nan,
+            )
+            values = cells.contact_verdict.values
+            rows.append(
+                head
+                | {
+                    "map cells": values.size,
+                    "cells within 1 % of e": _count("contact_verdict", values, "close"),
+                    "cells within 1 % to 5 %": _count("contact_verdict", values, "fair"),
+                    "cells beyond 5 %": _count("contact_verdict", values, "off"),
+                    "cells that fall back": _count("contact_verdict", values, "falls_back"),
+                    "cells without release": _count("contact_verdict", values, "no_release"),
+                }
+            )
+            for i in range(data.sizes["used"]):
+                one = cells.isel(used=i)
+                rows.append(head | _unloaded(one, pulls=rule == "zero_penetration"))
     return pd.DataFrame(rows)
 
 
@@ -82,9 +51,10 @@ def _unloaded(data, pulls):
     """Return the columns of a contact without load; with `pulls` also on the pull of the wall."""
     realised = float(data.unloaded_restitution)
     row = {
+        "restitution e, given": float(data.used),
+        "restitution e, realised": realised,
+        "fraction of energy lost": 1 - realised**2,
         "damping ratio": float(data.unloaded_damping),
-        "realised e": realised,
-        "energy lost": 1 - realised**2,
         "time in contact": float(data.unloaded_duration),
     }
     if pulls:
@@ -103,44 +73,67 @@ def rigid_limit(datasets) -> pd.DataFrame:
     """
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
-        own = data.sel(frequency=extract.parameter(data, "frequency"), method="nearest")
-        needed = own.needed_stiffness.values
-        where = [extract.meaning("needed_status", value) for value in own.needed_status.values]
-        error = np.abs(data.rigid_error.values)
-        both = np.isfinite(error)
-        edges = [0.0, *data.threshold.values, np.inf]
+        own = data.sel(frequency=reading.parameter(data, "frequency"), method="nearest")
+        verdict, error = data.rigid_verdict.values, np.abs(data.rigid_error.values)
+        needed, *others = _needed(own).items()
         rows.append(
             {"case": name}
-            | parameter_columns(
-                data, "damping", "mass_ratio", "clearance", "restitution", "frequency"
-            )
+            | parameter_columns(data, "mass_ratio", "restitution")
             | {
-                "r1": extract.parameter(data, "contact_stiffness"),
-                "max |Z1|": float(data.own_displacement),
-                "rigid error": float(data.own_error),
-                "mended error": float(data.own_mended_error),
-                "error of multiplier": float(data.own_decay_error),
-                "order": float(own.rigid_order),
-                "mended order": float(own.mended_order),
+                "displacement max |Z1|": float(data.own_displacement),
+                "relative error of rigid walls": float(data.own_error),
+                "relative error, corrected": float(data.own_mended_error),
+                "exponent n, error ~ r1^-n": float(own.rigid_order),
+            }
+            | dict([needed])
+            | {
+                f"map cells in which {words}": _count("rigid_verdict", verdict, meaning)
+                for meaning, words in VERDICTS.items()
+            }
+            | dict(others)
+            | _errors(error, data.threshold.values)
+            | {
+                "map cells": error.size,
+                "exponent, corrected": float(own.mended_order),
+                "error of the multiplier": float(data.own_decay_error),
             }
             | {
-                f"r1 for {level:.0%}": where[i].replace("_", " ") if np.isnan(r1) else float(r1)
-                for i, (level, r1) in enumerate(zip(data.threshold.values, needed, strict=True))
-            }
-            | {"cells": error.size}
-            | _counts("rigid_verdict", data.rigid_verdict.values)
-            | {
-                f"error {low:.0%} to {high:.0%}" if high < np.inf else f"error over {low:.0%}": int(
-                    np.sum(both & (error >= low) & (error < high))
+                f"compliant orbit {meaning.replace('_', ' ')}": _count(
+                    "compliant_status", data.compliant_status.values, meaning
                 )
-                for low, high in zip(edges[:-1], edges[1:], strict=True)
+                for meaning in VARIABLES["compliant_status"].flags
+                if meaning != "found"
             }
-            | {
-                f"compliant {words}": count
-                for words, count in _counts(
-                    "compliant_status", data.compliant_status.values
-                ).items()
-                if words != "found"
-            }
+            | parameter_columns(data, "damping", "clearance", "frequency", "contact_stiffness")
         )
     return pd.DataFrame(rows)
+
+
+VERDICTS = {
+    "stability_differs": "stability differs",
+    "both_stable": "both are stable",
+    "both_unstable": "both are unstable",
+    "rigid_only": "only the rigid orbit exists",
+    "compliant_only": "only the compliant orbit exists",
+    "neither": "neither exists",
+}
+
+
+def _needed(own):
+    """Return the stiffness from which on rigid walls are accurate, or why it is not known."""
+    columns = {}
+    for k, level in enumerate(own.threshold.values):
+        value = float(own.needed_stiffness[k])
+        why = reading.meaning("needed_status", int(own.needed_status[k]))
+        columns[f"stiffness r1 for {100 * level:g} %"] = why if np.isnan(value) else value
+    return columns
+
+
+def _errors(error, thresholds):
+    """Return the numbers of map cells with an error between two thresholds."""
+    edges = [0.0, *thresholds, np.inf]
+    columns = {}
+    for low, high in zip(edges[:-1], edges[1:], strict=True):
+        ends = f"{100 * low:g} % to {100 * high:g} %" if high < np.inf else f"over {100 * low:g} %"
+        columns[f"map cells with an error {ends}"] = int(np.sum((error >= low) & (error < high)))
+    return columns

@@ -1,122 +1,107 @@
-"""Tables of migration control: the cases of the paper, and scans of releases by frequency.
-
-Migration takes the oscillator without damper from its resonance to its small motion (the
-non-resonance): the damper is switched on, and off again. Switching it off is called a release; the
-free oscillator (without damper) then settles on one of its motions. A controller run switches the
-damper until the free oscillator arrives at the small motion. A damped motion is one with damper.
-"""
+"""Tables of migration control: cases of the paper, scans of releases, policies of release."""
 
 import numpy as np
 import pandas as pd
 
-from chatterjee1995.reading import datasets as extract
-from chatterjee1995.tables.columns import parameter_columns
+from chatterjee1995.reading import datasets as reading
+from chatterjee1995.tables.columns import DAMPER, bounded, parameter_columns
 from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true
 
-# Columns of the Markdown tables with their heads; the CSV files have all columns.
-SHOWN = {
-    "migration": {
-        "case": "case",
-        "W": "forcing frequency Ω",
-        "released from": "released from",
-        "to non-resonance": "share to the non-resonance",
-        "to resonance": "share to the resonance",
-        "to subharmonic": "share to the subharmonic",
-        "to unresolved": "share unresolved",
-        "within 350 cycles": "share of control runs within 350 cycles",
-        "median cycles, all runs": "median time [cycles]",
-    },
-    "release_scan": {
-        "scan": "scan",
-        "released from": "released from",
-        "period": "period of the damped motion [cycles]",
-        "leads to": "leads to",
-        "at W": "at Ω",
-        "frequencies": "frequencies",
-        "to non-resonance": "share to the non-resonance",
-        "to resonance": "share to the resonance",
-        "to subharmonic": "share to the subharmonic",
-    },
+POLICIES = {
+    "settled": "random phase once settled",
+    "hold": "fixed number of cycles",
+    "phase": "fixed phase",
+    "state": "state in the goal's basin",
 }
 
 
 def migration(datasets) -> pd.DataFrame:
     """Return the shares of releases that lead to each free motion, and results of controller runs.
 
-    The table has one row for each case and each damped motion from which the oscillator is
-    released.
+    The table has a row for each case and each damped motion that is released.
     """
     rows = []
     for name, case in datasets.get("migration", {}).items():
         reached = case.trial_outcome == flag("trial_outcome", "reached")
         runs = {
+            "share of control runs within 350 cycles": float(case.within_share.sel(bound="share")),
+            "median time [cycles]": float(case.total_time.median()),
+            "longest time [cycles]": float(case.total_time.max()),
+            "median time with damper [cycles]": float(case.damper_time.median()),
             "runs that arrive": float(reached.mean()),
-            "within 350 cycles": float(case.within_share.sel(bound="share")),
             "median switchings of runs that arrive": float(case.switchings.where(reached).median()),
-            "median cycles, damper on, all runs": float(case.damper_time.median()),
-            "median cycles, all runs": float(case.total_time.median()),
-            "most cycles, all runs": float(case.total_time.max()),
             "long damped runs that settle on the quiet motion": float(
                 (case.landed_on == flag("landed_on", "quiet")).mean()
             ),
             "rate of settling per cycle": float(case.escape_rate.sel(bound="share")),
         }
         for k in range(case.sizes["damped"]):
+            kind = reading.meaning("damped_kind", case.damped_kind[k])
             shares = case.release_share.isel(damped=k)
+            goal = shares.sel(free_motion="non_resonance")
             rows.append(
                 {"case": name}
                 | parameter_columns(case, "frequency")
                 | {
-                    "released from": extract.meaning("damped_kind", case.damped_kind[k])
-                    + (", without contact" if case.damped_contacts[k] == 0 else ""),
-                    "period": int(case.damped_period[k]),
-                    "max |Z1|": float(case.damped_displacement[k]),
+                    "released from": kind
+                    + (", without contact" if case.damped_contacts[k] == 0 else "")
                 }
                 | {
-                    f"to {end}".replace("_", "-"): float(shares.sel(free_motion=end, bound="share"))
-                    for end in case.free_motion.values
-                }
-                | {
-                    "to non-resonance at least": float(
-                        shares.sel(free_motion="non_resonance", bound="lower")
-                    ),
-                    "to non-resonance at most": float(
-                        shares.sel(free_motion="non_resonance", bound="upper")
-                    ),
+                    _destination(end): float(shares.sel(free_motion=end, bound="share"))
+                    for end in ("non_resonance", "resonance", "subharmonic", "unresolved")
                 }
                 | runs
+                | {
+                    "period": int(case.damped_period[k]),
+                    "displacement max |Z1|": float(case.damped_displacement[k]),
+                    _destination("other"): float(shares.sel(free_motion="other", bound="share")),
+                    "to the non-resonance, at least": float(goal.sel(bound="lower")),
+                    "to the non-resonance, at most": float(goal.sel(bound="upper")),
+                }
             )
     return pd.DataFrame(rows)
+
+
+def _destination(motion):
+    """Return the head of the share of releases to a free motion."""
+    if motion in ("unresolved", "other"):
+        return f"share {motion}"
+    return f"share to the {motion.replace('_', '-')}"
 
 
 def release_scan(datasets) -> pd.DataFrame:
     """Return the frequencies at which releases from each damped motion lead to each free motion.
 
-    The table has one row for each scan, damped motion and set of free motions. The row lists the
-    frequencies at which releases lead to each free motion of the set and to no other.
+    A row lists the frequencies at which releases of a damped motion lead to each free motion of a
+    set and to no other.
     """
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
+        ends = list(scan.free_motion.values)
         shares = scan.release_share.sel(bound="share", drop=True).to_series().unstack().dropna()
         shares["kind"] = scan.damped_kind.to_series()
         shares["period"] = scan.damped_period.to_series()
-        shares = shares.groupby(["kind", "period", "frequency"])[list(scan.free_motion.values)]
-        for (kind, period), motion in shares.mean().groupby(level=["kind", "period"]):
+        means = shares.groupby(["kind", "period", "frequency"])[ends].mean()
+        for (kind, period), motion in means.groupby(level=["kind", "period"]):
             motion = motion.droplevel(["kind", "period"])
-            ends = motion.apply(lambda row: ", ".join(row.index[row > 0]), axis=1)
-            for destinations, part in motion.groupby(ends, sort=False):
+            led = motion.apply(lambda row: ", ".join(row.index[row > 0]), axis=1)
+            for destinations, part in motion.groupby(led, sort=False):
                 rows.append(
-                    {"scan": name}
-                    | parameter_columns(scan, "damping", "mass_ratio", "clearance", "restitution")
-                    | {
-                        "released from": extract.meaning("damped_kind", kind),
-                        "period": int(period),
+                    {
+                        "scan": name,
+                        "released from": reading.meaning("damped_kind", kind),
+                        "period of the damped motion [cycles]": int(period),
                         "leads to": destinations.replace("_", "-"),
-                        "at W": _ranges(scan.frequency.values, part.index),
+                        "at Ω": _ranges(scan.frequency.values, part.index),
                         "frequencies": len(part),
                     }
-                    | {f"to {end}".replace("_", "-"): part[end].mean() for end in part}
+                    | {
+                        _destination(end): part[end].mean()
+                        for end in ("non_resonance", "resonance", "subharmonic", "unresolved")
+                    }
+                    | {_destination("other"): part["other"].mean()}
+                    | parameter_columns(scan, "damping", *DAMPER)
                 )
     return pd.DataFrame(rows)
 
@@ -126,3 +111,61 @@ def _ranges(grid, chosen):
     runs = runs_of_true(np.isin(grid, chosen))
     ends = [dict.fromkeys([f"{grid[first]:.5g}", f"{grid[last - 1]:.5g}"]) for first, last in runs]
     return ", ".join(" to ".join(pair) for pair in ends)
+
+
+def release_policies(datasets) -> pd.DataFrame:
+    """Return success, cycles and cost of each policy, by damper and forcing frequency W."""
+    rows = []
+    for data in datasets.get("release_policies", {}).values():
+        dims = ("case", "frequency", "policy")
+        for place in np.ndindex(*(data.sizes[dim] for dim in dims)):
+            one = data.isel(dict(zip(dims, place, strict=True)))
+            rm, d0, e = (float(one[f"case_{name}"]) for name in DAMPER)
+            median, late = (one.policy_cycles.sel(quantile=each) for each in (0.5, 0.95))
+            late, damper, impacts = (
+                bounded(head, value)
+                for head, value in (
+                    ("95 % arrive within [cycles]", late),
+                    ("median time with damper [cycles]", one.policy_damper),
+                    ("median number of impacts", one.policy_impacts),
+                )
+            )
+            firsts = [next(iter(each.items())) for each in (late, damper, impacts)]
+            rows.append(
+                {
+                    "damper": f"rm = {rm:g}, d0 = {d0:g}, e = {e:g}",
+                    "forcing frequency Ω": float(one.frequency),
+                    "policy (K in cycles, phase ΩT in radian)": _rule(one),
+                    "share within 350 cycles (95 % interval)": _with_interval(one.policy_success),
+                    "median time [cycles] (95 % interval)": _with_interval(median),
+                }
+                | dict(firsts)
+                | {"mean number of releases": float(one.policy_releases)}
+                | bounded("share within 350 cycles", one.policy_success)
+                | bounded("median time [cycles]", median)
+                | {"K": float(one.policy_hold), "phase": float(one.policy_phase)}
+                | late
+                | damper
+                | impacts
+                | {"mass ratio rm": rm, "clearance d0": d0, "restitution e": e}
+            )
+    return pd.DataFrame(rows)
+
+
+def _rule(one):
+    """Return the policy in words, with the parameters that were chosen for it."""
+    words, cycles = POLICIES[str(one.policy.values)], f"K = {float(one.policy_hold):g}"
+    return {
+        "hold": f"{words}, {cycles}",
+        "phase": f"{words} {float(one.policy_phase):.2f} after {cycles}",
+        "state": f"{words}, at most {cycles}",
+    }.get(str(one.policy.values), words)
+
+
+def _with_interval(value):
+    """Return the text of a share or quantile and its confidence interval."""
+    middle, lower, upper = (
+        f"{float(value.sel(bound=bound)):.3g}".replace("inf", "∞")
+        for bound in ("share", "lower", "upper")
+    )
+    return middle if middle == lower == upper else f"{middle} ({lower} to {upper})"

@@ -1,0 +1,227 @@
+"""Tables of harmonic balance: designs, convergence with harmonics, and maps of its stability."""
+
+import numpy as np
+import pandas as pd
+
+from chatterjee1995.reading import datasets as reading
+from chatterjee1995.reading.datasets import Missing
+from chatterjee1995.stages.map_cells import NEAR
+from chatterjee1995.tables.columns import parameter_columns
+from chatterjee1995.variables.balance_map import BALANCE_VERDICT
+from impact_damper.data.datasets import flag, is_settled, parameters_of
+from impact_damper.data.shares import wilson
+from impact_damper.data.variables import VARIABLES
+
+# Harmonics listed for each accuracy, and errors whose decrease is listed (N: highest harmonic).
+ACCURACIES = {0.01: "1 %", 1e-6: "1e-6", 1e-3: "1e-3"}
+MEASURES = {"retained": "harmonics up to N", "omitted": "harmonics beyond N"}
+MEASURES |= {"multiplier": "multipliers"}
+# What is asked about each cell of a map, and the variable that holds the answer as a flag.
+QUESTIONS = {
+    "quiet motion": "quiet_verdict",
+    "start at the quiet solution": "quiet_run_motion",
+    "violent motion": "high_verdict",
+}
+TRUTHS = {
+    "high": "violent",
+    "high chaotic": "violent and chaotic",
+    "low": "small",
+    "low chaotic": "small and chaotic",
+    "other low": "another small motion",
+    "near": "violent, max |Z1| within 20 % of |a|",
+    "far": "violent, max |Z1| more than 20 % from |a|",
+}
+
+
+def harmonic_balance(datasets) -> pd.DataFrame:
+    """Return the paper's rule (19), harmonic balance and exact orbit of each curve at its Wp."""
+    rows = []
+    for name, data in reading.damped(datasets, "harmonic_balance").items():
+        peak = float(data.peak_frequency)
+        mass_ratio, clearance = reading.parameters(data, "mass_ratio", "clearance")
+        rows.append(
+            {"curve": name}
+            | parameter_columns(data, "damping", "mass_ratio", "clearance")
+            | {
+                "peak frequency Ωp": peak,
+                "d0 by rule (19)": 1 / (mass_ratio * peak**2),
+                "amplitude |a| at Ωp, balance": float(data.quiet_amplitude),
+            }
+            | _exact_orbit(datasets.get("design_orbit", {}).get(name))
+            | {
+                "free |a| at Ωp": float(data.peak_amplitude),
+                "rm Ωp^2 d0": mass_ratio * peak**2 * clearance,
+                "reduction at Ωp": float(data.reduction),
+            }
+            | parameter_columns(data, "linear_frequency")
+        )
+    return pd.DataFrame(rows)
+
+
+def _exact_orbit(orbit):
+    """Return columns on the exact quiet orbit and on random starts, both at the design point."""
+    columns = {"max |Z1| at Ωp, exact orbit": np.nan, "stability of the exact orbit": ""}
+    if orbit is None:
+        return columns
+    columns |= {
+        "largest multiplier": np.nan,
+        "stable from h": np.nan,
+        "starts that settle": float(np.mean(is_settled({"outcome": orbit.design_run_outcome}))),
+        "largest max |Z1| of starts": float(orbit.design_run_displacement.max()),
+    }
+    try:
+        quiet = reading.design_point(orbit)
+    except Missing:
+        return columns | {"stability of the exact orbit": "not found"}
+    multiplier = float(reading.largest_multiplier(quiet))
+    return columns | {
+        "max |Z1| at Ωp, exact orbit": float(quiet.orbit_displacement),
+        "stability of the exact orbit": "stable" if multiplier < 1 else "unstable",
+        "largest multiplier": multiplier,
+        "stable from h": reading.stable_from(orbit),
+    }
+
+
+def harmonic_convergence(datasets) -> pd.DataFrame:
+    """Return for each motion the harmonics needed, the decrease of errors, and cold starts.
+
+    In a cold start Newton's method for N harmonics begins from the solution with one harmonic.
+    """
+    return pd.DataFrame(
+        {"motion": name} | _convergence(data)
+        for name, data in datasets.get("harmonic_convergence", {}).items()
+    )
+
+
+def _convergence(data):
+    """Return the row of a motion in the table of convergence."""
+    highest = data["highest_harmonic"].values
+    error = data["series_error"]
+    needed = {
+        f"harmonics for an error of {words}": _needed(
+            highest, error.sel(error_measure="maximum").values, accuracy
+        )
+        for accuracy, words in ACCURACIES.items()
+    }
+    first, second, third = needed.items()
+    cold = data["cold_status"]
+    lost = cold.values > flag("cold_status", "same_motion")
+    return (
+        {"displacement max |Z1|": float(data["exact_maximum"])}
+        | dict([first, second])
+        | {
+            "decrease with harmonics N": "exp(-rate N)" if data["decay_kind"] == 1 else "N^-power",
+            **_decay(data, "maximum", "power or rate"),
+            "cold starts": int(np.sum(cold.values >= 0)),
+            "cold starts that find the motion": _ended(cold, "same_motion"),
+            "cold starts that find another motion": _ended(cold, "another_motion"),
+            "cold starts that stall": _ended(cold, "stalled"),
+            "cold starts not done": _ended(cold, "iteration_limit"),
+            "first lost at N": int(highest[lost][0]) if lost.any() else np.nan,
+        }
+        | dict([third])
+        | {
+            "highest N": highest[-1],
+            "failed": int(np.sum(data["series_status"] != flag("series_status", "converged"))),
+            "Hill failed": int(np.sum(data["hill_status"] != flag("hill_status", "found"))),
+            "error of multipliers": float(error.sel(error_measure="multiplier")[-1]),
+            "fitted from N": float(data["asymptotic_harmonic"]),
+        }
+        | {
+            head: value
+            for measure, words in MEASURES.items()
+            for head, value in _decay(data, measure, words).items()
+        }
+        | parameter_columns(
+            data, "damping", "frequency", "mass_ratio", "clearance", "restitution",
+            "contact_stiffness",
+        )
+    )  # fmt: skip
+
+
+def _decay(data, measure, words):
+    """Return the columns with the power or rate of the decrease of an error."""
+    one = data.sel(error_measure=measure)
+    return {
+        f"{words}, observed": float(one["decay_observed"]),
+        f"{words}, predicted": float(one["decay_predicted"]),
+    }
+
+
+def _ended(cold, meaning):
+    """Return the number of cold starts that ended in one way."""
+    return int(np.sum(cold == flag("cold_status", meaning)))
+
+
+def _needed(highest, error, accuracy):
+    """Return the smallest N from which on all errors are at most `accuracy`; NaN if none is."""
+    above = np.flatnonzero(~(error <= accuracy))
+    first = above[-1] + 1 if len(above) else 0
+    return highest[first] if first < len(highest) else np.nan
+
+
+def balance_map(datasets) -> pd.DataFrame:
+    """Return the numbers of map cells with each verdict, with chaos, and with accurate amplitudes.
+
+    The 95 % intervals of the shares treat the cells of the grid as a random sample.
+    """
+    rows = []
+    for name, data in datasets.get("balance_map", {}).items():
+        found = []
+        for question, variable in QUESTIONS.items():
+            values = data[variable].values
+            for meaning, value in VARIABLES[variable].flags.items():
+                count = int(np.sum(values == value))
+                if count:
+                    found.append(_cells(question, *_answers(meaning), count, values.size))
+        over = f"Ω/Ωp and {parameters_of(data)['parameter']}"
+        rows += [{"map": name} | row | {"over": over} for row in [*found, *_summary(data)]]
+    return pd.DataFrame(rows)
+
+
+def _answers(meaning):
+    """Return the answers of harmonic balance and of the exact motions from a flag's meaning."""
+    balance, _, truth = meaning.partition("_")
+    if balance not in BALANCE_VERDICT or not truth:
+        balance, truth = "", meaning
+    words = truth.replace("_", " ")
+    return balance, TRUTHS.get(words, words)
+
+
+def _cells(question, balance, truth, count, total):
+    """Return the row with a count of cells, and its share with Wilson's interval."""
+    share, lower, upper = wilson(int(count), int(total))
+    return {
+        "question": question,
+        "harmonic balance says": balance,
+        "exact motions": truth,
+        "map cells": int(count),
+        "of cells": int(total),
+        "share": share,
+        "lower end of its 95 % interval": lower,
+        "upper end of its 95 % interval": upper,
+    }
+
+
+def _summary(data):
+    """Yield rows on chaos among the violent motions, and on cells with a stable quiet orbit."""
+    kinds = data["high_run_motion"].values
+    chaotic = np.sum(kinds == flag("high_run_motion", "high_chaotic"))
+    settled = np.sum(kinds == flag("high_run_motion", "high"))
+    yield _cells("violent motions found", "", "chaotic", chaotic, chaotic + settled)
+    long = data["high_long_outcome"].values
+    still = np.sum(long == flag("high_long_outcome", "chaotic"))
+    ran = np.sum(long != flag("high_long_outcome", "absent"))
+    yield _cells("chaotic ones run ten times as long", "", "still chaotic", still, ran)
+    agreed = data["quiet_verdict"].values == flag("quiet_verdict", "stable_stable")
+    landed = data["quiet_run_motion"].values[agreed] == flag("quiet_run_motion", "quiet")
+    question = "balance stable, orbit stable"
+    reached = "reached from the balance's solution"
+    yield _cells(question, "", reached, landed.sum(), len(landed))
+    size = data["balance_quiet_amplitude"].values[agreed]
+    for words, variable in (
+        ("max |Z1|", "quiet_orbit_displacement"),
+        ("its first harmonic", "quiet_orbit_harmonic"),
+    ):
+        near = np.abs(size / data[variable].values[agreed] - 1) <= NEAR
+        yield _cells(question, "", f"|a| within 20 % of {words}", near.sum(), len(near))
