@@ -392,14 +392,23 @@ def release_scan(frequency, subharmonic_share):
 
 
 def policies(case, frequency):
-    """Return releases by state, hold and phase, with shares of success 0.1, 0.2 and 0.3."""
+    """Return releases by state, hold and phase, with shares of success 0.1, 0.2 and 0.3.
+
+    Cycles, time with the damper and impacts are 100 times these shares.
+    """
     shares = np.array([0.1, 0.2, 0.3])[:, None] + [0, -0.05, 0.05]
     dims = ("case", "frequency", "policy", "bound")
+    cycles = np.repeat(100 * shares[None, None, :, None], 2, axis=3)
     given = json.loads(case.attrs["parameters"])
     return xr.Dataset(
         {
             "policy_success": (dims, shares[None, None]),
-            "policy_cycles": ((*dims[:3], "quantile", "bound"), 100 * shares[None, None, :, None]),
+            "policy_cycles": ((*dims[:3], "quantile", "bound"), cycles),
+            "policy_damper": (dims, 100 * shares[None, None]),
+            "policy_impacts": (dims, 100 * shares[None, None]),
+            "policy_releases": (dims[:3], np.ones((1, 1, 3))),
+            "policy_hold": (dims[:3], np.full((1, 1, 3), 5.0)),
+            "policy_phase": (dims[:3], np.full((1, 1, 3), 1.5)),
             "realised_share": (("case", "frequency", "bound"), np.full((1, 1, 3), 0.7)),
         }
         | {
@@ -409,7 +418,7 @@ def policies(case, frequency):
         {
             "policy": ["state", "hold", "phase"],
             "frequency": [frequency],
-            "quantile": [0.5],
+            "quantile": [0.5, 0.95],
             "bound": ["share", "lower", "upper"],
         },
         case.attrs,

@@ -113,6 +113,6 @@ KINDS = (
     Kind("balance_map", "methods", "balance", ("balance_map",), most=1),
 )
 TABLES = (
-    Table("harmonic_convergence", "design", "design", ("harmonic_convergence",)),
-    Table("balance_map", "methods", "balance_map", ("balance_map",)),
+    Table("harmonic_convergence", "design", "balance", ("harmonic_convergence",)),
+    Table("balance_map", "methods", "balance", ("balance_map",)),
 )

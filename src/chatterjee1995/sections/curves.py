@@ -172,15 +172,15 @@ KINDS = (
     Kind("shares", "responses", "responses", ("response",)),
 )
 TABLES = (
-    Table("harmonic_balance", "design", "design", ("harmonic_balance", "design_orbit")),
+    Table("harmonic_balance", "design", "balance", ("harmonic_balance", "design_orbit")),
     Table(
         "outcomes",
         "responses",
-        "motions",
+        "responses",
         ("response", "subharmonic", "optimum", "studies", "balance_map"),
     ),
-    Table("quasi_periodic", "responses", "motions", ("response",)),
-    Table("chaos", "responses", "motions", ("response", "branches")),
+    Table("quasi_periodic", "responses", "responses", ("response",)),
+    Table("chaos", "responses", "responses", ("response", "branches")),
     Table("subharmonic", "responses", "responses", ("branches", "subharmonic")),
     Table("orbits", "responses", "branches", ("branches",)),
     Table("bifurcations", "responses", "branches", ("branches",)),

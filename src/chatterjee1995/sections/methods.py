@@ -330,7 +330,7 @@ KINDS = (
 TABLES = (
     Table("contact_model", "methods", "contact", ("contact_model",)),
     Table("rigid_limit", "methods", "contact", ("rigid_limit",)),
-    Table("missed_contacts", "methods", "integrators", ("missed_contacts",)),
-    Table("stable_steps", "methods", "integrators", ("stable_steps",)),
-    Table("models", "methods", "accuracy", ("accuracy",)),
+    Table("missed_contacts", "methods", "methods", ("missed_contacts",)),
+    Table("stable_steps", "methods", "methods", ("stable_steps",)),
+    Table("models", "methods", "methods", ("accuracy",)),
 )

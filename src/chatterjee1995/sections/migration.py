@@ -142,5 +142,5 @@ KINDS = (
 TABLES = (
     Table("migration", "migration", "migration", ("migration",)),
     Table("release_scan", "migration", "migration", ("release_scan",)),
-    Table("release_policies", "migration", "policies", ("release_policies",)),
+    Table("release_policies", "migration", "migration", ("release_policies",)),
 )

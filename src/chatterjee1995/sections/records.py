@@ -50,7 +50,7 @@ class Stage(NamedTuple):
 class Table(NamedTuple):
     """A table of a chapter, made by the function of the same name in a module.
 
-    The CSV file has all columns, the Markdown file those that the module lists in `SHOWN`.
+    The CSV file has all columns, the Markdown file the first nine.
 
     Attributes
     ----------

@@ -5,7 +5,7 @@ import pandas as pd
 
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading.datasets import Missing
-from chatterjee1995.stages.map_cells import NEAR
+from chatterjee1995.stages.balance_map import NEAR
 from chatterjee1995.tables.columns import parameter_columns
 from chatterjee1995.variables.balance_map import BALANCE_VERDICT
 from impact_damper.data.datasets import flag, is_settled, parameters_of

@@ -28,22 +28,6 @@ PROMISES = {
 }
 
 
-# Columns of the Markdown tables with their heads; the CSV files have all columns.
-SHOWN = {
-    "machines": {
-        "machine": "machine",
-        "loose mass, kg": "loose mass [kg]",
-        "band, Hz": "band [Hz]",
-        "gap (full play), mm": "gap, full play [mm]",
-        "advice": "advice",
-        "largest without damper, mm": "largest displacement without damper [mm]",
-        "largest with it, mm": "largest displacement with damper [mm]",
-        "promise": "promise, tested with new starts",
-        "best tuned absorber, mm": "largest with the best tuned absorber [mm]",
-    },
-}
-
-
 def machines(datasets) -> pd.DataFrame:
     """Return for each machine the gap, displacements, the promise, and the best tuned absorber."""
     return pd.DataFrame([_row(name, data) for name, data in datasets.get("machines", {}).items()])
@@ -57,17 +41,17 @@ def _row(name, data):
     unseen = data["corner_share"].values[:, 0]
     return {
         "machine": name,
-        "loose mass, kg": made["damper_mass"],
-        "band, Hz": " to ".join(f"{end:g}" for end in asked["band"]),
-        "gap (full play), mm": _gap(data, asked["tolerances"].get("gap", 0.0)),
+        "loose mass [kg]": made["damper_mass"],
+        "band [Hz]": " to ".join(f"{end:g}" for end in asked["band"]),
+        "gap, full play [mm]": _gap(data, asked["tolerances"].get("gap", 0.0)),
         "advice": CHOICES[named(data, "design_choice")],
-        "largest without damper, mm": float(data["balance_displacement"].max()),
-        "largest with it, mm": escape_or(data["reached_displacement"].max()),
+        "largest displacement without damper [mm]": float(data["balance_displacement"].max()),
+        "largest displacement with damper [mm]": escape_or(data["reached_displacement"].max()),
+        "promise, tested with new starts": PROMISES[named(data, "promise")],
+        "largest with the best tuned absorber [mm]": escape_or(np.fmin.reduce(absorbers)),
         "quiet share of 1000 unseen starts": unseen[0],
         "corners of the tolerances": len(unseen) - 1,
         "least quiet share at a corner": unseen[1:].min() if len(unseen) > 1 else "-",
-        "promise": PROMISES[named(data, "promise")],
-        "best tuned absorber, mm": escape_or(np.fmin.reduce(absorbers)),
     }
 
 

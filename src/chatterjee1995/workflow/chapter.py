@@ -16,18 +16,11 @@ def make_table(name, given, datasets, path) -> None:
 
     module = import_module(given["module"])
     frame = getattr(module, name)({stage: datasets.get(stage, {}) for stage in given["stages"]})
-    # A module has its own function `document` for Markdown, or it lists the columns in `SHOWN`.
     if "drawn" in given:
         document = partial(module.document, drawn=given["drawn"])
     else:
-        document = partial(
-            table_files.for_people,
-            title=given["caption"].removesuffix("."),
-            heads=module.SHOWN[name],
-            csv_name=f"{name}.csv",
-            cells=getattr(module, "CELLS", {}),
-            rows=getattr(module, "ROWS", {}).get(name),
-        )
+        title = given["caption"].removesuffix(".")
+        document = partial(table_files.for_people, title=title, csv_name=f"{name}.csv")
     table_files.save_table(frame, f"{path}.csv", f"{path}.md", document)
     _write(f"{path}.rst", given["caption"])
 

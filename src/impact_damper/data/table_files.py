@@ -11,6 +11,7 @@ from impact_damper.data.whole_files import whole
 # Significant digits of numbers in CSV and in Markdown files.
 DIGITS, FEW_DIGITS = 6, 4
 LARGE = 1e7
+SHOWN = 9  # columns of a table that its page shows
 
 
 def save_table(frame, csv_path, markdown_path, document=None) -> None:
@@ -42,36 +43,18 @@ def as_markdown(frame) -> str:
     return text.to_markdown(index=False, disable_numparse=True)
 
 
-def for_people(frame, title, heads, csv_name, cells=None, rows=None) -> str:
-    """Return the Markdown text of a table with its most important columns and rows.
+def for_people(frame, title, csv_name) -> str:
+    """Return the Markdown page of a table of strings with its first nine columns.
 
-    Parameters
-    ----------
-    frame : pandas.DataFrame
-        Table of strings.
-    title : str
-    heads : dict of str
-        Heads of the columns shown, with symbol and unit, keyed by the name of the column. A column
-        whose data were not computed is left out.
-    csv_name : str
-        Name of the file with all columns.
-    cells : dict of callable, optional
-        Keyed by column: a function from the text of a cell to the text shown. Other cells are shown
-        as `in_words` returns them.
-    rows : (str, str), optional
-        Column, and the text that it has in the rows shown. All rows are shown by default.
+    `csv_name` is the name of the file with all columns.
     """
-    cells = cells or {}
-    kept = frame if rows is None or frame.empty else frame[frame[rows[0]] == rows[1]]
-    shown = kept[[name for name in heads if name in frame]]
-    shown = shown.apply(lambda column: column.map(cells.get(column.name, in_words)))
-    shown = shown.rename(columns=heads)
     note = (
         "Numbers without a unit are dimensionless; an empty cell is a quantity that does not "
-        f"exist there or was not computed. `{csv_name}` has all {frame.shape[1]} columns"
-        + (f" and {len(frame)} rows." if len(kept) < len(frame) else ".")
+        f"exist there or was not computed. `{csv_name}` has all {frame.shape[1]} columns."
     )
-    body = "The configuration has no data for this table." if frame.empty else as_markdown(shown)
+    body = "The configuration has no data for this table."
+    if not frame.empty:
+        body = as_markdown(frame.iloc[:, :SHOWN].map(in_words))
     return "\n\n".join([f"# {title}", note, body])
 
 

@@ -9,8 +9,7 @@ import pytest
 from helpers.known_orbits import PAPER
 
 from chatterjee1995.stages.balance_map import HIGH, balance_map
-from chatterjee1995.tables.balance_map import SHOWN
-from chatterjee1995.tables.balance_map import balance_map as table_of
+from chatterjee1995.tables.balance import balance_map as table_of
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Damper
 from impact_damper.model.settling import Settling
@@ -107,16 +106,16 @@ def test_free_resonance_is_followed_to_its_end_only(over_restitution):
 
 def test_counts_add_up(over_restitution):
     table = table_of({"balance_map": {"made": over_restitution}})
-    assert SHOWN["balance_map"].keys() <= set(table)
     cells = over_restitution["quiet_verdict"].size
-    for question in ("quiet motion", "high motion", "start at the quiet solution"):
-        assert table[table.question == question].cells.sum() == cells
-        assert (table[table.question == question].of == cells).all()
-    assert (table.cells <= table.of).all()
-    assert ((table.lower <= table.share) & (table.share <= table.upper)).all()
-    counted = table[(table.question == "quiet motion") & (table.truth == "absent")]
+    for question in ("quiet motion", "violent motion", "start at the quiet solution"):
+        assert table[table.question == question]["map cells"].sum() == cells
+        assert (table[table.question == question]["of cells"] == cells).all()
+    assert (table["map cells"] <= table["of cells"]).all()
+    lower, upper = (table[f"{end} end of its 95 % interval"] for end in ("lower", "upper"))
+    assert table.share.between(lower, upper).all()
+    counted = table[(table.question == "quiet motion") & (table["exact motions"] == "absent")]
     verdict = names(over_restitution, "quiet_verdict")
-    assert counted.cells.sum() == np.char.endswith(verdict.astype(str), "absent").sum()
+    assert counted["map cells"].sum() == np.char.endswith(verdict.astype(str), "absent").sum()
     assert table_of({}).empty
 
 

@@ -7,7 +7,7 @@ from scipy.special import ellipk
 
 from chatterjee1995.figures.balance import draw_harmonic_convergence
 from chatterjee1995.stages import convergence, harmonic_convergence
-from chatterjee1995.tables.design import harmonic_convergence as table
+from chatterjee1995.tables.balance import harmonic_convergence as table
 from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
@@ -64,9 +64,11 @@ def test_cold_starts_are_told_apart(soft):
 @pytest.mark.thorough
 def test_table_and_figure(soft, free):
     rows = table({"harmonic_convergence": {"soft": soft, "free": free}}).set_index("motion")
-    assert rows.loc["soft", "N for 1 %"] == 23
-    assert rows.loc["free", "cold starts"] == rows.loc["free", "same motion"] == 9
-    assert np.isnan(rows.loc["free", "rm"])
+    assert rows.loc["soft", "harmonics for an error of 1 %"] == 23
+    assert (
+        rows.loc["free", "cold starts"] == rows.loc["free", "cold starts that find the motion"] == 9
+    )
+    assert np.isnan(rows.loc["free", "mass ratio rm"])
     drawn = draw_harmonic_convergence(harmonic_convergence=[soft, free])
     assert len(drawn.axes) == 4
 

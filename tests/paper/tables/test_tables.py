@@ -3,11 +3,11 @@
 import numpy as np
 import pandas as pd
 import pytest
-from helpers.made_up import world
+from helpers.made_up import policies, world
 from helpers.made_up_orbits import branch, branches
 
+from chatterjee1995.tables import balance, clearance, migration, responses
 from chatterjee1995.tables import branches as table_branches
-from chatterjee1995.tables import clearance, design, migration, responses
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.table_files import save_table
 
@@ -18,29 +18,29 @@ def data():
 
 
 def test_harmonic_balance(data):
-    table = design.harmonic_balance(data).set_index("curve")
+    table = balance.harmonic_balance(data).set_index("curve")
     assert len(table) == len(data["harmonic_balance"])
-    assert table.loc["figure_05a", "rm Wp^2 d0"] == pytest.approx(1)
-    assert table.loc["figure_03b", "d0 of (19)"] == pytest.approx(1 / (0.12 * 2.1**2))
+    assert table.loc["figure_05a", "rm Ωp^2 d0"] == pytest.approx(1)
+    assert table.loc["figure_03b", "d0 by rule (19)"] == pytest.approx(1 / (0.12 * 2.1**2))
 
 
 def test_optimum(data):
     table = clearance.optimum(data).set_index("sweep")
     assert len(table) == len(data["optimum"])
     assert table.loc["0.107_0.12_1.0", "excess over (18)"] == pytest.approx(0.05)
-    assert (table.kind == "kink").all()
+    assert (table["kind of optimum"] == "kink").all()
 
 
 def test_subharmonic(data):
     table = responses.subharmonic(data)
-    free = table[table.damper == "off"].set_index("data")
-    assert free.loc["free_h215", "from W"] == pytest.approx(0.8 * 2)
-    assert free.loc["free_h215", "to W"] == pytest.approx(1.1 * 2)
-    damped = table[table.data == "figure_05c"]
+    free = table[table.damper == "off"].set_index("curve")
+    assert free.loc["free_h215", "stable from Ω"] == pytest.approx(0.8 * 2)
+    assert free.loc["free_h215", "stable to Ω"] == pytest.approx(1.1 * 2)
+    damped = table[table.curve == "figure_05c"]
     assert list(damped.branch) == ["all", "4"]
-    assert list(damped["largest max |Z1|"]) == pytest.approx([0.1, 0.1])
+    assert list(damped["largest displacement max |Z1|"]) == pytest.approx([0.1, 0.1])
     assert damped["largest ratio to free max |Z1|"].iloc[0] == pytest.approx(0.1 / 0.8)
-    assert list(table[table.data == "figure_05a"].branch) == ["all"]
+    assert list(table[table.curve == "figure_05a"].branch) == ["all"]
 
 
 def test_free_oscillator_without_subharmonic(data):
@@ -55,14 +55,14 @@ def test_stable_parts_of_a_closed_branch_do_not_depend_on_its_first_orbit(start)
     stable = np.roll([True, True, False, False, False, True, False, True], start)
     made = orbit_columns(frequency, stable)
     table = table_branches.orbits({"branches": {"closed": made}})
-    assert table.loc[0, "stable W"] == "1 to 1.1, 1.2 to 1.2"
+    assert table.loc[0, "stable Ω"] == "1 to 1.1, 1.2 to 1.2"
 
 
 def test_an_end_that_is_left_open_has_its_reason():
     made = orbit_columns(np.array([1.0, 1.1]), np.array([True, True]))
     ends = [[flag("branch_end", "unstable"), flag("branch_end", "range_ends")]]
     left = made.assign(branch_end=made["branch_end"].copy(data=ends))
-    table = table_branches.orbits({"branches": {"closed": made, "left": left}}).set_index("data")
+    table = table_branches.orbits({"branches": {"closed": made, "left": left}}).set_index("curve")
     assert table["one end"]["closed"] == "closed" and table["other end"]["left"] == "range ends"
     assert table["one end"]["left"].startswith("left among unstable orbits, since")
 
@@ -97,22 +97,36 @@ def test_migration(data):
     table = migration.migration(data)
     assert len(table) == 2 * len(data["migration"])
     row = table[(table.case == "figure_15") & (table["released from"] == "quiet")].iloc[0]
-    assert row["to subharmonic"] == 0.5
+    assert row["share to the subharmonic"] == 0.5
     assert row["runs that arrive"] == 1
-    assert row["median cycles, all runs"] == pytest.approx(150)
+    assert row["median time [cycles]"] == pytest.approx(150)
 
 
 def test_release_scan(data):
     table = migration.release_scan(data).set_index(["scan", "released from", "leads to"])
     both = table.loc["wide", "quiet", "non-resonance, subharmonic"]
-    assert both["at W"] == "1.5, 1.7 to 1.8"
+    assert both["at Ω"] == "1.5, 1.7 to 1.8"
     assert both["frequencies"] == 3
-    assert both["to subharmonic"] == 0.5
-    assert table.loc["wide", "quiet", "non-resonance"]["at W"] == "1.6"
-    assert table.loc["wide", "unsettled", "subharmonic"]["at W"] == "1.9"
+    assert both["share to the subharmonic"] == 0.5
+    assert table.loc["wide", "quiet", "non-resonance"]["at Ω"] == "1.6"
+    assert table.loc["wide", "unsettled", "subharmonic"]["at Ω"] == "1.9"
     assert set(table.index.get_level_values("released from")) == {"unsettled", "quiet"}
-    shares = table[[name for name in table if name.startswith("to ")]]
+    shares = table[[name for name in table if name.startswith("share ")]]
     assert shares.sum(axis=1).to_list() == pytest.approx([1] * len(table))
+
+
+def test_each_policy_has_a_row(data):
+    made = policies(data["migration"]["figure_15"], 1.7)
+    table = migration.release_policies({"release_policies": {"paper": made}})
+    rows = table.set_index("policy (K in cycles, phase ΩT in radian)")
+    assert list(rows.index) == [
+        "state in the goal's basin, at most K = 5",
+        "fixed number of cycles, K = 5",
+        "fixed phase 1.50 after K = 5",
+    ]
+    assert list(rows["share within 350 cycles (95 % interval)"])[0] == "0.1 (0.05 to 0.15)"
+    assert list(rows["median time [cycles], at most"]) == pytest.approx([15, 25, 35])
+    assert set(rows["damper"]) == {"rm = 0.12, d0 = 2.08333, e = 1"}
 
 
 def test_files(tmp_path):
