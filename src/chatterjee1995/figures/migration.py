@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from chatterjee1995.tables.policies import POLICIES
+from chatterjee1995.variables.policies import POLICIES
 from impact_damper import plot
 from impact_damper.data.datasets import flag
 from impact_damper.plot.style import (

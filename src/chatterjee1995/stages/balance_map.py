@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from chatterjee1995.variables.balance_map import MAPPED
+from chatterjee1995.variables.balance_map import MAPPED, NEAR
 from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wall
 from impact_damper.model import packed
 from impact_damper.model.bounds import check_number
@@ -35,8 +35,6 @@ from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 # A motion is high if its amplitude is at least HIGH times the free resonance amplitude, and quiet
 # if its amplitude is below this limit.
 HIGH = 0.5
-# A settled motion is near a predicted motion if max |Z1| differs relatively by at most NEAR.
-NEAR = 0.2
 
 
 class Cells(NamedTuple):

@@ -5,9 +5,8 @@ import pandas as pd
 
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading.datasets import Missing
-from chatterjee1995.stages.balance_map import NEAR
 from chatterjee1995.tables.columns import parameter_columns
-from chatterjee1995.variables.balance_map import BALANCE_VERDICT
+from chatterjee1995.variables.balance_map import BALANCE_VERDICT, NEAR
 from impact_damper.data.datasets import flag, is_settled, parameters_of
 from impact_damper.data.shares import wilson
 from impact_damper.data.variables import VARIABLES

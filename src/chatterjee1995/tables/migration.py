@@ -5,15 +5,9 @@ import pandas as pd
 
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.tables.columns import DAMPER, bounded, parameter_columns
+from chatterjee1995.variables.policies import POLICIES
 from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true
-
-POLICIES = {
-    "settled": "random phase once settled",
-    "hold": "fixed number of cycles",
-    "phase": "fixed phase",
-    "state": "state in the goal's basin",
-}
 
 
 def migration(datasets) -> pd.DataFrame:

@@ -12,6 +12,8 @@ from impact_damper.data.variables import OUTCOME, register
 
 # Parameters that may change from row to row of a map.
 MAPPED = ("damping", "mass_ratio", "clearance", "restitution")
+# A settled motion is near a predicted one if max |Z1| differs relatively by at most NEAR.
+NEAR = 0.2
 BALANCE_VERDICT = {"none": 0, "stable": 1, "unstable": 2, "unresolved": 3}
 RUN_MOTION = {
     "not_run": -1,

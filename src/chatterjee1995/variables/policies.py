@@ -2,6 +2,14 @@
 
 from impact_damper.data.variables import register
 
+# Words for the policies of release in tables and figures.
+POLICIES = {
+    "settled": "random phase once settled",
+    "hold": "fixed number of cycles",
+    "phase": "fixed phase",
+    "state": "state in the goal's basin",
+}
+
 register(
     """
 case | case | | | index of a damper
