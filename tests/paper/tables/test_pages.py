@@ -9,8 +9,8 @@ from helpers.made_up import world
 from helpers.made_up_design import made_up_design
 
 from chatterjee1995.methods.labels import method_in_words
+from chatterjee1995.sections import selection
 from chatterjee1995.sections.registry import TABLES
-from chatterjee1995.workflow import selection
 from chatterjee1995.workflow.chapter import make_table
 from impact_damper.data.table_files import SHOWN, in_words
 
