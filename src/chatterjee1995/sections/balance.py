@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from chatterjee1995.sections.records import Kind, Stage, Table
+from chatterjee1995.sections.records import Kind, Table, stage
 from chatterjee1995.sections.system import (
     BOUNDS,
     CLEARANCE_OR_RULE,
@@ -39,7 +39,11 @@ class HarmonicConvergence(MaybeWithDamper):
         **HARMONIC_RANGE | {"least": 0},
     )
 
-    def job(self, config) -> dict:
+    @stage(
+        "chatterjee1995.stages.harmonic_convergence:harmonic_convergence",
+        "Harmonic balance with many harmonics against the exact orbit, for {name}",
+    )
+    def harmonic_convergence(self, config) -> dict:
         cold = min(self.highest, self.highest_cold)
         balances = {
             "frequency": self.frequency,
@@ -77,7 +81,12 @@ class BalanceMap(
             elif key != self.parameter and value is None:
                 yield missing((*path, key), f"needed where {self.parameter} changes")
 
-    def job(self, config) -> dict:
+    @stage(
+        "chatterjee1995.stages.balance_map:balance_map",
+        "Harmonic balance against exact motions, the map {name}",
+        priority=1,
+    )
+    def balance_map(self, config) -> dict:
         # Without a clearance the stage takes the clearance of the paper's rule (19) in each row.
         values = given(self, [*OSCILLATOR, *DAMPER]).items()
         fixed = {key: value for key, value in values if value != "rule"}
@@ -91,23 +100,6 @@ class BalanceMap(
 
 
 SECTIONS = {"harmonic_convergence": HarmonicConvergence, "balance_map": BalanceMap}
-STAGES = (
-    Stage(
-        "harmonic_convergence",
-        "harmonic_convergence",
-        HarmonicConvergence.job,
-        "chatterjee1995.stages.harmonic_convergence:harmonic_convergence",
-        "Harmonic balance with many harmonics against the exact orbit, for {name}",
-    ),
-    Stage(
-        "balance_map",
-        "balance_map",
-        BalanceMap.job,
-        "chatterjee1995.stages.balance_map:balance_map",
-        "Harmonic balance against exact motions, the map {name}",
-        priority=1,
-    ),
-)
 KINDS = (
     Kind("harmonic_convergence", "design", "balance", ("harmonic_convergence",), most=5),
     Kind("balance_map", "methods", "balance", ("balance_map",), most=1),

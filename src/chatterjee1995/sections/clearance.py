@@ -3,7 +3,7 @@
 import math
 from typing import ClassVar
 
-from chatterjee1995.sections.records import Kind, Stage, Table
+from chatterjee1995.sections.records import Kind, Table, stage
 from chatterjee1995.sections.system import (
     BOUNDS,
     CLEARANCE,
@@ -47,7 +47,11 @@ class Optimum(keys_of(DAMPER, needed=NEEDED, without=["clearance", COMMON]), Wit
             reason = f"with points.clearances makes {runs}: must be at most {MOST_RUNS} in all"
             yield problem((*path, "starts"), self.starts, f"{reason} (a job keeps them in memory)")
 
-    def job(self, config) -> dict:
+    @stage(
+        "impact_damper.orbits.clearance_sweep:clearance_sweep",
+        "Largest displacement against clearance, and its optimum, for {name}",
+    )
+    def optimum(self, config) -> dict:
         sweep = {
             "damper": damper_values(self, config),
             "frequency": self.frequency,
@@ -82,7 +86,12 @@ class DesignRules(WithOscillator):
             reason = f"must lie above the linear frequency {linear!r} (the rules hold above it)"
             yield problem((*path, "frequencies"), self.frequencies, reason)
 
-    def job(self, config) -> dict:
+    @stage(
+        "chatterjee1995.stages.design_rules:design_rules",
+        "Rules for the clearance against the optimum of the motion, on the grid {name}",
+        priority=1,
+    )
+    def design_rules(self, config) -> dict:
         return self.system(config) | {key: getattr(self, key) for key in self.counts}
 
 
@@ -129,7 +138,11 @@ class Study(WithOscillator):
         search = config.search.job(config, config.search.study_starts)
         return self.system(config) | grid | search | config.settling.job()
 
-    def job(self, config) -> dict:
+    @stage(
+        "chatterjee1995.stages.studies:study_chunk",
+        "The study {name}",
+    )
+    def studies(self, config) -> dict:
         """Return the parameters of the job that joins the chunks."""
         return {}
 
@@ -145,30 +158,6 @@ def even(given) -> dict:
 
 
 SECTIONS = {"optimum": Optimum, "design_rules": DesignRules, "studies": Study}
-STAGES = (
-    Stage(
-        "optimum",
-        "optimum",
-        Optimum.job,
-        "impact_damper.orbits.clearance_sweep:clearance_sweep",
-        "Largest displacement against clearance, and its optimum, for {name}",
-    ),
-    Stage(
-        "design_rules",
-        "design_rules",
-        DesignRules.job,
-        "chatterjee1995.stages.design_rules:design_rules",
-        "Rules for the clearance against the optimum of the motion, on the grid {name}",
-        priority=1,
-    ),
-    Stage(
-        "studies",
-        "studies",
-        Study.job,
-        "chatterjee1995.stages.studies:study_chunk",
-        "The study {name}",
-    ),
-)
 KINDS = (
     Kind("optimum", "clearance", "clearance", ("optimum",)),
     Kind("design_rules", "clearance", "clearance", ("design_rules",), named=True),

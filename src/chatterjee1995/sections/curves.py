@@ -1,6 +1,6 @@
 """Frequency responses: curves over frequency, and single motions."""
 
-from chatterjee1995.sections.records import Kind, Stage, Table
+from chatterjee1995.sections.records import Kind, Table, stage
 from chatterjee1995.sections.system import (
     CLEARANCE_OR_RULE,
     FREQUENCY,
@@ -57,24 +57,49 @@ class Curve(MaybeWithDamper):
         """Return the range of frequencies of the curve."""
         return config.oscillators[self.oscillator].frequencies
 
+    @stage(
+        "impact_damper.theory.harmonic_balance:harmonic_balance",
+        "Harmonic balance of the curve {name}",
+    )
     def harmonic_balance(self, config) -> dict:
         points = config.points.harmonic_balance
         return self.system(config) | {"frequencies": self.span(config).even(points)}
 
+    @stage(
+        "chatterjee1995.stages.design_orbit:design_orbit",
+        "Exact quiet orbits at the design points of curves",
+        together=True,
+    )
     def design_orbit(self, config) -> dict:
         search = config.search.job(config, config.search.sweep_starts)
         return self.system(config) | search | config.settling.job()
 
+    @stage(
+        "chatterjee1995.stages.subharmonic:subharmonic_suppression",
+        "Runs from the one-third subharmonic, for the curve {name}",
+        priority=2,
+    )
     def subharmonic(self, config) -> dict:
         points = config.points.simulated if self.has_damper() else config.points.free
         frequencies = {"frequencies": self.span(config).even(points)}
         search = config.search.job(config, config.search.starts)
         return self.system(config) | frequencies | search | config.settling.job()
 
+    @stage(
+        "impact_damper.motions.response:frequency_response",
+        "Motions over frequency, of the curve {name}",
+        priority=2,
+    )
     def response(self, config) -> dict:
         lives = {key: getattr(config.search, key) for key in ("life_runs", "life_periods")}
         return self.subharmonic(config) | lives
 
+    @stage(
+        "impact_damper.orbits.all_branches:complete_branches",
+        "Branches of periodic orbits of the curve {name}",
+        reads={"motions": ("response", "subharmonic")},
+        priority=1,
+    )
     def branches(self, config) -> dict:
         span = self.span(config)
         return self.system(config) | {"frequencies": [span.first, span.last]}
@@ -85,7 +110,11 @@ class Motion(WithDamper):
 
     frequency: FREQUENCY
 
-    def job(self, config) -> dict:
+    @stage(
+        "impact_damper.motions.steady:steady_orbit",
+        "Steady motion {name}",
+    )
+    def motion(self, config) -> dict:
         run = {"frequency": self.frequency, "state": START, "samples": 4000}
         return self.system(config) | run | config.settling.job()
 
@@ -95,69 +124,17 @@ class Collision(WithDamper):
 
     frequency: FREQUENCY
 
-    def job(self, config) -> dict:
+    @stage(
+        "impact_damper.motions.response:collisions",
+        "Starts that lead to collisions",
+        together=True,
+    )
+    def collisions(self, config) -> dict:
         drawn = {"radius": config.search.radius, "seed": config.seed}
         return self.system(config) | {"frequency": self.frequency} | drawn
 
 
 SECTIONS = {"curves": Curve, "motion": Motion, "collisions": Collision}
-STAGES = (
-    Stage(
-        "harmonic_balance",
-        "curves",
-        Curve.harmonic_balance,
-        "impact_damper.theory.harmonic_balance:harmonic_balance",
-        "Harmonic balance of the curve {name}",
-    ),
-    Stage(
-        "design_orbit",
-        "curves",
-        Curve.design_orbit,
-        "chatterjee1995.stages.design_orbit:design_orbit",
-        "Exact quiet orbits at the design points of curves",
-        together=True,
-    ),
-    Stage(
-        "response",
-        "curves",
-        Curve.response,
-        "impact_damper.motions.response:frequency_response",
-        "Motions over frequency, of the curve {name}",
-        priority=2,
-    ),
-    Stage(
-        "subharmonic",
-        "curves",
-        Curve.subharmonic,
-        "chatterjee1995.stages.subharmonic:subharmonic_suppression",
-        "Runs from the one-third subharmonic, for the curve {name}",
-        priority=2,
-    ),
-    Stage(
-        "branches",
-        "curves",
-        Curve.branches,
-        "impact_damper.orbits.all_branches:complete_branches",
-        "Branches of periodic orbits of the curve {name}",
-        reads={"motions": ("response", "subharmonic")},
-        priority=1,
-    ),
-    Stage(
-        "motion",
-        "motion",
-        Motion.job,
-        "impact_damper.motions.steady:steady_orbit",
-        "Steady motion {name}",
-    ),
-    Stage(
-        "collisions",
-        "collisions",
-        Collision.job,
-        "impact_damper.motions.response:collisions",
-        "Starts that lead to collisions",
-        together=True,
-    ),
-)
 KINDS = (
     Kind("harmonic_balance", "design", "responses", ("harmonic_balance",)),
     Kind("free", "responses", "responses", ("branches",), damper=False),

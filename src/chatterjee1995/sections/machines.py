@@ -1,6 +1,6 @@
 """Machines in SI units, which the paper does not have, and the dampers designed for them."""
 
-from chatterjee1995.sections.records import Kind, Stage, Table
+from chatterjee1995.sections.records import Kind, Table, stage
 from chatterjee1995.sections.system import too_many
 from impact_damper.command import machine_entry
 
@@ -25,7 +25,14 @@ class Machine(machine_entry.MachineEntry):
         yield from super().contradictions(path, config)
         yield from too_many(path, self, self.counts)
 
-    def job(self, config) -> dict:
+    @stage(
+        "impact_damper.design.design_damper:design_damper",
+        "A damper for the machine {name}",
+        priority=1,
+        paper=False,
+        page=PAGE,
+    )
+    def machines(self, config) -> dict:
         ball = self.contact.values()
         keys = ("candidates", "starts", "share", "displacement_limit")
         return (
@@ -44,18 +51,6 @@ class Machine(machine_entry.MachineEntry):
 
 
 SECTIONS = {"machines": Machine}
-STAGES = (
-    Stage(
-        "machines",
-        "machines",
-        Machine.job,
-        "impact_damper.design.design_damper:design_damper",
-        "A damper for the machine {name}",
-        priority=1,
-        paper=False,
-        page=PAGE,
-    ),
-)
 KINDS = (
     Kind(
         "machines",

@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from chatterjee1995.methods.labels import ERRORS, START_HARMONICS, STATISTICS, TOLERANCE_KEYS
-from chatterjee1995.sections.records import Kind, Stage, Table
+from chatterjee1995.sections.records import Kind, Table, stage
 from chatterjee1995.sections.system import (
     BOUNDS,
     COMMON,
@@ -60,7 +60,7 @@ class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON
     frequencies: several(FREQUENCY, "increasing frequencies of the motions", least=1)
     periods: count("forcing cycles over which contacts are logged", **PERIODS_RANGE)
     cells: ContactCells
-    smallest_restitution: number("smallest e of the map", **BOUNDS["restitution"])
+    smallest_restitution: number("smallest e of the map", **BOUNDS["restitution"] | {"most": 0.99})
     largest_load: number(
         "largest load: acceleration divided by natural frequency and approach speed", **LOAD_RANGE
     )
@@ -69,13 +69,14 @@ class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON
 
     def contradictions(self, path, config):
         yield from super().contradictions(path, config)
-        if self.smallest_restitution == 1:
-            reason = "must be less than 1 (where the map ends)"
-            yield problem((*path, "smallest_restitution"), 1, reason)
         for key in ("restitutions", "frequencies"):
             yield from increasing((*path, key), getattr(self, key), "motions are run in order")
 
-    def job(self, config) -> dict:
+    @stage(
+        "chatterjee1995.stages.contact_model:contact_model",
+        "Contact model and contacts of motions, {name}",
+    )
+    def contact_model(self, config) -> dict:
         cells = self.cells
         values = {
             "frequencies": self.frequencies,
@@ -107,7 +108,12 @@ class RigidLimit(WithDamper):
 
     counts: ClassVar = ("cells.frequencies", "cells.stiffnesses")
 
-    def job(self, config) -> dict:
+    @stage(
+        "chatterjee1995.stages.rigid_limit:rigid_limit",
+        "Rigid impacts against compliant contact",
+        together=True,
+    )
+    def rigid_limit(self, config) -> dict:
         values = {
             "frequency": self.frequency,
             "frequencies": self.frequencies.even(self.cells.frequencies),
@@ -130,11 +136,12 @@ class MissedContacts(WithOscillator):
 
     counts: ClassVar = ("passages", "depths.points", "tolerances.points")
 
-    def contradictions(self, path, config):
-        yield from super().contradictions(path, config)
-        yield from close_steps(path, self)
-
-    def job(self, config) -> dict:
+    @stage(
+        "chatterjee1995.methods.missed_contacts:missed_contacts",
+        "Contacts near grazing that integrators miss, {name}",
+        priority=1,
+    )
+    def missed_contacts(self, config) -> dict:
         keys = ("frequency", "passages", "radius")
         values = {key: getattr(self, key) for key in keys} | {
             "depths": self.depths.geometric(),
@@ -159,32 +166,16 @@ class StableSteps(WithDamper):
 
     counts: ClassVar = ("stiffnesses.points", "scaled_steps.points")
 
-    def job(self, config) -> dict:
+    @stage(
+        "chatterjee1995.methods.stable_steps:stable_steps",
+        "Largest stable steps of fixed-step methods, {name}",
+    )
+    def stable_steps(self, config) -> dict:
         values = {key: getattr(self, key) for key in ("frequency", "most_steps", "periods")} | {
             "stiffnesses": self.stiffnesses.geometric(),
             "scaled_steps": self.scaled_steps.geometric(),
         }
         return self.system(config) | values
-
-
-def close_steps(path, entry):
-    """Yield a line if the range `steps` holds fewer different whole numbers than tolerances.
-
-    Methods with fixed steps are compared at as many numbers of steps as others at tolerances.
-    """
-    span, points = entry.steps, entry.tolerances.points
-    ratio = span.last / span.first
-    numbers = {round(span.first * ratio ** (k / (points - 1))) for k in range(points)}
-    if len(numbers) < points:
-        reason = f"must be so far from first = {span.first} that {points} whole numbers fit"
-        yield problem(
-            (*path, "steps", "last"), span.last, f"{reason} (as many as tolerances.points)"
-        )
-
-
-def state(meaning):
-    """Return the type of a state: displacement and velocity of Z1 and Z2."""
-    return several(COMPONENT, f"Z1, Z1', Z2, Z2': {meaning}", least=4, most=4)
 
 
 class Accuracy(Section):
@@ -198,7 +189,7 @@ class Scene(MaybeWithDamper):
     """Motions on which the errors and the work of methods and models are compared."""
 
     frequency: FREQUENCY
-    state: state("first state, at W T = pi/2")
+    state: several(COMPONENT, "Z1, Z1', Z2, Z2' at the start, W T = pi/2", least=4, most=4)
     periods: RUN_PERIODS
     motion: choice(
         "steady (a periodic orbit with the period of the forcing), transient or chaotic",
@@ -221,6 +212,13 @@ class Scene(MaybeWithDamper):
             reason = f"must be another quantity (the motion is {self.motion})"
             yield problem((*path, "accuracy", "quantity"), self.accuracy.quantity, reason)
 
+    @stage(
+        "chatterjee1995.stages.accuracy:accuracy",
+        "Errors of methods against counted work, {name}",
+        name="accuracy",
+        files={"references": "workflow/resources/references.json"},
+        priority=1,
+    )
     def job(self, config) -> dict:
         keys = ("frequency", "state", "periods", "motion")
         values = {key: getattr(self, key) for key in keys} | {"accuracy": dict(self.accuracy)}
@@ -279,47 +277,6 @@ SECTIONS = {
     "stable_steps": StableSteps,
     "scenes": Scene,
 }
-STAGES = (
-    Stage(
-        "contact_model",
-        "contact_model",
-        ContactModel.job,
-        "chatterjee1995.stages.contact_model:contact_model",
-        "Contact model and contacts of motions, {name}",
-    ),
-    Stage(
-        "rigid_limit",
-        "rigid_limit",
-        RigidLimit.job,
-        "chatterjee1995.stages.rigid_limit:rigid_limit",
-        "Rigid impacts against compliant contact",
-        together=True,
-    ),
-    Stage(
-        "missed_contacts",
-        "missed_contacts",
-        MissedContacts.job,
-        "chatterjee1995.methods.missed_contacts:missed_contacts",
-        "Contacts near grazing that integrators miss, {name}",
-        priority=1,
-    ),
-    Stage(
-        "stable_steps",
-        "stable_steps",
-        StableSteps.job,
-        "chatterjee1995.methods.stable_steps:stable_steps",
-        "Largest stable steps of fixed-step methods, {name}",
-    ),
-    Stage(
-        "accuracy",
-        "scenes",
-        Scene.job,
-        "chatterjee1995.stages.accuracy:accuracy",
-        "Errors of methods against counted work, {name}",
-        files={"references": "workflow/resources/references.json"},
-        priority=1,
-    ),
-)
 KINDS = (
     Kind("contact_model", "methods", "contact_model", ("contact_model",)),
     Kind("rigid_limit", "methods", "rigid_limit", ("rigid_limit",)),

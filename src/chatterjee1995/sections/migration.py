@@ -1,6 +1,6 @@
 """Migration control, from one motion to another by switching the damper, and basins."""
 
-from chatterjee1995.sections.records import Kind, Stage, Table
+from chatterjee1995.sections.records import Kind, Table, stage
 from chatterjee1995.sections.system import (
     COMMON,
     DAMPER,
@@ -33,7 +33,12 @@ class Migration(WithDamper):
         **PERIODS_RANGE,
     )
 
-    def job(self, config) -> dict:
+    @stage(
+        "impact_damper.motions.migration:trials",
+        "Migration control, the case {name}",
+        priority=1,
+    )
+    def migration(self, config) -> dict:
         run = {"frequency": self.frequency, "longest_hold": self.longest_hold, "seed": config.seed}
         return self.system(config) | dict(config.controller) | run | config.settling.job()
 
@@ -47,7 +52,11 @@ class ReleaseScan(WithDamper):
         **SCAN_LIFETIME_RANGE,
     )
 
-    def job(self, config) -> dict:
+    @stage(
+        "chatterjee1995.stages.release_scan:release_scan",
+        "Motions after the damper is switched off, over frequency, the scan {name}",
+    )
+    def release_scan(self, config) -> dict:
         scan = {
             "frequencies": self.frequencies.even(config.points.scanned),
             "releases": config.controller.releases,
@@ -65,7 +74,11 @@ class Basins(MaybeWithDamper):
     velocity: number("half width of the plane in Z1'", above=0, most=FASTEST)
     cells: count("states on each axis of the plane", least=2, most=10**4)
 
-    def job(self, config) -> dict:
+    @stage(
+        "impact_damper.orbits.basins:basins",
+        "Motions to which the states of a plane lead, the plane {name}",
+    )
+    def basins(self, config) -> dict:
         keys = ("frequency", "displacement", "velocity", "cells")
         plane = {key: getattr(self, key) for key in keys}
         return self.system(config) | plane | config.settling.job()
@@ -88,7 +101,12 @@ class ReleasePolicies(WithOscillator):
         yield from super().contradictions(path, config)
         yield from increasing((*path, "frequencies"), self.frequencies, "frequencies of a curve")
 
-    def job(self, config) -> dict:
+    @stage(
+        "chatterjee1995.stages.release_policies:release_policies",
+        "Policies of migration, the dampers {name}",
+        priority=1,
+    )
+    def release_policies(self, config) -> dict:
         dampers = [each for _, each in sorted(self.dampers.items())]
         values = {"dampers": [{"Damper": damper_values(each, config)} for each in dampers]}
         values |= {key: getattr(self, key) for key in ("frequencies", "trials", "tested", "cells")}
@@ -101,38 +119,6 @@ SECTIONS = {
     "basins": Basins,
     "release_policies": ReleasePolicies,
 }
-STAGES = (
-    Stage(
-        "migration",
-        "migration",
-        Migration.job,
-        "impact_damper.motions.migration:trials",
-        "Migration control, the case {name}",
-        priority=1,
-    ),
-    Stage(
-        "release_scan",
-        "release_scan",
-        ReleaseScan.job,
-        "chatterjee1995.stages.release_scan:release_scan",
-        "Motions after the damper is switched off, over frequency, the scan {name}",
-    ),
-    Stage(
-        "basins",
-        "basins",
-        Basins.job,
-        "impact_damper.orbits.basins:basins",
-        "Motions to which the states of a plane lead, the plane {name}",
-    ),
-    Stage(
-        "release_policies",
-        "release_policies",
-        ReleasePolicies.job,
-        "chatterjee1995.stages.release_policies:release_policies",
-        "Policies of migration, the dampers {name}",
-        priority=1,
-    ),
-)
 KINDS = (
     Kind("migration", "migration", "migration", ("migration",)),
     Kind("release", "migration", "migration", ("migration",)),

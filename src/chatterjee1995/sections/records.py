@@ -9,13 +9,10 @@ class Stage(NamedTuple):
 
     Attributes
     ----------
-    name : str
-        Also the name of its rule and of its folder of results.
-    section : str
-        Section of the configuration. An entry of `curves` lists its stages.
+    name, section : str
     job : callable
-        Method of the section's class: the parameters of the job of an entry, from the whole
-        configuration. They are the keywords of `function`, in forms that `job.made` reads.
+        Method of an entry: the parameters of its job, from the whole configuration. They are the
+        keywords of `function`, in forms that `workflow.job.made` reads.
     function : str
         Function that computes the dataset, as "module:function".
     message : str
@@ -45,6 +42,16 @@ class Stage(NamedTuple):
     priority: int = 0
     paper: bool = True
     page: tuple[str, ...] = ()
+
+
+def stage(function, message, **options):
+    """Mark a method of a section's class as the job of the stage with the method's name."""
+
+    def mark(job):
+        job.stage = {"name": job.__name__, "function": function, "message": message} | options
+        return job
+
+    return mark
 
 
 class Table(NamedTuple):

@@ -1,4 +1,4 @@
-"""Reference of the configuration, generated from the models: every key with its allowed values."""
+"""Reference of the configuration, generated from its classes: every key with its allowed values."""
 
 from typing import get_args, get_origin
 
@@ -18,50 +18,40 @@ COLUMNS = "| key | must be | meaning |\n|---|---|---|"
 
 def reference() -> str:
     """Return the page as Markdown."""
-    sections = {
-        key: field.annotation
-        for key, field in Settings.model_fields.items()
-        if _is_section(field.annotation)
-    }
-    single = [key for key in Settings.model_fields if key not in sections]
-    parts = [HEAD, "## Single values\n", _table(Configuration, "", single)]
+    fields = Settings.model_fields
+    sections = {key: each.annotation for key, each in fields.items() if _section(each.annotation)}
+    parts = [HEAD, "## Single values\n", _table(Configuration, fields.keys() - sections.keys())]
     for key, model in sections.items():
-        parts += [f"## {key}\n", f"{model.__doc__}\n", _table(model, "", model.model_fields)]
+        parts += [f"## {key}\n", f"{model.__doc__}\n", _table(model)]
     for key, model in ENTRIES.items():
-        parts += [f"## {key}.NAME\n", f"{model.__doc__}\n", _table(model, "", model.model_fields)]
+        parts += [f"## {key}.NAME\n", f"{model.__doc__}\n", _table(model)]
     return "\n".join(parts)
 
 
-def _table(model, prefix, keys):
-    """Return the Markdown table of some keys of a model, each with a prefix."""
-    lines = [line for key in keys for line in _rows(prefix + key, model.model_fields[key])]
-    return "\n".join([COLUMNS, *lines, ""])
+def _table(model, keys=None):
+    """Return the Markdown table of the keys of a model, or of some of them."""
+    fields = {key: each for key, each in model.model_fields.items() if keys is None or key in keys}
+    return "\n".join([COLUMNS, *_rows("", fields), ""])
 
 
-def _rows(key, field):
-    """Yield a line of the table for a field, or for each key inside the field."""
-    kind = field.annotation
-    if _is_section(kind):
-        yield from _inner(f"{key}.", kind)
-    elif get_origin(kind) is dict and _is_section(get_args(kind)[1]):
-        yield from _inner(f"{key}.NAME.", get_args(kind)[1])
-    elif get_origin(kind) is dict:
-        allowed = _allowed(get_args(kind)[1].__metadata__)
-        yield f"| `{key}.NAME` | {allowed.words} | {allowed.meaning} |"
-    else:
-        allowed = _allowed(field.metadata) or _allowed(get_args(kind)[0].__metadata__)
+def _rows(prefix, fields):
+    """Yield a line for each field, and in place of a section the lines of its fields."""
+    for key, field in fields.items():
+        kind, key = field.annotation, prefix + key
+        if get_origin(kind) is dict:
+            kind, key = get_args(kind)[1], f"{key}.NAME"
+        if _section(kind):
+            yield from _rows(f"{key}.", kind.model_fields)
+            continue
+        allowed = _allowed(field.metadata) if kind is field.annotation else None
+        allowed = allowed or _allowed(getattr(kind, "__metadata__", ()))
+        allowed = allowed or _allowed(get_args(kind)[0].__metadata__)
         words = [allowed.words]
         if get_origin(kind) is list:
             words += [f"each {_item(get_args(kind)[0])}"]
         words += [f"the keys {', '.join(f'`{x}`' for x in model)}" for model in _ranges(kind)]
         words += [] if field.is_required() else ["may be left out"]
         yield f"| `{key}` | {'; '.join(words)} | {allowed.meaning} |"
-
-
-def _inner(prefix, model):
-    """Yield the lines of all keys of a model."""
-    for key, field in model.model_fields.items():
-        yield from _rows(prefix + key, field)
 
 
 def _item(kind):
@@ -73,7 +63,7 @@ def _item(kind):
 def _ranges(kind):
     """Return the keys of the range that may replace a number."""
     parts = [get_args(part)[0] for part in get_args(kind) if hasattr(part, "__metadata__")]
-    return [part.model_fields for part in parts if _is_section(part)]
+    return [part.model_fields for part in parts if _section(part)]
 
 
 def _allowed(metadata):
@@ -81,7 +71,7 @@ def _allowed(metadata):
     return next((x for x in reversed(metadata) if isinstance(x, Allowed)), None)
 
 
-def _is_section(kind):
+def _section(kind):
     return isinstance(kind, type) and issubclass(kind, Section)
 
 

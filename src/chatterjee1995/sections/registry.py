@@ -12,7 +12,7 @@ from chatterjee1995.sections import (
     methods,
     migration,
 )
-from chatterjee1995.sections.records import Kind, Table
+from chatterjee1995.sections.records import Kind, Stage, Table
 
 SCHEMATIC = Kind("schematic", "design", "schematics", (), most=1)
 CLAIMS = (
@@ -48,7 +48,12 @@ CHAPTERS = {
     "machines": "Dampers for machines in SI units",
 }
 SECTIONS = {name: model for subject in SUBJECTS for name, model in subject.SECTIONS.items()}
-STAGES = {stage.name: stage for subject in SUBJECTS for stage in subject.STAGES}
+STAGES = {
+    job.stage["name"]: Stage(section=section, job=job, **job.stage)
+    for section, model in SECTIONS.items()
+    for job in vars(model).values()
+    if hasattr(job, "stage")
+}
 KINDS = {kind.name: kind for each in SUBJECTS for kind in each.KINDS} | {"schematic": SCHEMATIC}
 TABLES = {table.name: table for each in SUBJECTS for table in (*each.TABLES, *CLAIMS)}
 
