@@ -123,8 +123,7 @@ def draw_release_policies(*, release_policies):
     panels[0, 0].set_ylabel("Share within 350 cycles")
     panels[1, 0].set_ylabel("Median of the cycles")
     letter_panels(panels.ravel())
-    handles, labels = panels[0, 0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside lower center", ncols=3)
+    legend(drawn, 3)
     return drawn
 
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from chatterjee1995.variables.policies import POLICIES
 from impact_damper.data.datasets import dataset
 from impact_damper.data.shares import BOUNDS, QUANTILE, wilson
 from impact_damper.kernel.compiling import kernel
@@ -25,7 +26,6 @@ from impact_damper.motions.migration import PAPER_CYCLES
 from impact_damper.motions.release_set import PHASES, release_set
 from impact_damper.motions.strobe_map import strobe_time
 
-POLICIES = ["settled", "hold", "phase", "state"]
 # Fixed numbers of cycles that are tried, each about 1.6 times the one before.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 # Quantiles of the cycles until the goal that are stored.
@@ -134,7 +134,7 @@ def release_policies(
     coordinates = {
         "case": np.arange(len(dampers)),
         "frequency": frequencies,
-        "policy": POLICIES,
+        "policy": list(POLICIES),
         "quantile": QUANTILES,
         "bound": BOUNDS,
     }

@@ -49,11 +49,6 @@ def basins(data, axes=None):
     -------
     matplotlib.axes.Axes
 
-    Raises
-    ------
-    TypeError
-        If `data` or `axes` is of another type.
-
     Examples
     --------
     >>> import impact_damper as idm

@@ -74,11 +74,6 @@ def branch(data, axes=None):
     -------
     matplotlib.axes.Axes
 
-    Raises
-    ------
-    TypeError
-        If `data` or `axes` is of another type.
-
     Examples
     --------
     >>> import impact_damper as idm

@@ -18,11 +18,6 @@ def design(data, axes=None):
     -------
     list of matplotlib.axes.Axes
 
-    Raises
-    ------
-    TypeError
-        If `data` or `axes` is of another type.
-
     Examples
     --------
     >>> import impact_damper as idm

@@ -37,11 +37,6 @@ def orbit(data, axes=None):
     list of matplotlib.axes.Axes
         Axes of the phase portrait and of the course in time.
 
-    Raises
-    ------
-    TypeError
-        If `data` or `axes` is of another type.
-
     Examples
     --------
     >>> import impact_damper as idm
@@ -110,11 +105,6 @@ def migration(data, axes=None, span=None):
     Returns
     -------
     matplotlib.axes.Axes
-
-    Raises
-    ------
-    TypeError
-        If `data` or `axes` is of another type.
 
     Examples
     --------

@@ -41,11 +41,6 @@ def response(data, axes=None):
     -------
     matplotlib.axes.Axes
 
-    Raises
-    ------
-    TypeError
-        If `data` or `axes` is of another type.
-
     Examples
     --------
     >>> import impact_damper as idm

@@ -66,11 +66,6 @@ def shares(data, axes=None):
     -------
     matplotlib.axes.Axes
 
-    Raises
-    ------
-    TypeError
-        If `data` or `axes` is of another type.
-
     Examples
     --------
     >>> import impact_damper as idm

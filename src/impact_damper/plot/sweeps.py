@@ -37,11 +37,6 @@ def sweep(data, axes=None):
     -------
     matplotlib.axes.Axes
 
-    Raises
-    ------
-    TypeError
-        If `data` or `axes` is of another type.
-
     Examples
     --------
     >>> import impact_damper as idm
