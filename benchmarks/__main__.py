@@ -21,7 +21,7 @@ from benchmarks import (
     startup,
 )
 from benchmarks.timing import one_core
-from impact_damper.data import table_files
+from chatterjee1995.tables import files as table_files
 from impact_damper.plot.style import save_figure
 
 # Amounts of work: in full, and as little as possible, to try the scripts.

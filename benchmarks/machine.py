@@ -6,8 +6,8 @@ from importlib.metadata import version
 
 import pandas as pd
 
+from chatterjee1995.tables import files as table_files
 from chatterjee1995.workflow.provenance import processor
-from impact_damper.data import table_files
 
 PACKAGES = ("numba", "llvmlite", "numpy", "scipy", "heyoka")
 

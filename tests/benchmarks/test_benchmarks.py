@@ -10,7 +10,7 @@ from references import extended
 from benchmarks import accuracy, costs, overhead, scaling, scenes, stages
 from benchmarks.heyoka_runs import BATCH, SETTINGS
 from benchmarks.methods import TIMED, heyoka, starts_of
-from impact_damper.data import table_files
+from chatterjee1995.tables import files as table_files
 from impact_damper.model.packed import pack
 
 pytestmark = [

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from impact_damper.data import table_files
+from chatterjee1995.tables import files as table_files
 
 from . import damages, disks, kills, times
 from .disks import CannotMount

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from jinja2 import Environment, StrictUndefined
 
 from chatterjee1995.reading.datasets import Missing
-from impact_damper.data.table_files import in_words
+from chatterjee1995.tables.files import in_words
 from impact_damper.model.text import number, percent
 
 REPRODUCED = "reproduced"

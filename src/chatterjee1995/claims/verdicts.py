@@ -17,7 +17,7 @@ from chatterjee1995.claims import (
     subharmonic,
 )
 from chatterjee1995.claims.claim import Claim
-from impact_damper.data.table_files import as_markdown, in_words
+from chatterjee1995.tables.files import as_markdown, in_words
 
 EVIDENCE = {
     "1": balance.small_motion,

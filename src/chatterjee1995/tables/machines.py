@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from impact_damper.data.datasets import named, parameters_of
-from impact_damper.data.design_ranges import quiet_gaps
+from impact_damper.data.sweeps import quiet_gaps
 
 # Advice for each kind of choice that the design makes.
 CHOICES = {

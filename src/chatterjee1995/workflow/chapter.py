@@ -12,7 +12,7 @@ def make_table(name, given, datasets, path) -> None:
 
     `given` is what `selection.table_values` returns, and `datasets` are keyed by stage and entry.
     """
-    from impact_damper.data import table_files
+    from chatterjee1995.tables import files as table_files
 
     module = import_module(given["module"])
     frame = getattr(module, name)({stage: datasets.get(stage, {}) for stage in given["stages"]})

@@ -273,7 +273,7 @@ def tell(as_json, words, numbers):
     print(json.dumps(numbers) if as_json else "\n".join(words))
 
 
-def run():
+def run_app():
     """Run the command; a wrong argument ends it with a message but no traceback."""
     warnings.showwarning = lambda message, *rest: print(f"Warning: {message}", file=sys.stderr)
     try:

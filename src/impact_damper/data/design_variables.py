@@ -22,17 +22,7 @@ bare_stability | bare_point | | | stability of an orbit without the damper
   : STABILITY
 bare_branch | bare_point | | | branch of an orbit without the damper
 # contacts after Hertz
-hertz_status | | | | whether the contact stiffness after Hertz agrees with the stiffness used for
-  the motion
-  : consistent 0, not_consistent 1, no_contact 2, not_settled 3
-hertz_iterations | | | | number of motions computed to find this stiffness
-hertz_stiffness | | stiffness | | stiffness of the linear spring that replaces the contact after
-  Hertz
-hertz_displacement | | displacement | | largest displacement with the stiffness hertz_stiffness
 impact_speed | | velocity | | largest relative speed at the beginning of a contact
-impact_compression | | displacement | | largest compression of the contact
-impact_force | | force | | largest force of the contact
-impact_duration | | time | | time in contact in one impact
 # costs of a motion with a damper
 costs_status | | | | whether the motion has impacts, has none, or escapes over a barrier of the
   spring

@@ -140,15 +140,12 @@ free_phase | frequency free_solution | angle | theta_1 | phase of Z1 to the forc
 free_stability | frequency free_solution | | | stability by the slow flow without the damper
   : STABILITY
 free_count | frequency | | | number of solutions of the harmonic balance without the damper
-rigid_tangent | frequency root | | D | root of the polynomial (14) for rigid walls
 rigid_amplitude | frequency root | displacement | a | amplitude of Z1 for rigid walls, negative if
   Z1 is in antiphase to Z2
 rigid_phase | frequency root | angle | theta_1 | phase of Z1 to the forcing for rigid walls
 rigid_wall | frequency root | | | whether rigid walls push the loose mass, or would have to pull
   it
   : absent 0, pushes 1, pulls 2
-rigid_residual | frequency root | mixed | | residual of the balance for rigid walls, equation (13)
-rigid_count | frequency | | | number of real roots of the polynomial (14) for rigid walls
 # suppression band
 peak_frequency | | frequency | Omega_p | peak frequency without the damper
 peak_amplitude | | displacement | | amplitude of Z1 without the damper at the peak frequency
@@ -252,8 +249,6 @@ event_kind | event | | | kind of event
   : EVENT
 event_value | event | followed | | varied parameter at an event
 event_displacement | event | displacement | max |Z1| | largest displacement at an event
-event_residual | event | mixed | | distance between the state of the orbit at an event and the
-  state a period later
 event_speed | event | velocity | | smallest relative speed at the beginning of a contact at an
   event
 walls_before | event | | | walls in the order in which orbits before an event touch them
@@ -273,8 +268,6 @@ basin_share | attractor basin_velocity basin_displacement | | | fraction of the 
 attractor | attractor | | | index of an attractor, by rising max |Z1|
 attractor_period | attractor | | n | period in cycles
 attractor_displacement | attractor | displacement | max |Z1| | largest displacement
-attractor_amplitude | attractor | displacement | | amplitude of the first harmonic of the
-  displacement
 attractor_phase | attractor | angle | | phase of the first harmonic relative to the forcing
 attractor_share | attractor | | | share of the states that lead to an attractor
 attractor_point | attractor passage | displacement | Z1 | displacement of an attractor whenever
@@ -288,7 +281,6 @@ saddle_displacement | saddle | displacement | Z1 | displacement of an unstable o
   of the plane
 saddle_velocity | saddle | velocity | Z1' | velocity of an unstable orbit at the phase of the
   plane
-saddle_multiplier | saddle multiplier | | | Floquet multipliers of an unstable orbit
 saddle_curve | saddle | | | whether the stable manifold is complete in the plane
   : CURVE
 boundary_displacement | boundary | displacement | Z1 | displacement on the stable manifold of an
@@ -340,12 +332,10 @@ release_destination | damped release | | | free motion to which the release lead
 release_share | damped free_motion bound | | | share of releases that lead to each free motion
 # lifetime of the violent transient
 life | run | | | cycles until the violent transient ends, if it ends before the time horizon
-landing_time | run | | | cycles until the motion has settled; NaN if it has not
 landed_on | run | | | motion on which the run settles
   : DAMPED_MOTION
 age | age | | | cycles since the damper was switched on
 survival | age bound | | | share of runs whose transient is longer than age
-at_risk | age | | | number of runs whose transient is longer than age
 escape_rate | bound | | | rate at which transients end, per run and cycle
 horizon | | | | cycles after which a run is cut off
     """,

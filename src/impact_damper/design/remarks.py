@@ -6,7 +6,7 @@ the amplitude of the force, or what causes it, as a multiple of the nominal valu
 
 import numpy as np
 
-from impact_damper.data.design_ranges import known_range, stable_range
+from impact_damper.data.sweeps import known_range, stable_range
 from impact_damper.design.restitutions import best_of
 from impact_damper.theory.contact_law import contact
 

@@ -8,7 +8,7 @@ of values in which each deviates by its whole tolerance.
 import numpy as np
 
 from impact_damper.data.datasets import decode, flag
-from impact_damper.data.design_ranges import quiet_gaps, stable_range
+from impact_damper.data.sweeps import quiet_gaps, stable_range
 from impact_damper.design.cliff import HOLDABLE, LEAD, LONGEST
 from impact_damper.design.deviations import UNSEEN
 from impact_damper.design.remarks import excitations, pulling_walls, tried_restitutions

@@ -218,10 +218,8 @@ def transient_data(lives, motions, lifetime, known):
     times = np.arange(0, horizon + 1, 10)
     return {
         "life": np.where(lives <= horizon, lives, np.nan),
-        "landing_time": np.where(settled, motions["periods_run"], np.nan),
         "landed_on": kinds(motions["period"], motions["maximum_displacement"], known),
         "survival": survival(lives, horizon, times),
-        "at_risk": np.sum(lives > times[:, None], axis=1),
         "escape_rate": escape_rate(lives, horizon),
         "horizon": horizon,
     }, {"age": times}

@@ -222,12 +222,10 @@ def boundary_data(p, attractors, window, reach, phase, cells, settling):
             points += [piece, gap]
             owner += [index] * (len(piece) + 1)
     curve = np.concatenate(points or [np.empty((0, 2))])
-    multipliers = np.array([orbit.multipliers[:2].real for orbit in found]).reshape(-1, 2)
     return {
         "saddle_period": np.array([orbit.periods for orbit in found], int),
         "saddle_displacement": np.array([orbit.state[0] for orbit in found]),
         "saddle_velocity": np.array([orbit.state[1] for orbit in found]),
-        "saddle_multiplier": multipliers,
         "saddle_curve": np.array(cut, int),
         "boundary_displacement": curve[:, 0],
         "boundary_velocity": curve[:, 1],
@@ -280,7 +278,6 @@ def _attractor_data(p, records, phase, plane):
         "attractor": np.arange(len(records)),
         "attractor_period": records["period"],
         "attractor_displacement": records["maximum_displacement"],
-        "attractor_amplitude": np.abs(harmonic),
         "attractor_phase": np.angle(harmonic),
         "attractor_share": shares,
         "attractor_point": points[..., 0],

@@ -79,7 +79,6 @@ def branches_dataset(branches, back, parameters, title, model=None, more=None):
         "event_kind": np.array([flag("event_kind", event.kind) for _, _, event in events], int),
         "event_value": np.array([back(event.point.value) for _, _, event in events]),
         "event_displacement": np.array([o.record["maximum_displacement"] for o in orbits]),
-        "event_residual": np.array([orbit.residual for orbit in orbits]),
         "event_speed": np.array([orbit.least_speed for orbit in orbits]),
         "walls_before": np.array([event.before for _, _, event in events], object),
         "walls_after": np.array([event.after for _, _, event in events], object),

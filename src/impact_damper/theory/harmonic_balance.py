@@ -232,10 +232,7 @@ def _rigid_table(oscillator, damper, frequencies):
         ]
     )
     return {
-        "rigid_tangent": _table(columns, [each.tangent for each in rigid]),
         "rigid_amplitude": _table(columns, [each.amplitude for each in rigid]),
         "rigid_phase": _table(columns, [each.phase for each in rigid]),
-        "rigid_residual": _table(columns, [each.residual for each in rigid]),
         "rigid_wall": _table(columns, walls, flag("rigid_wall", "absent")),
-        "rigid_count": [len(each.phase) for each in rigid],
     }

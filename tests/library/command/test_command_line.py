@@ -1,6 +1,7 @@
 """The command `impact-damper`: its answers equal those of the library; wrong files are refused."""
 
 import json
+import subprocess
 import sys
 from pathlib import Path
 
@@ -142,14 +143,14 @@ def test_error_ends_the_command_with_one_message(machine_file, monkeypatch):
     arguments = ["impact-damper", "simulate", str(machine_file), "--frequency", "24 kg"]
     monkeypatch.setattr(sys, "argv", arguments)
     with pytest.raises(SystemExit, match="Error: frequency = '24 kg'"):
-        command_line.run()
+        command_line.run_app()
 
 
 def test_a_state_too_far_away_is_told_in_si_units(machine_file, monkeypatch):
     asked = ["--frequency", "24 Hz", "--state", "7, 0"]
     monkeypatch.setattr(sys, "argv", ["impact-damper", "simulate", str(machine_file), *asked])
     with pytest.raises(SystemExit, match=r"Error: state\[0\] = 7 m: must be at least -.* m"):
-        command_line.run()
+        command_line.run_app()
 
 
 def test_a_file_that_is_no_design_gets_no_page(machine_file, tmp_path, monkeypatch):
@@ -158,7 +159,7 @@ def test_a_file_that_is_no_design_gets_no_page(machine_file, tmp_path, monkeypat
     for path, told in ((motion, "must be the design.nc of a design"), (machine_file, "is not a")):
         monkeypatch.setattr(sys, "argv", ["impact-damper", "report", str(path)])
         with pytest.raises(SystemExit, match=f"Error: .*{told}"):
-            command_line.run()
+            command_line.run_app()
 
 
 def test_ctrl_c_ends_with_its_code_and_what_to_do(machine_file, monkeypatch, capsys):
@@ -168,7 +169,7 @@ def test_ctrl_c_ends_with_its_code_and_what_to_do(machine_file, monkeypatch, cap
     monkeypatch.setattr(command_line, "read", interrupted)
     monkeypatch.setattr(sys, "argv", ["impact-damper", "design", str(machine_file)])
     with pytest.raises(SystemExit) as ended:
-        command_line.run()
+        command_line.run_app()
     assert ended.value.code == command_line.INTERRUPTED
     assert "the same command continues the design" in capsys.readouterr().err
 
@@ -183,3 +184,32 @@ def test_the_help_holds_a_file_that_works(tmp_path):
 
 def test_the_version_is_told():
     assert run("--version").strip() == idm.__version__
+
+
+# The packages that only the paper and the command line need.
+BLOCKED = """
+import sys
+
+class Absent:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in {blocked}:
+            raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
+
+sys.meta_path.insert(0, Absent())
+import impact_damper as idm
+from impact_damper.command import run
+
+for name in idm.__all__:
+    getattr(idm, name)
+idm.plot.response(idm.harmonic_balance(idm.Oscillator(0.2), None, [1.0, 2.0]))
+run()
+"""
+
+
+def test_the_library_needs_only_its_own_packages():
+    """All names load without them; the command says what to install."""
+    blocked = ("chatterjee1995", "jinja2", "pydantic", "snakemake", "typer", "yaml")
+    code = BLOCKED.format(blocked=blocked)
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert told.returncode == 1 and told.stderr.startswith("Error: the command needs the package")
+    assert "pip install 'impact-damper[command]'" in told.stderr

@@ -11,8 +11,8 @@ from helpers.made_up_design import made_up_design
 from chatterjee1995.methods.labels import method_in_words
 from chatterjee1995.sections import selection
 from chatterjee1995.sections.registry import TABLES
+from chatterjee1995.tables.files import SHOWN, in_words
 from chatterjee1995.workflow.chapter import make_table
-from impact_damper.data.table_files import SHOWN, in_words
 
 CONFIG = configurations.paper()
 # Tables for which the invented datasets have all variables; tests of the stages make the others.

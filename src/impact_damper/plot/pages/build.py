@@ -5,7 +5,7 @@ import json
 import numpy as np
 
 from impact_damper.data.datasets import named, parameters_of
-from impact_damper.data.design_ranges import quiet_gaps
+from impact_damper.data.sweeps import quiet_gaps
 from impact_damper.model.machine import EXCITATIONS
 from impact_damper.plot.machine_figures import drawing
 from impact_damper.plot.pages.blocks import Numbers, Picture, Section, Words, percent, shown

@@ -8,7 +8,7 @@ extreme values of all tolerances.
 import numpy as np
 
 from impact_damper.data.datasets import parameters_of
-from impact_damper.data.design_ranges import stable_range
+from impact_damper.data.sweeps import stable_range
 from impact_damper.plot.machine_figures import cliff, operating, tolerances
 from impact_damper.plot.pages.blocks import (
     Numbers,
