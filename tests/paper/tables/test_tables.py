@@ -8,11 +8,7 @@ from helpers.made_up_orbits import branch, branches
 
 from chatterjee1995.tables import balance, clearance, migration, responses
 from chatterjee1995.tables import branches as table_branches
-<<<<<<< HEAD
-=======
-from chatterjee1995.tables import clearance, design, migration, responses
 from chatterjee1995.tables.files import save_table
->>>>>>> 760f7eb (The library installs without the packages of the command line; data: fewer files, no variables that nobody reads)
 from impact_damper.data.datasets import dataset, flag
 
 
