@@ -1,8 +1,7 @@
 """Invented datasets of every stage, from closed forms, in which every claim of the paper holds.
 
-Tests of claims, tables and figures change one dataset and expect one claim to fail. Functions with
-the name of a stage return a dataset of this stage. Wp is the peak frequency without damper.
-With damper there are a small motion (quiet), and below the suppression band a large one (high).
+With damper there are a small motion (quiet), and below the suppression band a large one (high). A
+function with the name of a stage returns a dataset of this stage.
 """
 
 import json
@@ -19,32 +18,26 @@ STIFFNESS = 2000.0  # r1 of the walls
 # Peak frequency by damping without linear stiffness, and by linear frequency at damping 0.215.
 PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}
 LINEAR = {0.0: 2.0, 1.0: 2.1, 1.5: 2.3}
-# Lower edge of the suppression band over Wp, by curve.
-BAND_START = {
-    "figure_05a": 0.95,
-    "figure_03b": 0.94,
-    "figure_03a": 0.93,
-    "figure_03c_rule": 0.95,
-    "figure_03b_rule": 0.94,
-    "figure_03a_rule": 0.93,
-    "figure_05b": 0.92,
-    "figure_05c": 0.90,
-    "figure_08": 0.95,
-    "figure_10": 0.80,
+# Lower edge of the suppression band over Wp, mass ratio, damping and linear frequency by curve.
+CURVES = {
+    "figure_05a": (0.95, 0.12, 0.215, 0.0),
+    "figure_05b": (0.92, 0.25, 0.215, 0.0),
+    "figure_05c": (0.90, 0.4, 0.215, 0.0),
+    "figure_08": (0.95, 0.12, 0.107, 0.0),
+    "figure_10": (0.80, 0.25, 0.215, 0.0),
+    "figure_03a": (0.93, 0.12, 0.215, 1.5),
+    "figure_03b": (0.94, 0.12, 0.215, 1.0),
+    "figure_03a_rule": (0.93, 0.12, 0.215, 1.5),
+    "figure_03b_rule": (0.94, 0.12, 0.215, 1.0),
+    "figure_03c_rule": (0.95, 0.12, 0.215, 0.0),
 }
-# Mass ratio by curve.
-DAMPERS = {
-    "figure_05a": 0.12,
-    "figure_05b": 0.25,
-    "figure_05c": 0.4,
-    "figure_08": 0.12,
-    "figure_10": 0.25,
-}
+SIMULATED = ("figure_05a", "figure_05b", "figure_05c", "figure_08", "figure_10")
+BOUNDS = {"bound": ["share", "lower", "upper"]}
 
 
-def frequencies(peak):
-    """Return a grid of frequencies around the peak."""
-    return np.linspace(0.5, 1.5, 201) * peak
+def made(data, coordinates, **given):
+    """Return a dataset with these variables and parameters."""
+    return dataset(data, coordinates, given, "made up")
 
 
 def parameters(damping=0.215, linear=0.0, **others):
@@ -72,26 +65,20 @@ def resonance_size(frequency, peak, damping):
     return frequency / (damping * peak**2)
 
 
-def design(name, mass_ratio=0.12, damping=0.215, linear=0.0):
-    """Return a harmonic balance: a quiet solution with a = 0 at the peak, and a high solution.
-
-    a is the amplitude of Z1. The high solution exists below the suppression band.
-    """
+def harmonic_balance(name):
+    """Return a quiet solution with a = 0 at the peak, and a high one below the band."""
+    start, mass_ratio, damping, linear = CURVES[name]
     peak = LINEAR[linear] if damping == 0.215 else PEAKS[damping]
-    frequency = frequencies(peak)
+    frequency = np.linspace(0.5, 1.5, 201) * peak
     given = damper(mass_ratio, peak)
-    size = quiet_size(frequency, peak, mass_ratio)
-    high = np.where(
-        frequency < BAND_START[name] * peak, 0.9 * resonance_size(frequency, peak, damping), np.nan
-    )
-    amplitude = np.stack([np.sign(frequency - peak + 1e-9) * size, high], axis=-1)
+    quiet = np.sign(frequency - peak + 1e-9) * quiet_size(frequency, peak, mass_ratio)
+    size = resonance_size(frequency, peak, damping)
+    amplitude = np.stack([quiet, np.where(frequency < start * peak, 0.9 * size, np.nan)], axis=-1)
     depth = np.zeros_like(amplitude)
     for _ in range(20):
         force = mass_ratio * frequency[:, None] ** 2 * (given["clearance"] + depth - amplitude)
         depth = (np.pi * force / (2 * STIFFNESS)) ** 2 / (2 * given["clearance"])
-    free = np.where(frequency <= peak, resonance_size(frequency, peak, damping), 0.2)
     found = np.isfinite(amplitude)
-    edges = np.array([BAND_START[name], 1.0]) * peak
     data = {
         "amplitude": amplitude,
         "relative_amplitude": given["clearance"] + depth,
@@ -99,66 +86,45 @@ def design(name, mass_ratio=0.12, damping=0.215, linear=0.0):
         "stability": np.where(found, flag("stability", "stable"), flag("stability", "absent")),
         "rigid_amplitude": amplitude * 1.001,
         "rigid_wall": np.where(found, flag("rigid_wall", "pushes"), flag("rigid_wall", "absent")),
-        "free_amplitude": free[:, None],
+        "free_amplitude": np.where(frequency <= peak, size, 0.2)[:, None],
         "peak_frequency": peak,
         "peak_amplitude": 1 / (damping * peak),
         "quiet_amplitude": 1e-3,
         "reduction": 1 - 1e-3 * damping * peak,
-        "band_width": edges[1] - edges[0],
-        "edge_frequency": edges,
-        "edge_reduction": np.full(2, 0.99),
-        "edge_event": [
-            flag("edge_event", "other_motion_appears"),
-            flag("edge_event", "resonance_branch_ends"),
-        ],
+        "band_width": (1 - start) * peak,
+        "edge_frequency": np.array([start, 1.0]) * peak,
         "band_status": flag("band_status", "found"),
-        "break_even_frequency": 1.4 * peak,
     }
-    return dataset(
-        data,
-        {"frequency": frequency, "edge": ["lower", "upper"]},
-        parameters(damping, linear, **given),
-        "made up",
-    )
+    coordinates = {"frequency": frequency, "edge": ["lower", "upper"]}
+    return made(data, coordinates, **parameters(damping, linear, **given))
 
 
-def motions(frequency, columns):
-    """Return variables of motions over frequency, a column for each motion.
+def motions(*columns):
+    """Return variables of motions over frequency.
 
-    A column is a pair: a mask of the frequencies at which the motion exists, and a dict of the
-    variables that differ from a settled motion of period 1.
+    Each motion is a mask of the frequencies at which it exists, and a dict of the variables that
+    differ from a settled motion of period 1.
     """
-    fill = {
-        "outcome": flag("outcome", "absent"),
-        "period": 0,
-        "contacts": np.nan,
-        "maximum_displacement": np.nan,
-        "motion_starts": 0,
-    }
-    usual = {
-        "outcome": flag("outcome", "settled"),
-        "period": 1,
-        "motion_starts": 1,
-    }
-    data = {}
-    for name, absent in fill.items():
-        data[name] = np.stack(
-            [np.where(present, (usual | others).get(name), absent) for present, others in columns],
-            axis=-1,
+    absent = {"outcome": flag("outcome", "absent"), "period": 0, "motion_starts": 0}
+    absent |= {"contacts": np.nan, "maximum_displacement": np.nan}
+    usual = {"outcome": flag("outcome", "settled"), "period": 1, "motion_starts": 1}
+    return {
+        name: np.stack(
+            [np.where(present, (usual | others)[name], value) for present, others in columns], -1
         )
-    return data
+        for name, value in absent.items()
+    }
 
 
 def free_branches(damping, linear=0.0):
     """Return a resonance branch with a fold at the peak, and a closed subharmonic branch."""
     peak = LINEAR[linear] if linear else PEAKS[damping]
     rising, falling = np.linspace(0.5, 1, 101) * peak, np.linspace(1, 0.6, 81)[1:] * peak
-    beyond = np.linspace(0.6, 1.5, 181)[1:] * peak
+    beyond, there = np.linspace(0.6, 1.5, 181)[1:] * peak, np.linspace(0.8, 1.1, 61) * peak
     top = 1 / (damping * peak)
-    size = [resonance_size(rising, peak, damping), np.linspace(top, 0.5, 80), 0.2 * beyond / beyond]
+    size = [resonance_size(rising, peak, damping), np.linspace(top, 0.5, 80), np.full(180, 0.2)]
     stable = np.repeat([True, False, True], [101, 80, 180])
     curve = np.concatenate([rising, falling, beyond])
-    there = np.linspace(0.8, 1.1, 61) * peak
     return branches(
         branch(curve, np.concatenate(size), stable=stable, contacts=0.0, phase=0.0),
         branch(there, 0.8, contacts=0.0, phase=0.0, period=3),
@@ -167,14 +133,14 @@ def free_branches(damping, linear=0.0):
     )
 
 
-def damped_branches(name, damping=0.215, restitution=1.0, third=None):
-    """Return high orbits up to the band, quiet orbits at all frequencies, and orbits of period 3.
+def damped_branches(name, restitution=1.0, third=None):
+    """Return high orbits up to the band, quiet orbits, and orbits of period 3 of the size `third`.
 
-    The orbits that the high solutions of harmonic balance (7) approximate are unstable. `third` is
-    the size of the orbits of period 3.
+    The orbits that the high solutions of harmonic balance (7) approximate are unstable.
     """
-    peak, mass_ratio = PEAKS[damping], DAMPERS[name]
-    below, all_over = np.linspace(0.5, BAND_START[name], 101) * peak, frequencies(peak)
+    start, mass_ratio, damping, _ = CURVES[name]
+    peak = PEAKS[damping]
+    below, all_over = np.linspace(0.5, start, 101) * peak, np.linspace(0.5, 1.5, 201) * peak
     high = 0.9 * resonance_size(below, peak, damping)
     size = quiet_size(all_over, peak, mass_ratio) * (1 if restitution == 1 else 1.3)
     phase = np.where(all_over < peak, np.pi, 0.0)
@@ -188,43 +154,21 @@ def damped_branches(name, damping=0.215, restitution=1.0, third=None):
     return branches(*parts, parameters=parameters(damping, **damper(mass_ratio, peak, restitution)))
 
 
-def response(name, damping=0.215, restitution=1.0):
-    peak, mass_ratio = PEAKS[damping], DAMPERS[name]
-    frequency = frequencies(peak)
-    edge = BAND_START[name] * peak
-    size = quiet_size(frequency, peak, mass_ratio) * (1 if restitution == 1 else 1.3)
-    high = 0.9 * resonance_size(frequency, peak, damping)
+def response(name, restitution=1.0):
+    """Return the high motion below the band, chaotic near 0.7 Wp, and the quiet motion."""
+    start, mass_ratio, damping, _ = CURVES[name]
+    peak = PEAKS[damping]
+    frequency = np.linspace(0.5, 1.5, 201) * peak
     chaos = np.abs(frequency / peak - 0.7) < 0.01
-    data = motions(
-        frequency,
-        [
-            (
-                frequency < edge,
-                {
-                    "contacts": 4.0,
-                    "maximum_displacement": high,
-                    "outcome": np.where(
-                        chaos, flag("outcome", "chaotic"), flag("outcome", "settled")
-                    ),
-                },
-            ),
-            (
-                frequency > 0,
-                {
-                    "contacts": 2.0,
-                    "maximum_displacement": size,
-                },
-            ),
-        ],
-    )
-    data["run_outcome"] = np.ones((len(frequency), 2))
+    outcome = np.where(chaos, flag("outcome", "chaotic"), flag("outcome", "settled"))
+    high = {"contacts": 4.0, "outcome": outcome}
+    high["maximum_displacement"] = 0.9 * resonance_size(frequency, peak, damping)
+    size = quiet_size(frequency, peak, mass_ratio) * (1 if restitution == 1 else 1.3)
+    quiet = {"contacts": 2.0, "maximum_displacement": size}
+    data = motions((frequency < start * peak, high), (frequency > 0, quiet))
     data["life_ends"] = np.stack([np.where(chaos, 0, -1), np.full(len(frequency), -1)], axis=1)
-    return dataset(
-        data,
-        {"frequency": frequency},
-        parameters(damping, **damper(mass_ratio, peak, restitution)),
-        "made up",
-    )
+    given = parameters(damping, **damper(mass_ratio, peak, restitution))
+    return made(data, {"frequency": frequency}, **given)
 
 
 def matched_sweep():
@@ -244,21 +188,20 @@ def matched_sweep():
         "run_outcome": np.ones((3, 10)),
         "missed_share": 0.3,
     }
-    made = parameters(**damper(0.12, 2.0))
-    return dataset(data, {"frequency": [1.0, 1.5, 2.0]}, made, "made up")
+    return made(data, {"frequency": [1.0, 1.5, 2.0]}, **parameters(**damper(0.12, 2.0)))
 
 
 def motion():
     """Return a motion with a state of three components; the paper omits the fourth (claim S3)."""
     data = {name: np.zeros(3) for name in ("displacement", "velocity", "relative_displacement")}
-    return dataset(data, {"time": np.arange(3.0)}, parameters(frequency=2.0), "made up")
+    return made(data, {"time": np.arange(3.0)}, **parameters(frequency=2.0))
 
 
 def collisions():
     """Return a dataset of collisions in which all starts collide."""
     data = {"beyond_wall": [0.2, 0.0], "colliding": [1.0, 1.0], "longest_wait": [9.0, 90.0]}
-    made = parameters(**damper(0.12, 2.0), starts=2000)
-    return dataset(data, {"ball": ["literal", "within_gap"]}, made, "made up")
+    given = parameters(**damper(0.12, 2.0), starts=2000)
+    return made(data, {"ball": ["literal", "within_gap"]}, **given)
 
 
 def sweep(damping, mass_ratio, restitution=1.0):
@@ -269,14 +212,13 @@ def sweep(damping, mass_ratio, restitution=1.0):
     frequency = PEAKS[damping]
     rule = 1 / (mass_ratio * frequency**2)
     best = rule * (1.05 - 0.5 * (1 - restitution))
-    flatness = 0.1 + (1 - restitution)
     steepness = 1.5 - 4 * (1 - restitution)
     clearance = np.linspace(0.5, 1.5, 101) * best
-    size = (0.12 / mass_ratio) ** 0.25
+    size = 0.02 * (0.12 / mass_ratio) ** 0.25
     data = {
-        "quiet_displacement": 0.02 * size * (1 + steepness * np.abs(clearance / best - 1)),
+        "quiet_displacement": size * (1 + steepness * np.abs(clearance / best - 1)),
         "optimum_clearance": best,
-        "optimum_displacement": 0.02 * size,
+        "optimum_displacement": size,
         "rule_clearance": rule,
         "peak_rule_clearance": rule,
         "analytical_optimum": rule,
@@ -285,60 +227,54 @@ def sweep(damping, mass_ratio, restitution=1.0):
         "straight_flight_ratio": 1.05,
         "first_harmonic_share": 4.7,
         "straight_flight_share": 1.0,
-        "near_clearance": best * np.array([1 - flatness, 1 + flatness]),
+        "near_clearance": best * np.array([0.9, 1.1]),
     }
-    return dataset(
-        data,
-        {"clearance": clearance, "edge": ["lower", "upper"]},
-        parameters(damping, frequency=frequency, mass_ratio=mass_ratio, restitution=restitution),
-        "made up",
-    )
+    given = {"frequency": frequency, "mass_ratio": mass_ratio, "restitution": restitution}
+    coordinates = {"clearance": clearance, "edge": ["lower", "upper"]}
+    return made(data, coordinates, **parameters(damping, **given))
 
 
-def subharmonic(name, damping=0.215, damped=np.nan):
-    """Return the free subharmonic from 0.8 to 1.1 Wp, and with damper a small one or none.
-
-    `damped` is the size of the subharmonic with damper; NaN if there is none.
-    """
+def subharmonic(name, damped=np.nan):
+    """Return the free subharmonic from 0.8 to 1.1 Wp, and with damper one of the size `damped`."""
+    _, mass_ratio, damping, _ = CURVES[name]
     peak = PEAKS[damping]
     frequency = np.linspace(0.8, 1.1, 61) * peak
     present = np.full(len(frequency), np.isfinite(damped))
     size = 0.8 * peak / 2
     data = motions(
-        frequency,
-        [
-            (present, {"contacts": 2.0, "maximum_displacement": damped, "period": 3}),
-            (frequency > 0, {"contacts": 2.0, "maximum_displacement": 0.01}),
-        ],
+        (present, {"contacts": 2.0, "maximum_displacement": damped, "period": 3}),
+        (frequency > 0, {"contacts": 2.0, "maximum_displacement": 0.01}),
     )
-    ratio = np.where(present, damped, 0.0) / size
     data |= {
         "free_subharmonic": np.full(len(frequency), size),
         "damped_subharmonic": np.where(present, damped, np.nan),
-        "subharmonic_ratio": ratio,
+        "subharmonic_ratio": np.where(present, damped, 0.0) / size,
         "switched_share": 0.5 * present[:, None],
     }
-    return dataset(
-        data,
-        {"frequency": frequency, "edge": ["lower", "upper"], "switched_motion": ["subharmonic"]},
-        parameters(damping, **damper(DAMPERS[name], peak)),
-        "made up",
-    )
+    coordinates = {"frequency": frequency, "edge": ["lower", "upper"]}
+    coordinates["switched_motion"] = ["subharmonic"]
+    return made(data, coordinates, **parameters(damping, **damper(mass_ratio, peak)))
+
+
+def destinations(subharmonic_share):
+    """Return the names of free motions, and shares of releases to period 3 and to the goal."""
+    names = list(FREE_MOTION)[1:]
+    share = np.asarray(subharmonic_share, float)
+    shares = np.zeros((*share.shape, len(names), 3))
+    shares[..., names.index("subharmonic"), :] = share[..., None]
+    shares[..., names.index("non_resonance"), :] = 1 - share[..., None]
+    return names, shares
 
 
 def migration(frequency, subharmonic_share):
-    """Return four runs of the controller, and releases of two motions with damper.
+    """Return four runs of the controller, and releases of an unsettled and of the quiet motion.
 
-    These are a motion that has not settled, and the quiet motion.
+    Run k (counted from 1) switches the damper k times, and the last release reaches the goal.
     """
-    kinds, destinations = list(DAMPED_MOTION)[1:], list(FREE_MOTION)[1:]
-    shares = np.zeros((2, len(destinations), 3))
-    shares[:, destinations.index("subharmonic")] = subharmonic_share
-    shares[:, destinations.index("non_resonance")] = 1 - subharmonic_share
-    counts = np.zeros((len(kinds), len(destinations)), int)
+    names, shares = destinations([subharmonic_share] * 2)
+    kinds = list(DAMPED_MOTION)[1:]
+    counts = np.zeros((len(kinds), len(names)), int)
     counts[kinds.index("unsettled")] = np.rint(10 * shares[0, :, 0])
-    reached = np.full(4, flag("trial_outcome", "reached"))
-    # Run k (counted from 1) switches the damper k times, and the last release reaches the goal.
     destination = np.full((4, 4), FREE_MOTION["none"])
     destination[np.tril_indices(4, -1)] = FREE_MOTION["resonance"]
     destination[np.diag_indices(4)] = FREE_MOTION["non_resonance"]
@@ -349,7 +285,7 @@ def migration(frequency, subharmonic_share):
         "damped_contacts": np.array([np.nan, 2.0]),
         "release_share": shares,
         "destination_count": counts,
-        "trial_outcome": reached,
+        "trial_outcome": np.full(4, flag("trial_outcome", "reached")),
         "destination": destination,
         "switchings": np.array([1, 2, 3, 4]),
         "damper_time": np.full(4, 50.0),
@@ -359,36 +295,24 @@ def migration(frequency, subharmonic_share):
         "landed_on": ("run", [1, 1]),
         "escape_rate": np.full(3, 0.1),
     }
-    coordinates = {
-        "bound": ["share", "lower", "upper"],
-        "damped_motion": kinds,
-        "free_motion": destinations,
-    }
-    made = parameters(**damper(0.12, 2.0), frequency=frequency, releases=240)
-    return dataset(data, coordinates, made, "made up")
+    coordinates = BOUNDS | {"damped_motion": kinds, "free_motion": names}
+    given = parameters(**damper(0.12, 2.0), frequency=frequency, releases=240)
+    return made(data, coordinates, **given)
 
 
 def release_scan(frequency, subharmonic_share):
     """Return a scan of releases of two motions with damper: unsettled and quiet."""
-    destinations = list(FREE_MOTION)[1:]
-    share = np.array(subharmonic_share)[:, None, None]
-    shares = np.zeros((len(frequency), 3, len(destinations), 3))
-    shares[:, :, destinations.index("subharmonic")] = share
-    shares[:, :, destinations.index("non_resonance")] = 1 - share
+    names, shares = destinations(np.repeat(np.array(subharmonic_share)[:, None], 3, axis=1))
     shares[:, 2] = np.nan
     kinds = [DAMPED_MOTION[kind] for kind in ("unsettled", "quiet", "none")]
-    rows = {
-        "damped_kind": np.tile(kinds, (len(frequency), 1)),
-        "damped_period": np.tile([0, 1, -1], (len(frequency), 1)),
+    rows = ("frequency", "damped")
+    data = {
+        "damped_kind": (rows, np.tile(kinds, (len(frequency), 1))),
+        "damped_period": (rows, np.tile([0, 1, -1], (len(frequency), 1))),
+        "release_share": ((*rows, "free_motion", "bound"), shares),
     }
-    data = {name: (("frequency", "damped"), values) for name, values in rows.items()}
-    data["release_share"] = (("frequency", "damped", "free_motion", "bound"), shares)
-    coordinates = {
-        "frequency": frequency,
-        "bound": ["share", "lower", "upper"],
-        "free_motion": destinations,
-    }
-    return dataset(data, coordinates, parameters(**damper(0.12, 2.0)), "made up")
+    coordinates = BOUNDS | {"frequency": frequency, "free_motion": names}
+    return made(data, coordinates, **parameters(**damper(0.12, 2.0)))
 
 
 def policies(case, frequency):
@@ -396,49 +320,41 @@ def policies(case, frequency):
 
     Cycles, time with the damper and impacts are 100 times these shares.
     """
-    shares = np.array([0.1, 0.2, 0.3])[:, None] + [0, -0.05, 0.05]
+    shares = (np.array([0.1, 0.2, 0.3])[:, None] + [0, -0.05, 0.05])[None, None]
     dims = ("case", "frequency", "policy", "bound")
-    cycles = np.repeat(100 * shares[None, None, :, None], 2, axis=3)
+    cycles = np.repeat(100 * shares[:, :, :, None], 2, axis=3)
     given = json.loads(case.attrs["parameters"])
+    names = ("mass_ratio", "clearance", "restitution")
     return xr.Dataset(
         {
-            "policy_success": (dims, shares[None, None]),
+            "policy_success": (dims, shares),
             "policy_cycles": ((*dims[:3], "quantile", "bound"), cycles),
-            "policy_damper": (dims, 100 * shares[None, None]),
-            "policy_impacts": (dims, 100 * shares[None, None]),
+            "policy_damper": (dims, 100 * shares),
+            "policy_impacts": (dims, 100 * shares),
             "policy_releases": (dims[:3], np.ones((1, 1, 3))),
             "policy_hold": (dims[:3], np.full((1, 1, 3), 5.0)),
             "policy_phase": (dims[:3], np.full((1, 1, 3), 1.5)),
             "realised_share": (("case", "frequency", "bound"), np.full((1, 1, 3), 0.7)),
         }
-        | {
-            f"case_{name}": ("case", [given[name]])
-            for name in ("mass_ratio", "clearance", "restitution")
-        },
-        {
-            "policy": ["state", "hold", "phase"],
-            "frequency": [frequency],
-            "quantile": [0.5, 0.95],
-            "bound": ["share", "lower", "upper"],
-        },
+        | {f"case_{name}": ("case", [given[name]]) for name in names},
+        BOUNDS
+        | {"policy": ["state", "hold", "phase"]}
+        | {"frequency": [frequency], "quantile": [0.5, 0.95]},
         case.attrs,
     )
 
 
-# Linear frequency by number of the figure.
-LINEAR_OF = {"3a": 1.5, "3b": 1.0, "3c": 0.0, "5a": 0.0}
-
-
-def design_orbit(linear):
+def design_orbit(name):
     """Return a branch of small orbits that are stable at every damping."""
-    made = parameters(linear=linear) | damper(0.12, LINEAR[linear])
+    linear = CURVES[name][3]
+    given = parameters(linear=linear) | damper(0.12, LINEAR[linear])
     runs = {
         "design_orbit_status": flag("design_orbit_status", "found"),
         "design_run_outcome": np.full(4, flag("outcome", "settled")),
         "design_run_displacement": np.full(4, 0.05),
     }
-    orbit = branches(branch([0.215, 2.0], [0.05, 0.04]), parameters=made)
-    return orbit.assign(dataset(runs, {}, made, "made up").variables)
+    orbit = branches(branch([0.215, 2.0], [0.05, 0.04]), parameters=given)
+    return orbit.assign(made(runs, {}, **given).variables)
 
 
 def world():
@@ -452,69 +368,38 @@ def world():
 @cache
 def _world():
     """Return the datasets of `world`, with arrays that cannot be written to."""
-    made = _made()
-    for named in made.values():
+    found = _stages()
+    for named in found.values():
         for data in named.values():
             for variable in data.data_vars.values():
                 variable.values.flags.writeable = False
-    return made
+    return found
 
 
-def _made():
+def _stages():
     """Return the datasets of `world`."""
-    linear = {"a": 1.5, "b": 1.0}
-    designs = {
-        name: design(name, rm)
-        for name, rm in DAMPERS.items()
-        if name in ("figure_05a", "figure_05b", "figure_05c")
-    }
-    designs |= {
-        f"figure_03{k}{tail}": design(f"figure_03{k}{tail}", linear=value)
-        for k, value in linear.items()
-        for tail in ("", "_rule")
-    }
-    designs |= {
-        "figure_03c_rule": design("figure_03c_rule"),
-        "figure_08": design("figure_08", damping=0.107),
-    }
-    responses = {name: response(name) for name in ("figure_05a", "figure_05b", "figure_05c")}
-    responses |= {
-        "figure_08": response("figure_08", 0.107),
-        "figure_10": response("figure_10", restitution=0.75),
-    }
+    inelastic, third = {"figure_10": 0.75}, {"figure_05c": 0.1}
+    designs = [name for name in CURVES if name != "figure_10"]
+    elastic = [name for name in SIMULATED if name != "figure_10"]
     return {
-        "harmonic_balance": designs,
+        "harmonic_balance": {name: harmonic_balance(name) for name in designs},
         "branches": {f"free_h{1000 * h:.0f}": free_branches(h) for h in PEAKS}
-        | {f"free_l{100 * k:.0f}": free_branches(0.215, k) for k in linear.values()}
-        | {
-            "figure_05a": damped_branches("figure_05a"),
-            "figure_05b": damped_branches("figure_05b"),
-            "figure_05c": damped_branches("figure_05c", third=0.1),
-            "figure_08": damped_branches("figure_08", 0.107),
-            "figure_10": damped_branches("figure_10", restitution=0.75),
-        },
+        | {f"free_l{100 * k:.0f}": free_branches(0.215, k) for k in (1.5, 1.0)}
+        | {k: damped_branches(k, inelastic.get(k, 1.0), third.get(k)) for k in SIMULATED},
         "design_orbit": {
-            name: design_orbit(LINEAR_OF[name[8:10]]) for name in designs if name[8:10] in LINEAR_OF
+            name: design_orbit(name) for name in designs if name[7:9] == "03" or name[7:] == "05a"
         },
-        "response": responses,
+        "response": {name: response(name, inelastic.get(name, 1.0)) for name in SIMULATED},
         "motion": {"figure_04": motion()},
         "collisions": {"figure_05a": collisions()},
         "optimum": {
             f"{h}_{rm}_{e}": sweep(h, rm, e)
-            for h, rm, e in (
-                (0.215, 0.12, 1.0),
-                (0.215, 0.18, 1.0),
-                (0.107, 0.12, 1.0),
-                (0.107, 0.18, 1.0),
-                (0.215, 0.12, 0.75),
-                (0.215, 0.18, 0.75),
-            )
+            for h, e in ((0.215, 1.0), (0.107, 1.0), (0.215, 0.75))
+            for rm in (0.12, 0.18)
         },
         "subharmonic": {
-            "figure_05a": subharmonic("figure_05a", damped=0.16),
-            "figure_05b": subharmonic("figure_05b"),
-            "figure_05c": subharmonic("figure_05c", damped=0.1),
-            "figure_08": subharmonic("figure_08", 0.107),
+            name: subharmonic(name, {"figure_05a": 0.16, "figure_05c": 0.1}.get(name, np.nan))
+            for name in elastic
         },
         "migration": {
             "figure_13": migration(1.95, 0.0),

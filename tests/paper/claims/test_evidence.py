@@ -79,7 +79,7 @@ def copied(name, source):
 FEW = each(ELASTIC, lambda name: scale("response", name, contacts=0.5))
 WIDE = each(ELASTIC, lambda name: scale("harmonic_balance", name, edge_frequency=[0.2, 1]))
 RISE = scale("optimum", "0.215_0.12_1.0", quiet_displacement=1.5, optimum_displacement=1.5)
-THIRD = put("branches", "figure_08", damped_branches("figure_08", 0.107, third=0.8))
+THIRD = put("branches", "figure_08", damped_branches("figure_08", third=0.8))
 # Number of a claim, a change of the data, and the verdict with it.
 CHANGES = [
     ("1", scale("harmonic_balance", "figure_03a_rule", quiet_amplitude=1000), NOT_REPRODUCED),
