@@ -138,7 +138,8 @@ FUNCTIONS = {
         | {"clearances": [1.9, 2.0], "starts": 1},
         search
         | {"frequency": positive, "clearances": increasing | st.just([2.0])}
-        | {"damper": no_damper | st.sampled_from([None, {"mass": 0.1}, {"clearance": 1}])},
+        | {"damper": no_damper | st.sampled_from([None, {"mass": 0.1}, {"clearance": 1}])}
+        | {"method": st.sampled_from([None, "", "exact", 3, {}, ["simulated"]])},
     ),
     "basins": (
         GOOD | {"frequency": 1.95, "cells": 2},
@@ -161,17 +162,12 @@ FUNCTIONS = {
         MOVING,
         motion | {"state": state, "period": count, "phase": no_start},
     ),
-    "orbit_branch": (
+    "orbit_branches": (
         MOVING | {"span": (1.9, 2.1)},
         motion
         | {"state": state, "period": count, "span": span}
-        | {"parameter": st.sampled_from([None, "", "gap", 3, ["frequency"], "tolerance"])},
-    ),
-    "complete_branches": (
-        GOOD | {"frequencies": (1.9, 2.1), "motions": []},
-        {"system": no_oscillator, "damper": no_damper}
-        | {"frequencies": span.filter(lambda ends: ends != (2.5, 2.9))}
-        | {"motions": st.sampled_from([None, 3, "motions", [1], [DAMPER], {}])},
+        | {"parameter": st.sampled_from([None, "", "gap", 3, ["frequency"], "tolerance"])}
+        | {"motions": st.sampled_from([3, "motions", [1], [DAMPER], {}])},
     ),
 }
 

@@ -18,7 +18,7 @@ Motions
     migrate                     from the resonance to a small motion, by switching the damper
 
 Periodic orbits, stable or not
-    periodic_orbit, orbit_branch, complete_branches
+    periodic_orbit, orbit_branches
 
 Harmonic balance
     harmonic_balance            the frequency response, and the band that the damper suppresses

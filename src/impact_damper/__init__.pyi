@@ -10,11 +10,10 @@ from .motions.migration import migrate as migrate
 from .motions.response import frequency_response as frequency_response
 from .motions.simulate import simulate as simulate
 from .motions.steady import steady_motion as steady_motion
-from .orbits.all_branches import complete_branches as complete_branches
 from .orbits.basins import basins as basins
 from .orbits.clearance_sweep import clearance_sweep as clearance_sweep
-from .orbits.orbit_branch import orbit_branch as orbit_branch
-from .orbits.orbit_branch import periodic_orbit as periodic_orbit
+from .orbits.orbit_branches import orbit_branches as orbit_branches
+from .orbits.orbit_branches import periodic_orbit as periodic_orbit
 from .theory.harmonic_balance import harmonic_balance as harmonic_balance
 
 __version__: str

@@ -95,14 +95,14 @@ class Curve(MaybeWithDamper):
         return self.subharmonic(config) | lives
 
     @stage(
-        "impact_damper.orbits.all_branches:complete_branches",
+        "impact_damper.orbits.orbit_branches:orbit_branches",
         "Branches of periodic orbits of the curve {name}",
         reads={"motions": ("response", "subharmonic")},
         priority=1,
     )
     def branches(self, config) -> dict:
         span = self.span(config)
-        return self.system(config) | {"frequencies": [span.first, span.last]}
+        return self.system(config) | {"span": [span.first, span.last]}
 
 
 class Motion(WithDamper):

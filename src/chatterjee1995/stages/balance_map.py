@@ -26,9 +26,8 @@ from impact_damper.orbits.quiet_orbits import (
     is_symmetric_pair,
     straight_flight_end,
 )
-from impact_damper.theory.design_rule import peak_frequency
+from impact_damper.theory.design_rule import peak_frequency, rule_clearance
 from impact_damper.theory.free_oscillator import resonance
-from impact_damper.theory.harmonic_balance import optimum_clearance
 from impact_damper.theory.single_harmonic import impacting_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
@@ -259,7 +258,7 @@ def _rows(parameter, values, ratios, fixed):
         oscillator = Oscillator(**own)
         given = {name: number for name, number in given.items() if name not in own}
         if "clearance" not in given:
-            given["clearance"] = optimum_clearance(oscillator, given["mass_ratio"])
+            given["clearance"] = rule_clearance(oscillator, given["mass_ratio"])
         rows.append(_Row(oscillator, Damper(**given), ratios * peak_frequency(oscillator)))
     return rows
 

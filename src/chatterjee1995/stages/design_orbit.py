@@ -20,8 +20,8 @@ from impact_damper.model.parameters import check_damper, describe
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.start_states import search_starts
-from impact_damper.orbits.branch_datasets import branches_dataset
 from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.orbit_branches import branches_dataset
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory.design_rule import peak_frequency
 
@@ -44,7 +44,7 @@ def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settl
     Returns
     -------
     xarray.Dataset
-        The variables of `branches.orbit_branch` for the orbits over the damping, from the h of the
+        The variables of `orbit_branches` for the orbits over the damping, from the h of the
         oscillator up to the heavy damping; `design_orbit_status`, whether the orbit was found and
         followed down to the h of the oscillator; for each `design_start` the outcome of a run from
         this start with this h; and `peak_frequency`.

@@ -25,7 +25,7 @@ from impact_damper.design.task import Task
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.settling import Settling
 from impact_damper.motions.response import frequency_response
-from impact_damper.orbits.all_branches import complete_branches
+from impact_damper.orbits.orbit_branches import orbit_branches
 
 # A swept sine changes the frequency at the rate SWEEP (damping ratio x natural frequency in Hz)^2
 # Hz/s, or faster if it would last longer than MOST_SWEPT cycles.
@@ -148,9 +148,9 @@ class DesignSteps(NamedTuple):
         searched |= self.running("Response")
         damper = task.damper(1e-3 * gap)
         motions = frequency_response(task.machine, damper, task.grid, **searched)
-        orbits = complete_branches(task.machine, damper, span, [motions])
+        orbits = orbit_branches(task.machine, damper, span=span, motions=[motions])
         alone = frequency_response(task.machine, None, task.grid, **searched)
-        alone = complete_branches(task.machine, None, span, [alone])
+        alone = orbit_branches(task.machine, None, span=span, motions=[alone])
         bare = {new: shown_variable(new, alone[old].values) for old, new in BARE.items()}
         # The motions have a variable `branch`, so the dimension `branch` of the orbits is renamed.
         # All steps get the same coordinate `frequency`.

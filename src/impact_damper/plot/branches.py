@@ -67,7 +67,7 @@ def branch(data, axes=None):
     Parameters
     ----------
     data : xarray.Dataset or list of xarray.Dataset
-        Results of `orbit_branch` or `complete_branches`, over the same parameter.
+        Results of `orbit_branches`, over the same parameter.
     axes : matplotlib.axes.Axes, optional
 
     Returns
@@ -79,11 +79,10 @@ def branch(data, axes=None):
     >>> import impact_damper as idm
     >>> oscillator, start = idm.Oscillator(0.215), (0.006, 0.187, 0.002, -2.408)
     >>> damper = idm.Damper(0.12, 2.0)
-    >>> found = idm.orbit_branch(oscillator, damper, 2.0, start, span=(1.9, 2.1))
+    >>> found = idm.orbit_branches(oscillator, damper, 2.0, start, span=(1.9, 2.1))
     >>> axes = idm.plot.branch(found)
     """
-    words = "orbit_branch or complete_branches"
-    given = datasets_in(data, lambda each: "event_kind" in each, words)
+    given = datasets_in(data, lambda each: "event_kind" in each, "orbit_branches")
     with sheet(axes) as (axes,):
         for each in given:
             _draw_orbits(axes, each)
@@ -120,7 +119,7 @@ def runs(data, chosen):
     Parameters
     ----------
     data : xarray.Dataset
-        With the variables of `orbit_branch`.
+        With the variables of `orbit_branches`.
     chosen : callable
         Maps the period of a branch to True if the branch is wanted.
 

@@ -33,8 +33,8 @@ def response(data, axes=None):
     ----------
     data : xarray.Dataset or list of xarray.Dataset
         Results of `frequency_response`, `subharmonic_suppression`, `steady_motion`,
-        `harmonic_balance_response`, `orbit_branch`, `complete_branches` (over frequency) or
-        `suppression_band`, with or without a damper, in any combination.
+        `harmonic_balance` or `orbit_branches` (over frequency), with or without a damper, in any
+        combination.
     axes : matplotlib.axes.Axes, optional
 
     Returns
@@ -50,8 +50,8 @@ def response(data, axes=None):
     given = datasets_in(
         data,
         lambda each: bool(_kind(each)),
-        "frequency_response, subharmonic_suppression, steady_motion, harmonic_balance_response, "
-        "suppression_band, orbit_branch or complete_branches (over frequency)",
+        "frequency_response, subharmonic_suppression, steady_motion, harmonic_balance or "
+        "orbit_branches (over frequency)",
     )
     parts = {kind: [each for each in given if _kind(each) == kind] for kind in map(_kind, given)}
     motions, orbits = parts.get("motions", []), parts.get("orbits", [])
@@ -60,8 +60,6 @@ def response(data, axes=None):
             _draw_orbits(axes, each, stable=not any(map(has_damper, motions)))
         for each in parts.get("balance", []):
             _draw_balance(axes, each, free=not has_damper(each) or not motions + orbits)
-        for each in parts.get("bands", []):
-            _draw_band(axes, each)
         for each in motions:
             _draw_motions(axes, each)
         if "steady" in parts:
@@ -77,8 +75,6 @@ def _kind(data):
         return "orbits"
     if "free_amplitude" in data:
         return "balance"
-    if "band_status" in data:
-        return "bands"
     if "maximum_displacement" in data and "frequency" in data.coords:
         kinds = {("frequency", "motion"): "motions", (): "steady", ("frequency",): "steady"}
         return kinds.get(data["maximum_displacement"].dims, "")

@@ -1,76 +1,60 @@
-"""Design of an elastic impact damper by single-term harmonic balance (section 3).
+"""Single-term harmonic balance of an elastic impact damper over frequency; its suppression band.
 
-Single-term means that one harmonic of the forcing, with the amplitudes a and b, approximates the
-displacement Z1 of the primary mass and its displacement Z2 relative to the loose mass. Numbers in
-brackets are equations of the paper: (7) is the balance with elastic contacts, (14) its limit for
-rigid walls. Free means without the damper. The slow flow is the equation by which amplitude and
-phase of a solution change slowly; from it the stability of the solution follows.
-
-d0 is the clearance.
+Numbers in brackets are equations of the paper: (7) is the balance with elastic contacts, (14) its
+limit for rigid walls.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.model.arguments import read_frequencies, read_system
-from impact_damper.model.bounds import MASS_RATIO_RANGE
 from impact_damper.model.names import names_arguments
 from impact_damper.theory import single_harmonic
-from impact_damper.theory.branch_order import branches_over
-from impact_damper.theory.design_rule import rule_clearance
-from impact_damper.theory.free_oscillator import free_solutions
+from impact_damper.theory.design_rule import peak_frequency
+from impact_damper.theory.free_oscillator import free_solutions, resonance
+from impact_damper.theory.single_harmonic import check_elastic, impacting_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
-from impact_damper.theory.suppression_band import suppression_band
+
+# Solutions at neighbouring frequencies can belong to one branch only if their distance is below
+# JUMP times the size of the largest solution. Between neighbouring points of the usual grids a
+# branch moves by less than this.
+JUMP = 0.25
 
 
-def optimum_clearance(system, mass_ratio) -> float:
-    """Return the clearance of rule (19) of the paper, d0 = f/(rm Wp^2).
+def branches_over(rows) -> list[np.ndarray]:
+    """Return the number of the branch of each solution, at each value of a parameter.
 
-    f is the amplitude of the force at the frequency Wp of the peak without the damper. With this
-    clearance and rigid walls harmonic balance has a solution at the peak in which the machine does
-    not move. The clearance of the smallest motion is larger with elastic contact; `clearance_sweep`
-    finds it.
-
-    Parameters
-    ----------
-    system : Oscillator or Machine
-    mass_ratio : float
-        rm, dimensionless.
-
-    Returns
-    -------
-    float
-        Clearance on each side, half the gap; m for a machine.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If the mass ratio is not a number or out of range, or there is no peak or no forcing.
-
-    Examples
-    --------
-    >>> import impact_damper as idm
-    >>> round(optimum_clearance(idm.Oscillator(0.215), 0.12), 4)
-    2.0688
+    Two solutions at neighbouring values of the parameter belong to the same branch if each is the
+    nearest solution to the other, and the distance between them is below JUMP times the size of the
+    largest solution. Any other solution begins a new branch. Two branches that meet at a fold are
+    told apart if each moves less from value to value than the distance between them.
     """
-    model = read_system(system)
-    mass_ratio = model.scales.read("mass_ratio", mass_ratio, "number", **MASS_RATIO_RANGE)
-    return model.scales.to_si(rule_clearance(model.oscillator, mass_ratio), "clearance")
+    sizes = [np.max(np.abs(row)) for row in rows if len(row)]
+    reach = JUMP * max(sizes, default=1.0)
+    numbers, begun = [], 0
+    last, names = np.empty((0, 1)), np.empty(0, int)
+    for row in rows:
+        branch = np.full(len(row), -1)
+        if len(row) and len(last):
+            distance = np.linalg.norm(row[:, None] - last[None], axis=2)
+            before, after = distance.argmin(axis=1), distance.argmin(axis=0)
+            place = np.arange(len(row))
+            kept = (after[before] == place) & (distance[place, before] < reach)
+            branch[kept] = names[before[kept]]
+        new = branch < 0
+        branch[new] = begun + np.arange(new.sum())
+        begun += int(new.sum())
+        numbers.append(branch)
+        last, names = row, branch
+    return numbers
 
 
 @names_arguments
 def harmonic_balance(system, damper, frequencies):
-    """Return `harmonic_balance_response` and, with a damper, `suppression_band` in one dataset."""
-    response = harmonic_balance_response(system, damper, frequencies)
-    if damper is None:
-        return response
-    band = suppression_band(system, damper)
-    return xr.merge([response, band], combine_attrs="override")
-
-
-def harmonic_balance_response(system, damper, frequencies):
-    """Return the frequency response by harmonic balance: every solution, stable or not.
+    """Return all solutions of single-term harmonic balance, and with a damper the suppression band.
 
     Parameters
     ----------
@@ -85,25 +69,44 @@ def harmonic_balance_response(system, damper, frequencies):
     xarray.Dataset
         For each (frequency, free_solution) a motion without the damper. With a damper also, for
         each (frequency, solution), a solution of (7) or a motion in which the loose mass rests, and
-        for each (frequency, root) a root of (14). Where the loose mass rests, it stands still in
-        space and touches no wall, so the stability of the motion is the one without the damper, by
-        the slow flow. Each index of `free_solution`, `solution` or `root` is a branch, continuous
-        over frequency from fold to fold, so that `amplitude.plot.line(x="frequency")` draws the
-        curves. Where a branch does not exist, entries are NaN or flagged absent. The number of
-        solutions is given for each frequency.
+        for each (frequency, root) a root of (14). Each index of `free_solution`, `solution` or
+        `root` is a branch, continuous over frequency from fold to fold, so that
+        `amplitude.plot.line(x="frequency")` draws the curves. Where a branch does not exist,
+        entries are NaN or flagged absent.
+
+        The suppression band is the range of frequencies around the peak Wp of the free response in
+        which (7) has exactly one stable solution, smaller than the free resonance branch; with a
+        hardening spring this branch ends at the upper fold. For each `edge` (lower, upper) of the
+        band its frequency and the event that ends it there; the width; the reduction at Wp and at
+        the edges; and `break_even_frequency`, beyond which the quiet motion is not smaller than the
+        smallest free motion. NaN and a flag where an edge is not found.
 
     Raises
     ------
     ValueError
         If the damper is not elastic, or frequencies are not positive and increasing.
+    ArithmeticError
+        If (7) could not be resolved at a frequency at which the band is searched.
 
     Examples
     --------
     >>> import impact_damper as idm
     >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
     >>> found = idm.harmonic_balance(oscillator, damper, [1.5, 2.0])
-    >>> found.frequency.values
-    array([1.5, 2. ])
+    >>> found.edge_frequency.values.round(3)
+    array([1.911, 2.008])
+    """
+    response = harmonic_balance_response(system, damper, frequencies)
+    if damper is None:
+        return response
+    band = suppression_band(system, damper)
+    return xr.merge([response, band], combine_attrs="override")
+
+
+def harmonic_balance_response(system, damper, frequencies):
+    """Return the solutions of `harmonic_balance` at each frequency, without the band.
+
+    The stability of a motion in which the loose mass rests is that without the damper.
     """
     model = read_system(system, damper)
     oscillator, damper = model.oscillator, model.damper
@@ -236,3 +239,151 @@ def _rigid_table(oscillator, damper, frequencies):
         "rigid_phase": _table(columns, [each.phase for each in rigid]),
         "rigid_wall": _table(columns, walls, flag("rigid_wall", "absent")),
     }
+
+
+# Search for an edge of the band.
+# SEARCHED: least and greatest W/Wp.
+# SEARCH_STEP: step in W/Wp.
+# EDGE_TOLERANCE: largest error of the frequency of an edge.
+SEARCHED = (0.2, 2.0)
+SEARCH_STEP = 0.005
+EDGE_TOLERANCE = 1e-10
+EDGES = ["lower", "upper"]
+
+
+def suppression_band(system, damper):
+    """Return the suppression band of `harmonic_balance`.
+
+    The search goes from Wp in steps of SEARCH_STEP, and an edge is bisected. An interruption of the
+    band narrower than a step can be missed.
+    """
+    model = read_system(system, damper, needs_damper=True)
+    oscillator, damper = model.oscillator, model.damper
+    check_elastic(damper)
+    title = "Suppression band by harmonic balance"
+    try:
+        peak = peak_frequency(oscillator)
+        resonance(oscillator, peak)
+    except ValueError:
+        return dataset(_no_band(), {"edge": EDGES}, model.describe(), title, model)
+    highest = oscillator.forcing_amplitude(peak) / (oscillator.damping * peak)
+
+    def look(frequency):
+        return _look(oscillator, damper, frequency)
+
+    middle = look(peak)
+    status, frequency, event, reduction = middle.status(), [np.nan] * 2, [0, 0], [np.nan] * 2
+    break_even = None
+    if status == "found":
+        for k, limit in enumerate(SEARCHED):
+            edge = _edge(lambda w: look(w).status() == "found", peak, limit)
+            if edge is not None:
+                inner, outer = look(edge[0]), look(edge[1])
+                frequency[k], event[k] = edge[0], flag("edge_event", _event(inner, outer))
+                reduction[k] = 1 - inner.stable[0] / inner.resonance
+        if middle.beats_free():
+            limit = SEARCHED[0 if oscillator.hardening < 0 else 1]
+            break_even = _edge(lambda w: look(w).beats_free(), peak, limit)
+    quiet = middle.stable[0] if len(middle.stable) else np.nan
+    return dataset(
+        {
+            "band_status": flag("band_status", status),
+            "edge_frequency": frequency,
+            "edge_event": event,
+            "edge_reduction": reduction,
+            "band_width": frequency[1] - frequency[0],
+            "peak_frequency": peak,
+            "peak_amplitude": highest,
+            "quiet_amplitude": quiet,
+            "reduction": 1 - quiet / highest,
+            "break_even_frequency": np.nan if break_even is None else break_even[0],
+        },
+        {"edge": EDGES},
+        model.describe(),
+        title,
+        model,
+    )
+
+
+def _no_band():
+    """Return the variables of `suppression_band` if the free response has no peak."""
+    return {
+        "band_status": flag("band_status", "no_peak"),
+        "edge_frequency": [np.nan] * 2,
+        "edge_event": [flag("edge_event", "not_found")] * 2,
+        "edge_reduction": [np.nan] * 2,
+    } | dict.fromkeys(
+        (
+            "band_width",
+            "peak_frequency",
+            "peak_amplitude",
+            "quiet_amplitude",
+            "reduction",
+            "break_even_frequency",
+        ),
+        np.nan,
+    )
+
+
+class _Look(NamedTuple):
+    """The solutions of (7) and the free motions at one frequency.
+
+    count: Number of solutions of (7).
+    stable: |a| of the stable solutions, ascending.
+    resonance: Amplitude of the free resonance branch; NaN beyond its end.
+    least_free: Smallest amplitude of a free motion.
+    """
+
+    count: int
+    stable: np.ndarray
+    resonance: float
+    least_free: float
+
+    def status(self):
+        if len(self.stable) != 1:
+            return "no_single_motion"
+        return "found" if self.stable[0] < self.resonance else "no_reduction"
+
+    def beats_free(self):
+        return len(self.stable) > 0 and self.stable[0] < self.least_free
+
+
+def _look(oscillator, damper, frequency):
+    solutions = impacting_solutions(oscillator, damper, frequency)
+    growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
+    free, branch = free_solutions(oscillator, frequency), resonance(oscillator, frequency)
+    stable = np.sort(np.abs(solutions.amplitude[stability(growth) == flag("stability", "stable")]))
+    amplitude = np.nan if branch.phase is None else branch.amplitude
+    return _Look(len(growth), stable, amplitude, free.amplitude[0])
+
+
+def _edge(inside, peak, limit):
+    """Return two frequencies on both sides of an edge of the band, the inner one first, or None.
+
+    They differ by EDGE_TOLERANCE at most. The search goes from `peak` to `limit` times `peak`.
+    `inside` is a function that returns whether a frequency belongs to the band.
+    """
+    step = np.sign(limit - 1) * SEARCH_STEP * peak
+    inner = peak
+    for outer in np.arange(peak + step, limit * peak, step):
+        if not inside(outer):
+            break
+        inner = outer
+    else:
+        return None
+    while abs(outer - inner) > EDGE_TOLERANCE:
+        middle = (inner + outer) / 2
+        inner, outer = (middle, outer) if inside(middle) else (inner, middle)
+    return inner, outer
+
+
+def _event(inner, outer):
+    """Return the flag `edge_event`, from the solutions on both sides of an edge of the band."""
+    if np.isnan(outer.resonance):
+        return "resonance_branch_ends"
+    same = inner.count == outer.count
+    if len(outer.stable) > 1:
+        return "other_motion_stabilises" if same else "other_motion_appears"
+    if len(outer.stable) == 0:
+        return "quiet_motion_destabilises" if same else "quiet_motion_folds"
+    return "no_reduction"

@@ -38,9 +38,9 @@ def test_an_argument_that_needs_its_name_is_told():
 def test_a_misspelt_parameter_of_a_branch_is_answered():
     given = {"state": (0, 0, 0, 0), "span": (1, 3)}
     with pytest.raises(ValueError, match="parameter = .*did you mean clearance"):
-        idm.orbit_branch(OSCILLATOR, DAMPER, 2.0, parameter="clearence", **given)
+        idm.orbit_branches(OSCILLATOR, DAMPER, 2.0, parameter="clearence", **given)
     with pytest.raises(ValueError, match="parameter = .*did you mean frequency"):
-        idm.orbit_branch(MACHINE, None, 20.0, (0, 0), parameter="frequnecy", span=(18, 22))
+        idm.orbit_branches(MACHINE, None, 20.0, (0, 0), parameter="frequnecy", span=(18, 22))
 
 
 def test_the_version_is_stated_alike_everywhere():

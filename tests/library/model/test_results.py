@@ -198,7 +198,7 @@ def test_orbits_in_si_are_those_in_other_scales(other_length):
         assert int(steady["outcome"]) == flag("outcome", "settled")
         state = steady["state"].values
         orbit = idm.periodic_orbit(machine, damper, AT_RESONANCE, state)
-        branch = idm.orbit_branch(
+        branch = idm.orbit_branches(
             machine, damper, AT_RESONANCE, state, parameter="force", span=("38 N", "42 N")
         )
         assert branch["followed_value"].attrs["units"] == "N"
@@ -217,7 +217,7 @@ def test_orbits_in_si_are_those_in_other_scales(other_length):
 
 def test_branches_are_followed_from_motions_in_si():
     motions = idm.frequency_response(LINEAR, None, [20.0], starts=1)
-    branches = idm.complete_branches(LINEAR, None, (19, 22), [motions])
+    branches = idm.orbit_branches(LINEAR, None, span=(19, 22), motions=[motions])
     peak = 20 / math.sqrt(1 - 0.005**2)
     assert float(branches["orbit_displacement"].max()) == pytest.approx(peak, rel=1e-3)
     assert branches["followed_value"].values[[0, -1]] == pytest.approx([19, 22], rel=1e-12)
@@ -247,11 +247,13 @@ def test_branches_are_followed_from_motions_in_si():
             "clearances[0] = '1 nm': must be at least 2e-9 m",
         ),
         (
-            lambda d: idm.orbit_branch(LINEAR, d, 20, (0, 0, 0, 0), span=(19, 21), parameter="gap"),
+            lambda d: idm.orbit_branches(
+                LINEAR, d, 20, (0, 0, 0, 0), span=(19, 21), parameter="gap"
+            ),
             "parameter = 'gap': must be one of frequency, damping",
         ),
         (
-            lambda d: idm.complete_branches(LINEAR, d, (19, 21), [3]),
+            lambda d: idm.orbit_branches(LINEAR, d, span=(19, 21), motions=[3]),
             "motions = [3]: must be a list of datasets",
         ),
     ],

@@ -11,7 +11,6 @@ import pytest
 
 import impact_damper as idm
 from impact_damper.data.datasets import flag
-from impact_damper.theory.harmonic_balance import optimum_clearance
 
 LENGTH, TIME, MASS = 2e-3, 1e-2, 3.0
 FORCE, STIFFNESS = MASS * LENGTH / TIME**2, MASS / TIME**2
@@ -50,14 +49,6 @@ def assert_scaled(found, by_hand, names, **tolerances):
     for name in names:
         expected = by_hand[name].values * UNITS[found[name].attrs.get("units", "1")]
         np.testing.assert_allclose(found[name], expected, err_msg=name, **tolerances)
-
-
-def test_optimum_clearance_of_a_machine():
-    """Against the dimensionless rule, and F/(m2 w0^2) for a loose mass m2 on a linear machine."""
-    found = optimum_clearance(HARD, "12 %")
-    assert found == pytest.approx(LENGTH * optimum_clearance(PAPER, 0.12), rel=1e-12)
-    closed = LINEAR.force / (0.05 * MASS) / (2 * math.pi * LINEAR.natural_frequency) ** 2
-    assert optimum_clearance(LINEAR, 0.05) == pytest.approx(closed, rel=1e-12)
 
 
 def test_migration_of_a_machine():
@@ -138,19 +129,6 @@ def test_the_radius_of_a_search_is_warned_of_in_si_units():
             "frequency = 40 Hz: without the damper there must be both a non-resonance and a res",
         ),
         (lambda: idm.migrate(LINEAR, DAMPER, 16.0), "frequency = 16 Hz: without the damper there"),
-        (
-            lambda: optimum_clearance(idm.Machine(**SOFTENING, force="8 N"), 0.1),
-            "force = 8 N: the response has no peak, the motion goes over the barrier of the "
-            "softening spring (cubic_stiffness = -7.5e9 N/m^3)",
-        ),
-        (
-            lambda: optimum_clearance(idm.Machine(**SOFTENING, force=0), 0.1),
-            "force = 0 N, unbalance = 0 kg m: the rule for the clearance needs a forcing",
-        ),
-        (
-            lambda: optimum_clearance(LINEAR, "0.3 kg"),
-            "mass_ratio = '0.3 kg': must be a number, or text such as",
-        ),
         (
             lambda: idm.frequency_response(LINEAR, DAMPER, [16, 15.5]),
             "frequencies = [16, 15.5]: must be increasing",

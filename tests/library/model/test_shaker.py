@@ -13,7 +13,6 @@ from scipy.integrate import solve_ivp
 
 import impact_damper as idm
 from impact_damper.design.task import Task
-from impact_damper.theory.harmonic_balance import optimum_clearance
 
 MASS, STIFFNESS, RATIO, ACCELERATION = 12.0, 2e5, 0.02, 3.0
 MACHINE = idm.Machine(
@@ -39,7 +38,7 @@ def test_response_over_a_band_is_the_transmissibility_in_space():
 def branch():
     """Orbits with two contacts over the frequency; the force contains the part V/W^2."""
     start = idm.steady_motion(MACHINE, DAMPER, 20, (0, 0, 0, 0.3)).state.values
-    return idm.orbit_branch(MACHINE, DAMPER, 20, start, parameter="frequency", span=(18, 22))
+    return idm.orbit_branches(MACHINE, DAMPER, 20, start, parameter="frequency", span=(18, 22))
 
 
 @pytest.fixture(params=[18.0, 20.0, 21.9])
@@ -108,7 +107,9 @@ def test_rule_for_the_clearance_in_closed_form():
     square = STIFFNESS / MASS
     force = STIFFNESS * ACCELERATION / square * (1 + 2 * RATIO**2)
     expected = force / (0.05 * MASS * square)
-    assert optimum_clearance(MACHINE, 0.05) == pytest.approx(expected, rel=1e-9)
+    damper = MACHINE.damper(mass=0.05 * MASS, gap=0.01, restitution=0.7, contact_stiffness=1e7)
+    found = idm.clearance_sweep(MACHINE, damper, 20, [1e-3, 2e-3], method="harmonic_balance")
+    assert found.peak_rule_clearance == pytest.approx(1e3 * expected, rel=1e-9)
 
 
 def test_a_design_looks_where_the_machine_resonates():

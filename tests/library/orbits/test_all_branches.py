@@ -6,7 +6,7 @@ import pytest
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions.simulate import simulate
 from impact_damper.motions.steady import steady_motion
-from impact_damper.orbits.orbit_branch import orbit_branch, periodic_orbit
+from impact_damper.orbits.orbit_branches import orbit_branches, periodic_orbit
 
 OSCILLATOR = Oscillator(damping=0.215)
 
@@ -53,4 +53,4 @@ def test_an_orbit_that_repeats_sooner_is_told_and_not_followed():
     with pytest.warns(UserWarning, match="period = 3: .* already repeats"):
         periodic_orbit(OSCILLATOR, damper, 2.0, state, period=3)
     with pytest.raises(ArithmeticError, match="period = 3: .* repeats after a divisor"):
-        orbit_branch(OSCILLATOR, damper, 2.0, state, period=3, span=(1.9, 2.1))
+        orbit_branches(OSCILLATOR, damper, 2.0, state, period=3, span=(1.9, 2.1))

@@ -19,9 +19,8 @@ from impact_damper.model.settling import Settling
 from impact_damper.motions.ensemble import settle
 from impact_damper.motions.following import follow_stable
 from impact_damper.motions.response import frequency_response
-from impact_damper.orbits.all_branches import complete_branches
 from impact_damper.orbits.branches import follow_branch
-from impact_damper.orbits.orbit_branch import orbit_branch, periodic_orbit
+from impact_damper.orbits.orbit_branches import orbit_branches, periodic_orbit
 from impact_damper.orbits.shooting import find_orbit
 
 SETTLING = Settling(tolerance=1e-10, patience=300, limit=3000)
@@ -118,7 +117,7 @@ def test_isola_is_closed():
     the largest frequency.
     """
     response = frequency_response(PAPER, None, [1.8], starts=96)
-    branches = complete_branches(PAPER, None, (0.6, 2.6), [response])
+    branches = orbit_branches(PAPER, None, span=(0.6, 2.6), motions=[response])
     third = int(np.flatnonzero(branches["branch_period"].values == 3)[0])
     assert branches["branch_end"].values[third].tolist() == [1, 1]
     points = branches.isel(point=np.flatnonzero(branches["orbit_branch"].values == third))
@@ -146,7 +145,7 @@ def test_a_branch_holds_its_orbits_and_no_others(quiet, resonance):
 
 def test_progress_shows_the_branches_found_and_their_ends(capsys):
     response = frequency_response(PAPER, None, [2.0], starts=8)
-    complete_branches(PAPER, None, (1.9, 2.1), [response], progress="free")
+    orbit_branches(PAPER, None, span=(1.9, 2.1), motions=[response], progress="free")
     told = capsys.readouterr().err
     assert "free: 100%" in told and "branches with" in told and "range_ends" in told
 
@@ -164,7 +163,7 @@ def test_progress_shows_the_branches_found_and_their_ends(capsys):
 def test_branches_over_each_parameter_end_on_an_orbit(parameter, span):
     """The first and the last orbit are those that Newton's method finds at the ends of the span."""
     state = polished_orbit("design").state
-    branch = orbit_branch(PAPER, DESIGN, 2.0, state, parameter=parameter, span=span)
+    branch = orbit_branches(PAPER, DESIGN, 2.0, state, parameter=parameter, span=span)
     values = branch["followed_value"].values
     assert_allclose([values.min(), values.max()], span, rtol=1e-12)
     for row in (0, -1):
@@ -193,7 +192,7 @@ def grazing():
     """Return a damper, its branches, and the events at which the sequence of contacts changes."""
     soft = Damper(0.4, 0.625, contact_stiffness=50.0)
     response = frequency_response(PAPER, soft, [1.2, 1.4, 2.0], starts=24)
-    branches = complete_branches(PAPER, soft, (0.9, 2.6), [response])
+    branches = orbit_branches(PAPER, soft, span=(0.9, 2.6), motions=[response])
     changes = np.flatnonzero(np.isin(branches["event_kind"].values, [5, 6]))
     assert len(changes) > 0
     return soft, branches, changes
@@ -210,10 +209,10 @@ def test_change_of_contacts_is_where_a_contact_has_no_speed(grazing):
 def test_bad_arguments_are_named():
     state = polished_orbit("design").state
     with pytest.raises(ValueError, match="parameter = 'gap'.*clearance"):
-        orbit_branch(PAPER, DESIGN, 2.0, state, parameter="gap", span=(1, 3))
+        orbit_branches(PAPER, DESIGN, 2.0, state, parameter="gap", span=(1, 3))
     with pytest.raises(ValueError, match="no damper to change"):
-        orbit_branch(PAPER, None, 2.0, (0, 0.5), parameter="clearance", span=(1, 3))
+        orbit_branches(PAPER, None, 2.0, (0, 0.5), parameter="clearance", span=(1, 3))
     with pytest.raises(ValueError, match="must hold clearance = 2"):
-        orbit_branch(PAPER, DESIGN, 2.0, state, parameter="clearance", span=(3, 4))
+        orbit_branches(PAPER, DESIGN, 2.0, state, parameter="clearance", span=(3, 4))
     with pytest.raises(ArithmeticError, match="residual"):
         periodic_orbit(PAPER, Damper(0.12, 2.0), 2.0, (3.0, 9.0, 0.0, 30.0), period=5)

@@ -16,8 +16,13 @@ from impact_damper.model import packed
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions.simulate import simulate
-from impact_damper.orbits.branch_minimum import NEAR_MINIMUM, Branch, _near, minimum_table
-from impact_damper.orbits.clearance_sweep import clearance_sweep
+from impact_damper.orbits.clearance_sweep import (
+    NEAR_MINIMUM,
+    Branch,
+    _near,
+    clearance_sweep,
+    minimum_table,
+)
 from impact_damper.theory.single_harmonic import contact_amplitude
 
 PAPER = Oscillator(0.215)

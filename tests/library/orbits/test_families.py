@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from impact_damper.model.parameters import Oscillator
-from impact_damper.orbits.orbit_branch import orbit_branch
+from impact_damper.orbits.orbit_branches import orbit_branches
 
 FREQUENCY = 1.7
 
@@ -35,7 +35,7 @@ def test_branch_of_a_linear_oscillator(parameter, span):
     own |= {"unbalance" if parameter == "force" else "force": 0.0}
     oscillator = Oscillator(**own)
     state = at_strobe(harmonic(oscillator))
-    found = orbit_branch(oscillator, None, FREQUENCY, state, span=span, parameter=parameter)
+    found = orbit_branches(oscillator, None, FREQUENCY, state, span=span, parameter=parameter)
     values = found["followed_value"].values
     assert_allclose([values.min(), values.max()], span, rtol=1e-12, atol=1e-12)
     expected = [abs(harmonic(Oscillator(**own | {parameter: value}))) for value in values]
@@ -50,7 +50,7 @@ def test_branches_over_force_and_cubic_agree_by_scaling():
     """
     oscillator = Oscillator(1.2, 1.0, 0.05, 1.0)
     state = at_strobe(harmonic(oscillator))
-    cubic = orbit_branch(oscillator, None, FREQUENCY, state, span=(-0.02, 4.0), parameter="cubic")
+    cubic = orbit_branches(oscillator, None, FREQUENCY, state, span=(-0.02, 4.0), parameter="cubic")
     values, size = cubic["followed_value"].values, cubic["orbit_displacement"].values
     linear = abs(harmonic(Oscillator(1.2, 1.0, 0.0, 1.0)))
     order = np.argsort(values)
@@ -58,7 +58,7 @@ def test_branches_over_force_and_cubic_agree_by_scaling():
     root = np.sqrt(values[values > 0.01])
     start = np.multiply(state, np.sqrt(0.05))
     scaled = Oscillator(1.2, 1.0, 1.0, float(np.sqrt(0.05)))
-    force = orbit_branch(scaled, None, FREQUENCY, start, span=(0.0, 2.0), parameter="force")
+    force = orbit_branches(scaled, None, FREQUENCY, start, span=(0.0, 2.0), parameter="force")
     assert abs(force["followed_value"].values.min()) < 1e-12
     assert force["orbit_displacement"].values.min() < 1e-9
     known, expected = force["followed_value"].values, force["orbit_displacement"].values

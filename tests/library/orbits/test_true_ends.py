@@ -14,8 +14,8 @@ from references.extended.bifurcations import located
 
 from impact_damper.model.packed import pack
 from impact_damper.motions.response import frequency_response
-from impact_damper.orbits.all_branches import complete_branches
 from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.orbit_branches import orbit_branches
 from impact_damper.orbits.shooting import find_orbit
 
 SPAN = (0.3, 4.0)
@@ -78,7 +78,7 @@ def test_ends_of_all_branches_of_a_damper():
     Branches above period 1 may also be left among unstable orbits (7).
     """
     response = frequency_response(PAPER, INELASTIC, [1.15, 1.2], starts=12)
-    branches = complete_branches(PAPER, INELASTIC, (1.1, 1.4), [response])
+    branches = orbit_branches(PAPER, INELASTIC, span=(1.1, 1.4), motions=[response])
     ends = branches["branch_end"].values
     period = branches["branch_period"].values
     assert period.max() > 4

@@ -23,7 +23,7 @@ from impact_damper.theory.free_oscillator import (
     maximum_response,
     resonance,
 )
-from impact_damper.theory.harmonic_balance import optimum_clearance
+from impact_damper.theory.harmonic_balance import suppression_band
 from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
 from impact_damper.theory.optimum_clearance import rule_ratios
 from impact_damper.theory.single_harmonic import (
@@ -39,7 +39,6 @@ from impact_damper.theory.slow_flow import (
     slow_flow,
     stability,
 )
-from impact_damper.theory.suppression_band import suppression_band
 
 LINEAR, SOFTENING = SPRINGS["linear"], SPRINGS["softening"]
 
@@ -187,7 +186,7 @@ def test_a_response_without_a_peak_says_so(oscillator, message):
     assert band.band_status == flag("band_status", "no_peak")
     assert np.isnan(band.edge_frequency).all() and np.isnan(band.band_width)
     with pytest.raises(ValueError, match="no peak"):
-        optimum_clearance(oscillator, 0.1)
+        rule_clearance(oscillator, 0.1)
 
 
 def test_without_force_there_is_rest():

@@ -5,8 +5,7 @@ from numpy.testing import assert_allclose
 
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.theory.branch_order import branches_over
-from impact_damper.theory.harmonic_balance import harmonic_balance_response
+from impact_damper.theory.harmonic_balance import branches_over, harmonic_balance_response
 
 
 def test_roots_of_a_cubic_lie_on_three_branches():

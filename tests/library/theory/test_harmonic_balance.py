@@ -9,9 +9,9 @@ from numpy.testing import assert_allclose
 
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.theory.design_rule import peak_frequency
+from impact_damper.theory.design_rule import peak_frequency, rule_clearance
 from impact_damper.theory.free_oscillator import free_folds
-from impact_damper.theory.harmonic_balance import harmonic_balance_response, optimum_clearance
+from impact_damper.theory.harmonic_balance import harmonic_balance_response
 from impact_damper.theory.single_harmonic import impacting_solutions, rigid_solutions
 
 CUBIC = Oscillator(0.215)
@@ -27,7 +27,7 @@ def response():
 def test_optimum_clearance(linear, rounded):
     """With the clearance of rule (19), the balance with rigid walls gives amplitude 0 at Wp."""
     oscillator = Oscillator(0.215, linear)
-    clearance = optimum_clearance(oscillator, 0.12)
+    clearance = rule_clearance(oscillator, 0.12)
     assert_allclose(clearance, rounded, atol=5e-3)
     peak = peak_frequency(oscillator)
     rigid = rigid_solutions(oscillator, Damper(0.12, clearance), peak)

@@ -10,11 +10,14 @@ from numpy.testing import assert_allclose
 
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.theory.design_rule import rule_clearance
 from impact_damper.theory.free_oscillator import free_folds
-from impact_damper.theory.harmonic_balance import harmonic_balance_response, optimum_clearance
+from impact_damper.theory.harmonic_balance import (
+    harmonic_balance_response,
+    suppression_band,
+)
 from impact_damper.theory.single_harmonic import impacting_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate
-from impact_damper.theory.suppression_band import suppression_band
 
 CUBIC = Oscillator(0.215)
 PAPER = Damper(0.12, 2.0)
@@ -70,7 +73,7 @@ def test_quiet_motion_breaks_even_with_the_free_one(band):
 def test_band_without_folds_ends_where_nothing_is_gained():
     oscillator = Oscillator(0.6, 3.0)
     assert free_folds(oscillator) == []
-    band = suppression_band(oscillator, Damper(0.12, optimum_clearance(oscillator, 0.12)))
+    band = suppression_band(oscillator, Damper(0.12, rule_clearance(oscillator, 0.12)))
     assert np.all(band.edge_event == flag("edge_event", "no_reduction"))
     assert_allclose(band.edge_reduction, 0, atol=1e-8)
 

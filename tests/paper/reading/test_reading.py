@@ -11,7 +11,7 @@ from chatterjee1995.reading.bands import suppression_band
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Oscillator
 from impact_damper.motions.steady import steady_motion
-from impact_damper.orbits.orbit_branch import orbit_branch
+from impact_damper.orbits.orbit_branches import orbit_branches
 
 
 @pytest.fixture
@@ -56,7 +56,7 @@ def test_a_quiet_orbit_is_stable_and_smaller_than_half_the_resonance(data):
 def test_between_neighbouring_orbits_a_straight_line_is_close():
     """Interpolated orbits agree with simulated motions, and stable parts end at the folds."""
     oscillator, span = Oscillator(damping=0.215), (1.2, 2.6)
-    free = orbit_branch(oscillator, None, 1.8, (2.2, 0.1), span=span)
+    free = orbit_branches(oscillator, None, 1.8, (2.2, 0.1), span=span)
     part = orbits.pieces(free)
     part = part[part.stable]
     end, _ = orbits.resonance_fold(free)

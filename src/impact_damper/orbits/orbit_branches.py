@@ -1,0 +1,369 @@
+"""Periodic orbits as labelled datasets: one orbit, or branches of orbits over a parameter."""
+
+import sys
+import warnings
+from collections import Counter
+
+import numpy as np
+import xarray as xr
+from tqdm import tqdm
+
+from impact_damper.data.datasets import dataset, flag, from_si
+from impact_damper.model.arguments import (
+    carried_phase,
+    read_forced,
+    read_span,
+    read_state,
+    read_system,
+)
+from impact_damper.model.bounds import FREQUENCY_RANGE, check_count, check_number, shown
+from impact_damper.model.checks import check_frequency
+from impact_damper.model.families import LINEAR, family_of, read_followed
+from impact_damper.model.names import names_arguments
+from impact_damper.model.packed import FREQUENCY
+from impact_damper.motions.records import phase_of
+from impact_damper.motions.simulate import COMPONENTS
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.orbit import STROBE
+from impact_damper.orbits.shooting import find_orbit
+from impact_damper.orbits.switching import follow_others, met_by
+
+# A branch of period 1 is followed to its ends. Any other branch is left once its unstable orbits in
+# a row last BEYOND forcing cycles together: farther on, branches wind through chaos for up to 20000
+# orbits, and the stable parts there are narrower than 0.01 in frequency.
+BEYOND = 300
+
+
+@names_arguments
+def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
+    """Find the periodic orbit near a state by Newton's method.
+
+    Parameters
+    ----------
+    system : Oscillator or Machine
+    damper : Damper, MachineDamper or None
+    frequency : float
+        Forcing frequency W, or Hz for a machine.
+    state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
+        Z1, Z1', Z2, Z2' near the orbit.
+    period : int
+        Period n of the orbit in forcing cycles.
+    phase : float, optional
+        Phase W T of the state, radian. The default is the phase stored with the state of a dataset,
+        and pi/2 for other states.
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of `orbit_branches`, with the orbit as the only point. Its state is given at a
+        phase at which no wall is touched. For each `contact`: the wall, and the times and the
+        relative speeds Z2' at its beginning and end.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range.
+    ArithmeticError
+        If Newton's method does not converge.
+
+    Warns
+    -----
+    UserWarning
+        If the orbit repeats after a divisor of the period.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+    >>> start = (0.006, 0.187, 0.002, -2.408)
+    >>> orbit = idm.periodic_orbit(oscillator, damper, 2.0, state=start)
+    >>> idm.decode(orbit.orbit_stability).item(), round(orbit.orbit_displacement.item(), 6)
+    ('stable', 0.057734)
+    """
+    model = read_forced(system, damper, frequency)
+    state, orbit = _checked_orbit(model, state, period, phase)
+    if orbit.repeats_sooner():
+        warnings.warn(
+            f"period = {period}: the orbit found already repeats after a divisor of {period}",
+            stacklevel=2,
+        )
+    log = orbit.contacts
+    data = orbit_variables([(model.frequency, orbit)]) | {
+        "orbit_branch": np.zeros(1, int),
+        "contact_wall": log[:, 0],
+        "contact_begin": log[:, 1],
+        "contact_end": log[:, 2],
+        "approach_velocity": log[:, 3],
+        "departure_velocity": log[:, 4],
+    }
+    made = model.describe() | {"period": int(period), "state": state.tolist()}
+    return dataset(data, {"component": list(COMPONENTS)}, made, "Periodic orbit", model)
+
+
+@names_arguments
+def orbit_branches(
+    system,
+    damper,
+    frequency=None,
+    state=None,
+    *,
+    span,
+    parameter="frequency",
+    period=1,
+    motions=None,
+    progress=None,
+):
+    """Follow branches of periodic orbits over a parameter, stable or not.
+
+    From a frequency and a state, the branch of the orbit near the state is followed. From datasets
+    of motions, every branch over frequency on which a settled motion lies is followed, and the
+    branches that leave next to its stable orbits, where an orbit loses its symmetry or doubles its
+    period, if they begin stable or if the first branch has the period 1 or 3. A branch of period 1
+    is then followed to its ends, any other until 300 forcing cycles of unstable orbits lie behind
+    each other.
+
+    Parameters
+    ----------
+    system : Oscillator or Machine
+    damper : Damper, MachineDamper or None
+    frequency, state
+        As in `periodic_orbit`; not for motions.
+    span : tuple of float
+        Least and greatest value of the parameter.
+    parameter : str
+        frequency, damping, cubic, force, unbalance, mass_ratio, clearance, restitution or
+        contact_stiffness; for a machine cubic_stiffness, mass and clearance_each_side in place of
+        cubic, mass_ratio and clearance.
+    period : int
+        Period of the orbit near a state, in forcing cycles.
+    motions : list of xarray.Dataset, optional
+        Results of `frequency_response` for this system and damper.
+    progress : str, optional
+        Title of a progress bar and of a summary on stderr, for motions.
+
+    Returns
+    -------
+    xarray.Dataset
+        For each `point`, in order along the branches, an orbit: the parameter, the largest
+        displacement, stability, Floquet multipliers, contacts, the state and its phase, the
+        residual, and the relative error of the determinant, which Liouville's theorem gives.
+        `orbit_status` says how reliable these numbers are. For each `event` its kind: fold,
+        symmetry breaking, period doubling, Neimark-Sacker bifurcation, grazing (a contact appears
+        or vanishes in flight) or merging (two contacts with a wall become one). For each (branch,
+        edge), that is for each end: the reason why the branch ends. From motions also their number
+        `seeds`, and `seeds_lost`, the number of those from which Newton's method found no orbit. A
+        branch and its mirror image count as one. With a damper, motions without contacts are left
+        out, because they are motions without the damper.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is of another type or out of range.
+    ArithmeticError
+        If Newton's method finds no orbit near the state, or an orbit that repeats after a divisor
+        of the period.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
+    >>> state = (0.006, 0.187, 0.002, -2.408)
+    >>> branch = idm.orbit_branches(oscillator, damper, 2.0, state, span=(1.8, 2.2))
+    >>> idm.decode(branch.event_kind).values.tolist()
+    []
+    >>> response = idm.frequency_response(oscillator, damper, [1.95, 2.0], starts=8)
+    >>> found = idm.orbit_branches(oscillator, damper, motions=[response], span=(1.9, 2.1))
+    >>> found.sizes["branch"]
+    1
+    """
+    if motions is not None:
+        return _all_branches(system, damper, span, motions, progress)
+    model = read_forced(system, damper, frequency, exact=parameter != "frequency")
+    parameter, span = read_followed(model, parameter, span)
+    family, value, ends = family_of(*model[:3], parameter, span)
+    state, orbit = _checked_orbit(model, state, period, None)
+    if orbit.repeats_sooner():
+        raise ArithmeticError(
+            f"period = {period}: the orbit near the state repeats after a divisor of {period}; "
+            "give the divisor as the period, or a state closer to the orbit"
+        )
+    branch = follow_branch(family, orbit, value, ends)
+    made = model.describe() | {
+        "period": int(period),
+        "parameter": parameter,
+        "state": state.tolist(),
+        "span": list(span),
+    }
+    back = float if parameter in LINEAR else np.exp
+    return branches_dataset([branch], back, made, "Branch of periodic orbits", model)
+
+
+def _all_branches(system, damper, span, motions, progress):
+    """Return the branches of the orbits of all settled motions, and those that leave them."""
+    model = read_system(system, damper)
+    damper = model.damper
+    span = read_span(model.scales, "span", span, "frequency", **FREQUENCY_RANGE)
+    if not isinstance(motions, list) or not all(isinstance(each, xr.Dataset) for each in motions):
+        raise TypeError(f"motions = {shown(motions)}: must be a list of datasets of motions")
+
+    motions = [from_si(each, model.scales) for each in motions]
+    packed = model.pack(span[0])
+
+    def family(value):
+        p = packed.copy()
+        p[FREQUENCY] = check_frequency(value)
+        return p
+
+    def follow(orbit, value):
+        beyond = np.inf if orbit.periods == 1 else BEYOND / orbit.periods
+        return follow_branch(family, orbit, value, span, beyond)
+
+    branches, lost = [], 0
+    seeds = sorted(_seeds(motions, damper), key=lambda seed: seed[:3])
+    with tqdm(seeds, desc=progress, disable=progress is None, mininterval=1.0) as bar:
+        for period, frequency, _, state in bar:
+            orbit = find_orbit(family(frequency), state, period)
+            if not orbit.converged or orbit.repeats_sooner():
+                lost += 1
+            elif not any(branch.holds(orbit, frequency) for branch in branches):
+                branches.append(follow(orbit, frequency))
+                bar.set_postfix(branches=len(branches))
+    follow_others(branches, follow)
+    if progress is not None:
+        tqdm.write(f"{progress}: {_summary(branches, len(seeds), lost)}", file=sys.stderr)
+    parameters = model.describe() | {"parameter": "frequency"}
+    title, counts = "Branches of periodic orbits", {"seeds": len(seeds), "seeds_lost": lost}
+    return branches_dataset(branches, float, parameters, title, model, counts)
+
+
+def _checked_orbit(model, state, period, phase):
+    """Check arguments; return the state and the orbit near it; raises as `periodic_orbit` does."""
+    check_count("period", period, most=1000)
+    if phase is None:
+        carried = carried_phase(state)
+        phase = STROBE if carried is None else carried
+    check_number("phase", phase, least=-1e6, most=1e6)
+    state = read_state(model, state)
+    orbit = find_orbit(model.pack(), state, period, phase)
+    if not orbit.converged:
+        raise ArithmeticError(
+            f"no orbit of period {period} found: Newton's method left a residual of "
+            f"{orbit.residual:.2g}; a state closer to it, or another period, is needed"
+        )
+    return state, orbit
+
+
+def _summary(branches, seeds, lost):
+    """Return a line with the numbers of motions, branches, orbits, events and ends of branches.
+
+    `seeds` is the number of motions, and `lost` the number of those from which no orbit was found.
+    """
+
+    def listed(names):
+        counts = Counter(names)
+        return ", ".join(f"{name} {counts[name]}" for name in sorted(counts)) or "none"
+
+    events = listed(event.kind for branch in branches for _, event in branch.events)
+    ends = listed(end for branch in branches for end in branch.ends)
+    orbits = sum(len(branch.points) for branch in branches)
+    unlocated = sum(branch.lost for branch in branches)
+    return (
+        f"{seeds} motions, {lost} of them without an orbit; {len(branches)} branches with "
+        f"{orbits} orbits; events: {events}; not located: {unlocated}; ends: {ends}"
+    )
+
+
+def _seeds(motions, damper):
+    """Yield period, frequency, max |Z1| and state of each settled motion in the datasets."""
+    for data in motions:
+        chosen = data["outcome"].values == flag("outcome", "settled")
+        if damper is not None:
+            chosen &= data["contacts"].values > 0
+        for row, column in zip(*np.nonzero(chosen), strict=True):
+            motion = data.isel(frequency=row, motion=column)
+            yield (
+                int(motion["period"]),
+                float(motion["frequency"]),
+                float(motion["maximum_displacement"]),
+                motion["state"].values,
+            )
+
+
+# A contact counts as near grazing if the relative speed at its beginning is below SLOW. Floquet
+# multipliers then describe very small disturbances only: the effect of a disturbance d also has a
+# term with the power 3/2 of d, whose coefficient grows near grazing.
+SLOW = 0.01
+
+
+def _status(orbit):
+    """Return the flag `orbit_status`: how reliable an orbit and its multipliers are."""
+    if not orbit.converged:
+        return flag("orbit_status", "not_converged")
+    slow = orbit.touching > 0 and orbit.least_speed < SLOW
+    return flag("orbit_status", "near_grazing" if slow else "regular")
+
+
+def orbit_variables(pairs):
+    """Return the variables with the dimension `point`, a dict.
+
+    `pairs` is a list of pairs of a value of the parameter and an `Orbit`.
+    """
+    values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
+    records = [orbit.record for orbit in orbits]
+    first, second = (
+        np.array([record[name] for record in records], complex)
+        for name in ("harmonic_displacement", "harmonic_relative")
+    )
+    multipliers = np.array([orbit.multipliers for orbit in orbits]).reshape(-1, 4)
+    stable = [flag("stability", "stable" if orbit.stable else "unstable") for orbit in orbits]
+    return {
+        "followed_value": np.array(values, float),
+        "orbit_displacement": np.array([record["maximum_displacement"] for record in records]),
+        "orbit_stability": np.array(stable, int),
+        "orbit_status": np.array([_status(orbit) for orbit in orbits], int),
+        "orbit_contacts": np.array([record["contacts"] for record in records]),
+        "orbit_asymmetry": np.array([record["asymmetry"] for record in records]),
+        "orbit_amplitude": np.abs(first),
+        "orbit_phase_relative": phase_of(first, second),
+        "orbit_phase_loose": phase_of(first, first - second),
+        "orbit_phase": np.array([orbit.phase for orbit in orbits]),
+        "orbit_state": np.array([orbit.state for orbit in orbits]).reshape(-1, 4),
+        "orbit_residual": np.array([orbit.residual for orbit in orbits]),
+        "orbit_multiplier_real": multipliers.real,
+        "orbit_multiplier_imaginary": multipliers.imag,
+        "liouville_error": np.array([orbit.liouville_error for orbit in orbits]),
+        "least_speed": np.array([orbit.least_speed for orbit in orbits]),
+        "orbit_restitution": np.array([orbit.restitution for orbit in orbits]),
+    }
+
+
+def branches_dataset(branches, back, parameters, title, model=None, more=None):
+    """Return a dataset of branches, in the units of the model; dimensionless without it."""
+    points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
+    sizes = [len(branch.points) for branch in branches]
+    events = [
+        (number, place, event)
+        for number, branch in enumerate(branches)
+        for place, event in branch.events
+    ]
+    orbits = [event.point.orbit for _, _, event in events]
+    met = [[met_by(branches, number, edge) for edge in (0, 1)] for number in range(len(branches))]
+    data = orbit_variables(points) | {
+        "orbit_branch": np.repeat(np.arange(len(branches)), sizes),
+        "branch_period": np.array([branch.points[0].orbit.periods for branch in branches], int),
+        "branch_events_lost": np.array([branch.lost for branch in branches], int),
+        "branch_end": np.array(
+            [[flag("branch_end", end) for end in branch.ends] for branch in branches]
+        ).reshape(-1, 2),
+        "branch_met": np.array(met, int).reshape(-1, 2),
+        "event_branch": np.array([number for number, _, _ in events], int),
+        "event_place": np.array([place for _, place, _ in events], int),
+        "event_kind": np.array([flag("event_kind", event.kind) for _, _, event in events], int),
+        "event_value": np.array([back(event.point.value) for _, _, event in events]),
+        "event_displacement": np.array([o.record["maximum_displacement"] for o in orbits]),
+        "event_speed": np.array([orbit.least_speed for orbit in orbits]),
+        "walls_before": np.array([event.before for _, _, event in events], object),
+        "walls_after": np.array([event.after for _, _, event in events], object),
+    }
+    coordinates = {"component": list(COMPONENTS), "edge": ["lower", "upper"]}
+    return dataset(data | (more or {}), coordinates, parameters, title, model)
