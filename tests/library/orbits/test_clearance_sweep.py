@@ -175,7 +175,11 @@ def test_clearances_are_checked(clearances):
         clearance_sweep(PAPER, ELASTIC, 2.0, clearances)
 
 
-@pytest.mark.parametrize("damper", [Damper(0.12, 2.0), ELASTIC | {"clearance": 2.0}])
-def test_damper_has_no_clearance(damper):
-    with pytest.raises(TypeError, match="without the clearance"):
-        clearance_sweep(PAPER, damper, 2.0, [1.0, 2.0])
+def test_rules_without_motions():
+    """By harmonic balance the sweep has the variables of (7) and the rules of a simulated one."""
+    clearances = [2.0, 2.1]
+    found = clearance_sweep(PAPER, ELASTIC, 2.0, clearances, method="harmonic_balance")
+    simulated = clearance_sweep(PAPER, ELASTIC, 2.0, clearances, starts=1)
+    for name in found.data_vars:
+        assert found[name].equals(simulated[name])
+    assert_allclose(found.rule_clearance, 1 / (0.12 * 4))
