@@ -181,5 +181,5 @@ def test_rules_without_motions():
     found = clearance_sweep(PAPER, ELASTIC, 2.0, clearances, method="harmonic_balance")
     simulated = clearance_sweep(PAPER, ELASTIC, 2.0, clearances, starts=1)
     for name in found.data_vars:
-        assert found[name].equals(simulated[name])
+        np.testing.assert_array_equal(found[name], simulated[name])
     assert_allclose(found.rule_clearance, 1 / (0.12 * 4))
