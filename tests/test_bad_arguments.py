@@ -93,26 +93,31 @@ FUNCTIONS = {
         },
     ),
     "design_damper": (
-        {"machine": MACHINE, "mass": 0.6, "band": (20, 21), "restitution": 0.7}
-        | {"contact_stiffness": 2e7},
+        {"machine": MACHINE, "mass": 0.6, "band": (20, 21), "restitution": 0.7} | {"contact": 2e7},
         {
             "machine": no_oscillator,
             "mass": si | st.sampled_from([0, 12.1, "0.6 m"]),
             "band": span.filter(lambda value: value != (2.2, 2.0))
             | st.sampled_from([(21, 20), (30, 34), ("20 m", 21), (-20, 21)]),
             "restitution": si | st.sampled_from([0, 1.1]),
-            "contact_stiffness": si | st.just(0),
-            "contact": st.sampled_from([MACHINE, 2e7, "steel", {}]),
-            "frequencies": count | st.just(2),
-            "candidates": count | st.just(2),
-            "starts": count | st.just(72),
+            "contact": si | st.sampled_from([0, MACHINE, "steel", {}]),
+            "effort": st.sampled_from([3, {"starts": 96}, MACHINE]),
             "tolerances": st.sampled_from(
                 [0.2, "gap", ["gap"], {"gap": 1.2}, {"gap": -0.1}, {"mass": 0.1}, {"gap": None}]
             ),
             "share": no_numbers | not_finite | st.sampled_from([0.1, 1.0]),
             "displacement_limit": no_si.filter(lambda value: value is not None) | st.just(0),
+        },
+    ),
+    "Effort": (
+        {},
+        {
+            "frequencies": count | st.just(2),
+            "candidates": count | st.just(2),
+            "starts": count,
             "seed": seed,
             "settling": no_settling,
+            "workers": count,
         },
     ),
     "simulate": (

@@ -26,6 +26,7 @@ Harmonic balance
 Design
     clearance_sweep             the clearance with the smallest quiet motion
     design_damper               a damper for a machine and a band of frequencies
+    Effort                      how much a design computes
 
 Reading results
     decode                      names of the numbers of a flag, such as an outcome

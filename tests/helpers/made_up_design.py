@@ -4,8 +4,8 @@ import json
 
 import numpy as np
 
-from impact_damper.data.datasets import flag, shown_variable
-from impact_damper.design.labelled import labelled
+from impact_damper.data.datasets import flag
+from impact_damper.design.task import labelled
 
 FREQUENCY = np.linspace(26.0, 34.0, 5)
 MACHINE = {
@@ -20,8 +20,8 @@ SETTLING = {"tolerance": 1e-9, "patience": 300, "limit": 1500, "watched": 50}
 SURE = [1.0, 0.95, 1.0]
 
 
-def made_up_design(choice="robust", promise="robust_kept", **changed):
-    """Return the dataset; `changed` replaces the values of variables."""
+def made_up_design(choice="robust", promise="robust_kept", told=None, **changed):
+    """Return the dataset; `changed` replaces values of variables, and `told` parameters."""
     data = labelled(
         _screening() | _comparison(choice) | _deviations(promise) | _masses(),
         frequency=FREQUENCY,
@@ -38,9 +38,8 @@ def made_up_design(choice="robust", promise="robust_kept", **changed):
         detuning=[-0.1, 0.0, 0.1],
     )
     data = data.merge(labelled(_motions()))
-    data = data.merge(labelled(_branches(), changed=["force", "gap", "unbalance"])).assign(
-        _transients()
-    )
+    data = data.merge(labelled(_branches(), changed=["force", "gap", "unbalance"]))
+    data = data.merge(_transients())
     data = data.merge(labelled(_absorbers()))
     data["followed_value"] = ("point", np.linspace(*FREQUENCY[[0, -1]], 6))
     for name, values in changed.items():
@@ -56,20 +55,23 @@ def made_up_design(choice="robust", promise="robust_kept", **changed):
         "seed": 1995,
         "tolerances": {"gap": 0.1, "restitution": 0.1},
         "later_displacement": 1.5,
+        "holdable": 0.01,
+        "lead": 200,
+        "longest": 3000,
+        "unseen": 1000,
+        "pull_free_restitution": 0.72,
         "settling": SETTLING,
         "compared_settling": SETTLING | {"patience": 150, "limit": 900},
     }
     return data.assign_attrs(
         machine=json.dumps(made | {"contact_stiffness": 2e7}),
-        parameters=json.dumps(asked),
+        parameters=json.dumps(asked | (told or {})),
         name="made_up",
-        conclusion=json.dumps(["Build a gap of 7 mm.", "The cliff is far."]),
     )
 
 
 def _screening():
     return {
-        "worst_frequency": 34.0,
         "balance_displacement": np.linspace(6.0, 10.0, 5),
         "displacement_limit": 2.0,
         "best_orbit_frequency": 34.0,
@@ -106,7 +108,6 @@ def _comparison(choice):
         "reached_displacement": np.linspace(0.8, 0.4, 5),
         "untouched_displacement": np.full(5, np.nan),
         "motion_rms": np.linspace(0.4, 0.2, 5),
-        "motion_peak_mean": np.linspace(0.5, 0.3, 5),
         "motion_peak_high": np.linspace(0.7, 0.3, 5),
         "impact_rate_by_frequency": np.linspace(14.0, 10.0, 5),
         "contact_force_by_frequency": np.linspace(600.0, 500.0, 5),
@@ -124,7 +125,6 @@ def _deviations(promise):
     shares = np.array([SURE, [0.98, 0.96, 0.99], SURE])
     return {
         "promise": flag("promise", promise),
-        "promised_displacement": 2.0,
         "sample_displacement": [0.8, 5.0, 0.9],
         "sample_share": shares,
         "corner_displacement": [0.8, 6.0, 0.9],
@@ -179,9 +179,7 @@ def _branches():
         "displacement_by_gap": [0.8, 0.7, 0.5, 0.4],
         "modulus_by_gap": [1.2, 0.9, 0.8, 1.1],
         "stability_gap": [6.5, 8.8],
-        "stability_force": [0.5, 2.0],
         "stability_gap_event": [flag("stability_gap_event", "fold")] * 2,
-        "stability_force_event": [flag("stability_force_event", "fold")] * 2,
     }
 
 
@@ -190,18 +188,13 @@ def _transients():
     turning = np.linspace(20.0, 36.0, 9)
     sizes = np.stack([np.linspace(1.0, 9.0, 9), np.full(9, 0.5)])
     time = np.linspace(0.0, 10.0, 21)
-    return {
-        "sweep_frequency": shown_variable("sweep_frequency", [turning, turning[::-1]]),
-        "sweep_envelope": shown_variable(
-            "envelope", [sizes, sizes], ("direction", "equipment", "sweep_window")
-        ),
-        "ring_time": shown_variable("sweep_time", [time, time], ("equipment", "ring_window")),
-        "ring_envelope": shown_variable(
-            "envelope", 2 * np.exp([-0.5 * time, -2 * time]), ("equipment", "ring_window")
-        ),
-        "direction": ("direction", ["up", "down"]),
-        "equipment": ("equipment", ["bare", "damped"]),
+    values = {
+        "sweep_frequency": [turning, turning[::-1]],
+        "sweep_envelope": [sizes, sizes],
+        "ring_time": [time, time],
+        "ring_envelope": 2 * np.exp([-0.5 * time, -2 * time]),
     }
+    return labelled(values, direction=["up", "down"], equipment=["bare", "damped"])
 
 
 def _absorbers():

@@ -1,9 +1,8 @@
 """The pages of all machines, in HTML and Markdown, with their figures."""
 
 from chatterjee1995.workflow.job import Job
-from impact_damper.plot.pages.machine import FIGURES, machine_page
 from impact_damper.plot.pages.render import write_page
 
 job = Job(snakemake)
 for name, data in job.datasets["machines"].items():
-    write_page(machine_page(name, data), FIGURES, data, job.results / "machines" / name)
+    write_page(name, data, job.results / "machines" / name)

@@ -4,7 +4,7 @@ from chatterjee1995.sections.records import Kind, Table, stage
 from chatterjee1995.sections.system import too_many
 from impact_damper.command import machine_entry
 
-# Names of the figures of a machine's page, the keys of `plot.pages.machine.FIGURES`.
+# Names of the figures of a machine's page, the keys of `plot.machine_figures.figures.FIGURES`.
 PAGE = (
     "drawing",
     "response",
@@ -33,20 +33,25 @@ class Machine(machine_entry.MachineEntry):
         page=PAGE,
     )
     def machines(self, config) -> dict:
-        ball = self.contact.values()
-        keys = ("candidates", "starts", "share", "displacement_limit")
+        damper, ball = self.damper.values(), self.contact.values()
+        stiffness = damper.pop("contact_stiffness", None)
+        effort = {
+            "frequencies": self.band.points,
+            "candidates": self.candidates,
+            "starts": self.starts,
+            "seed": config.seed,
+        }
         return (
             {"system": {"Machine": self.machine.values()}}
-            | self.damper.values()
-            | {key: getattr(self, key) for key in keys}
+            | damper
             | {
-                "contact": {"HertzContact": ball} if ball else None,
+                "contact": {"HertzContact": ball} if ball else stiffness,
                 "band": [self.band.first, self.band.last],
-                "frequencies": self.band.points,
+                "share": self.share,
+                "displacement_limit": self.displacement_limit,
                 "tolerances": self.tolerances.values(),
-                "seed": config.seed,
+                "effort": {"Effort": effort | config.settling.job()},
             }
-            | config.settling.job()
         )
 
 
@@ -55,7 +60,7 @@ KINDS = (
     Kind(
         "machines",
         "machines",
-        "impact_damper.plot.machine_figures.overview",
+        "impact_damper.plot.machine_figures.figures",
         ("machines",),
         named=True,
     ),

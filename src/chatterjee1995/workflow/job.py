@@ -16,6 +16,7 @@ import threading
 import time
 from collections import ChainMap
 from contextlib import suppress
+from dataclasses import replace
 from functools import cached_property
 from importlib import import_module
 from operator import attrgetter
@@ -39,6 +40,7 @@ MADE = {
     "Settling": "impact_damper.model.settling:Settling",
     "Machine": "impact_damper.model.machine:Machine",
     "HertzContact": "impact_damper.model.hertz:HertzContact",
+    "Effort": "impact_damper.design.task:Effort",
     "linspace": "numpy:linspace",
     "geomspace": "numpy:geomspace",
     "counts": "chatterjee1995.workflow.job:counts",
@@ -61,7 +63,7 @@ def made(value):
         return value
     (name, *others) = value or [None]
     if name in MADE and not others:
-        function, given = imported(MADE[name]), value[name]
+        function, given = imported(MADE[name]), made(value[name])
         return function(**given) if isinstance(given, dict) else function(*given)
     return {key: made(each) for key, each in value.items()}
 
@@ -121,6 +123,8 @@ class Job:
         for key, files in self.snakemake.input.items():
             if key not in ("code", "kernels"):
                 arguments[key] = _content(files)
+        if "effort" in arguments:
+            arguments["effort"] = replace(arguments["effort"], workers=offered["workers"])
         system = [arguments.pop("system")] if "system" in arguments else []
         return function(*system, **arguments)
 

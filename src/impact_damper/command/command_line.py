@@ -66,25 +66,24 @@ def design(
     """
     from impact_damper.data.datasets import decode, save
     from impact_damper.design.design_damper import design_damper
+    from impact_damper.design.task import Effort
+    from impact_damper.plot import conclusion
 
     given = read(machine_file)
-    band = given["band"]
+    effort = {key: given[key] for key in ("candidates", "starts")}
     found = design_damper(
         machine(given),
-        **given["damper"],
-        band=(band["first"], band["last"]),
-        frequencies=band["points"],
-        **{key: given[key] for key in ("candidates", "starts", "share", "tolerances")},
+        **asked(given),
+        **{key: given[key] for key in ("share", "tolerances")},
         displacement_limit=given.get("displacement_limit"),
-        contact=hertz_contact(given),
-        workers=workers,
+        effort=Effort(frequencies=given["band"]["points"], workers=workers, **effort),
         progress=not as_json,
         folder=output / "steps",
     )
     output.mkdir(parents=True, exist_ok=True)
     save(found, output / "design.nc")
     page = write_report(found, machine_file.stem, output / "design.nc", output)
-    words = json.loads(found.attrs["conclusion"])
+    words = conclusion(found)
     numbers = {
         "design_gap_mm": float(found["design_gap"]),
         "design_choice": decode(found["design_choice"]).item(),
@@ -224,21 +223,23 @@ def hertz_contact(given):
     return HertzContact(**ball) if ball else None
 
 
-def damper(given, gap):
-    """Return the damper with a gap, or None without a gap.
+def asked(given):
+    """Return mass, restitution, contact and band of a file's content, arguments of a design."""
+    values, band = dict(given["damper"]), given["band"]
+    stiffness = values.pop("contact_stiffness", None)
+    contact = hertz_contact(given) or stiffness
+    return values | {"contact": contact, "band": (band["first"], band["last"])}
 
-    If the contact stiffness is not given, it is computed as the command `design` does.
-    """
-    from impact_damper.design.stiffness import contact_stiffness_of
+
+def damper(given, gap):
+    """Return the damper with a gap, and the stiffness of the contact as in a design, or None."""
+    from impact_damper.design.task import Task
+    from impact_damper.model.units import si_value
 
     if gap is None:
         return None
-    owner, values = machine(given), given["damper"]
-    band = given["band"]["first"], given["band"]["last"]
-    stiffness = contact_stiffness_of(
-        owner, values["mass"], band, values.get("contact_stiffness"), hertz_contact(given)
-    )
-    return owner.damper(**values | {"contact_stiffness": stiffness}, gap=quantity(gap))
+    task = Task(machine=machine(given), **asked(given))
+    return task.damper(si_value("gap", quantity(gap), "displacement"))
 
 
 def quantity(text):
@@ -251,10 +252,9 @@ def quantity(text):
 
 def write_report(data, name, file, folder):
     """Write the page of a design, kept in a file, into a folder; return the path of the page."""
-    from impact_damper.plot.pages.machine import FIGURES, machine_page
     from impact_damper.plot.pages.render import write_page
 
-    write_page(machine_page(name, data, file.name), FIGURES, data, folder)
+    write_page(name, data, folder, file.name)
     return folder / "index.html"
 
 

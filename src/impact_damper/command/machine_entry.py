@@ -209,32 +209,31 @@ class MachineEntry(Section):
         for key in ("radius", "youngs_modulus", "poissons_ratio"):
             if ball and key not in ball:
                 yield missing((*path, "contact", key), "needed for a contact after Hertz")
-        if not ball and self.damper.contact_stiffness is None:
+        stiffness = self.damper.contact_stiffness
+        if ball and stiffness is not None:
+            reason = "must be left out: it is computed from the keys of contact"
+            yield problem((*path, "damper", "contact_stiffness"), stiffness, reason)
+        if not ball and stiffness is None:
             reason = "needed here, or radius and material of a ball under contact in its place"
             yield missing((*path, "damper", "contact_stiffness"), reason)
 
     def _task(self, machine):
         """Return the task of the design; its modules are imported here because they load SciPy."""
-        from impact_damper.design.stiffness import contact_stiffness_of
-        from impact_damper.design.task import Task
+        from impact_damper.design.task import Effort, Task
 
-        band, ball = (self.band.first, self.band.last), self.contact.values()
-        contact = HertzContact(**ball) if ball else None
-        stiffness = contact_stiffness_of(
-            machine, self.damper.mass, band, self.damper.contact_stiffness, contact
-        )
+        ball = self.contact.values()
         return Task(
             machine=machine,
             mass=self.damper.mass,
             restitution=self.damper.restitution,
-            contact_stiffness=stiffness,
-            band=band,
-            frequencies=self.band.points,
-            candidates=self.candidates,
-            starts=self.starts,
+            contact=HertzContact(**ball) if ball else self.damper.contact_stiffness,
+            band=(self.band.first, self.band.last),
             share=self.share,
             tolerances=self.tolerances.values(),
             displacement_limit=self.displacement_limit,
+            effort=Effort(
+                frequencies=self.band.points, candidates=self.candidates, starts=self.starts
+            ),
         )
 
 

@@ -2,7 +2,6 @@
 
 from impact_damper.data.variables import STABILITY, register
 
-TRANSIENT_ENDS = {"completed": 0, "escaped": 1, "at_rest": 2, "limit": 3}
 # Why a quiet orbit ceases to be stable.
 ENDS = {
     "no_orbit": -1,
@@ -21,44 +20,9 @@ bare_displacement | bare_point | displacement | | largest displacement without t
 bare_stability | bare_point | | | stability of an orbit without the damper
   : STABILITY
 bare_branch | bare_point | | | branch of an orbit without the damper
-# contacts after Hertz
-impact_speed | | velocity | | largest relative speed at the beginning of a contact
-# costs of a motion with a damper
-costs_status | | | | whether the motion has impacts, has none, or escapes over a barrier of the
-  spring
-  : impacts 0, no_impact 1, escaped 2
-costs_time | | time | | time over which the motion is measured
-# impacts
-contact_impulse | contact | impulse | | impulse of the force of a contact
-contact_loss | contact | energy | | energy lost in a contact
-impact_rate | | rate | | impacts per time
-mean_impact_speed | | velocity | | mean relative speed at the beginning of a contact
-mean_impact_loss | | energy | | mean energy lost in an impact
-contact_force | | force | | largest force in a contact
-penetration | | displacement | | largest penetration of a wall
-largest_acceleration | | acceleration | | largest acceleration of the primary mass
-impulse_noise | | impulse_noise | | sum of the squared impulses, per time
-# powers
-force_power | | power | | mean power of the external force
-dashpot_power | | power | | mean power lost in the dashpot of the primary mass
-impact_power | | power | | mean power lost in contacts
-stored_power | | power | | growth of the energy of the motion per time
-power_error | | | | power of the force minus all losses and the growth of energy, divided by the
-  losses
-# contact of curved bodies after Hertz
-hertz_force | | force | | force after Hertz of an impact at the largest speed
-contact_pressure | | pressure | | largest pressure after Hertz of an impact at the largest speed
-contact_yields | | | | whether the material yields at this pressure
-  : no 0, yes 1, unknown 2
 # transients
 direction | direction | | | direction in which the forcing frequency is swept
 equipment | equipment | | | whether the machine has its damper
-envelope | equipment window | displacement | | largest displacement in a cycle or, without
-  forcing, in a period of the unforced vibration
-window_contacts | equipment window | | | contacts begun in a cycle or, without forcing, in a
-  period of the unforced vibration
-transient_status | equipment | | | how the transient ended
-  : TRANSIENT_ENDS
 # tuned absorbers
 competitor | competitor | | | absorber in place of an impact damper, or none
 detuning | detuning | | | fraction by which the absorber's springs are stiffer than designed
@@ -71,14 +35,10 @@ competitor_status | competitor | | | whether the displacements are exact, for a 
 absorber_stiffness | competitor detuning | stiffness | | stiffness of the absorber's spring
 absorber_damping | competitor detuning | damping | | coefficient of the absorber's dashpot
 # screening
-worst_frequency | | frequency | | frequency at which the machine without damper moves most
+orbit_limit | | displacement | | provisional quiet limit
 balance_displacement | frequency | displacement | | largest displacement without damper by
   harmonic balance
-orbit_limit | | displacement | | geometric mean of the displacements of the machine alone and of
-  its smallest quiet orbit
 displacement_limit | | displacement | | quiet limit: largest displacement of a quiet motion
-flight_gap | | displacement | | gap by the rule of straight flight at worst_frequency
-manifold_gap | | displacement | | gap by the slow invariant manifold at resonance
 screened_gap | screened | displacement | | gap of a quiet orbit
 screened_displacement | screened frequency | displacement | | largest displacement of the quiet
   orbit
@@ -89,9 +49,6 @@ best_orbit_frequency | | frequency | | frequency at which the machine alone move
 best_orbit_gap | | displacement | | gap of the smallest stable quiet orbit, the best orbit, at
   best_orbit_frequency
 best_orbit_displacement | | displacement | | largest displacement of the best orbit
-best_orbit_modulus | | | | modulus of the largest multiplier of the best orbit
-best_orbit_edge | | displacement | | smallest gap above best_orbit_gap at which a multiplier of
-  the orbit has the modulus 1
 best_orbit_status | | | | how the best orbit was found
   : absent 0, smooth 1, kink 2, stability_ends 3, range_ends 4, not_refined 5
 screen_motions | | | | number of motions that the screening ran
@@ -108,13 +65,8 @@ start_quiet_share | candidate frequency | | | share of random starts that lead t
 start_quiet_interval | candidate frequency side | | | 95 % interval of start_quiet_share
 worst_displacement | candidate frequency | displacement | | largest displacement of all motions
   that starts lead to
-median_displacement | candidate frequency | displacement | | median of the largest displacements
-  of the motions that starts lead to
 quiet_time_median | candidate frequency | | | median of the cycles in which quiet motions settle
 quiet_time_late | candidate frequency | | | cycles in which 95 % of the quiet motions settle
-chaotic_share | candidate frequency | | | share of starts that lead to chaos
-uncertain_share | candidate frequency | | | share of starts whose motion had neither settled nor
-  was certainly chaotic
 design_gap | | displacement | | gap chosen, the full play
 design_choice | | | | why the gap design_gap was chosen
   : robust 0, needs_tolerance 1, least_worst 2
@@ -133,24 +85,14 @@ cliff_status | side | | | how the end of the quiet gaps was found
   : found 0, range_ends 1, no_quiet_gap 2
 cliff_frequency | side | frequency | | frequency at which quiet gaps end first
 life_gap | life | displacement | | gap at which the lives of violent motions were observed
-life_share | life bound | | | share of starts whose motion is quiet at the end of the longest run
 life_rate | life bound | | | rate at which violent motions become quiet, per cycle
 branch_frequency | | frequency | | frequency at which the quiet orbit is followed
 gap_of_orbit | gap_point | displacement | | gap of an orbit
 displacement_by_gap | gap_point | displacement | | largest displacement of the orbit at
   gap_of_orbit
 modulus_by_gap | gap_point | | | modulus of the largest multiplier of the orbit at gap_of_orbit
-force_of_orbit | force_point | | | multiple of the nominal force of an orbit
-displacement_by_force | force_point | displacement | | largest displacement of the orbit at
-  force_of_orbit
-modulus_by_force | force_point | | | modulus of the largest multiplier of the orbit at
-  force_of_orbit
 stability_gap | side | displacement | | gap at which the quiet orbit ceases to be stable
-stability_force | side | | | multiple of the nominal force at which the quiet orbit ceases to be
-  stable
 stability_gap_event | side | | | why the quiet orbit ceases to be stable at stability_gap
-  : ENDS
-stability_force_event | side | | | why the quiet orbit ceases to be stable at stability_force
   : ENDS
 changed | changed | | | parameter that grows by 1 per cent
 displacement_change | changed | | | change of the largest displacement of the quiet orbit, per
@@ -161,14 +103,9 @@ varied | varied | | | quantity that deviates from its nominal value
 sample_factor | sample varied | | | value divided by the nominal one
 sample_displacement | sample | displacement | | largest displacement over the band
 sample_share | sample bound | | | share of starts over the band that lead to quiet motions
-sample_least_share | sample | | | share of starts that lead to quiet motions, at the worst
-  frequency of the band
 corner_factor | corner varied | | | value divided by the nominal one
 corner_displacement | corner | displacement | | largest displacement over the band
 corner_share | corner bound | | | share of new starts that lead to quiet motions
-corner_least_share | corner | | | share of starts that lead to quiet motions, at the worst
-  frequency of the band
-promised_displacement | | displacement | | largest displacement promised within the tolerances
 promise | | | | promise of the design, and whether new starts confirmed it
   : none_made 0, nominal_kept 1, robust_kept 2, broken 3
 map_gap | map_gap | displacement | | gap of a cell of the map
@@ -194,12 +131,17 @@ other_force | other | force | | largest contact force over the band
 other_best | other | | | whether no other mass is better in mass, displacement and force together
   : no 0, yes 1
 # transients
-sweep_time | direction sweep_window | time | | time
+sweep_envelope | direction equipment sweep_window | displacement | | largest displacement in a cycle
+sweep_status | direction equipment | | | how the sweep ended
+  : completed 0, escaped 1
+ring_time | equipment ring_window | time | | middle of a period of the unforced vibration
+ring_envelope | equipment ring_window | displacement | | largest displacement in this period
+ring_status | equipment | | | how the unforced decay ended
+  : escaped 1, at_rest 2, limit 3
 sweep_frequency | direction sweep_window | frequency | | forcing frequency
 # motions of the design
 motion_rms | frequency | displacement | | r.m.s. displacement of the largest motion that starts
   lead to
-motion_peak_mean | frequency | displacement | | mean over cycles of the peaks of this motion
 motion_peak_high | frequency | displacement | | 95th percentile of the peaks of this motion
 reached_displacement | frequency | displacement | | largest displacement of all motions that
   starts lead to
@@ -224,5 +166,4 @@ den_hartog_damping | | damping | | damping of Den Hartog's absorber by Brock's c
     """,
     ENDS=ENDS,
     STABILITY=STABILITY,
-    TRANSIENT_ENDS=TRANSIENT_ENDS,
 )

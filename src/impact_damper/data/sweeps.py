@@ -6,6 +6,7 @@ import numpy as np
 
 from impact_damper.data.datasets import flag
 from impact_damper.data.variables import OUTCOME
+from impact_damper.model.text import number
 
 NAMES = {value: name for name, value in OUTCOME.items()}
 
@@ -68,35 +69,7 @@ def quiet_gaps(data) -> str:
     )
 
 
-def stable_range(data, parameter) -> str:
-    """Return the range in which the quiet orbit is stable as text; "" if it is stable nowhere.
-
-    `known_range` makes the text.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-    parameter : str
-        "gap" (mm) or "force" (multiple of the nominal force).
-    """
-    ends, event = data[f"stability_{parameter}"].values, f"stability_{parameter}_event"
-    if not np.isfinite(ends).all():
-        return ""
-    return known_range(ends, data[event].values == flag(event, "range_ends"))
-
-
 def known_range(ends, is_open) -> str:
-    """Return the text of a range, such as "1.2 to 3.4 or more".
-
-    An end is open if the search stopped before the range ended. The range then extends at least to
-    this number, and the text adds "or less" or "or more".
-
-    Parameters
-    ----------
-    ends : sequence of float
-        Least and greatest known value.
-    is_open : sequence of bool
-        Whether each of the two ends is open.
-    """
-    low, high = (f"{end:.4g}" for end in ends)
+    """Return the text of a range; an end is open where the search stopped before the range did."""
+    low, high = (number(float(end), 4) for end in ends)
     return f"{low}{' or less' * bool(is_open[0])} to {high}{' or more' * bool(is_open[1])}"

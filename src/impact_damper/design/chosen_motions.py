@@ -1,29 +1,35 @@
-"""Motions with the chosen damper over the band: sizes, peaks, impacts, forces and losses.
+"""Motions with the chosen gap over the band: response, largest motions, and their costs."""
 
-A start is an initial state. Random starts are drawn. Placed starts are chosen states: motions at
-neighbouring frequencies, and motions of the machine without the damper. A motion is quiet if its
-largest displacement is at most the quiet limit.
-
-W T is the phase of the forcing.
-"""
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
 
-from impact_damper.data.datasets import flag, from_si, touches_no_wall
+from impact_damper.data.datasets import flag, from_si, shown_variable, touches_no_wall
 from impact_damper.data.shares import wilson_intervals
 from impact_damper.design.costs import measured_costs, pressure_costs
-from impact_damper.design.labelled import SIDES, labelled
 from impact_damper.design.outcomes import Case, are_quiet
+from impact_damper.design.task import SIDES, labelled
+from impact_damper.model.hertz import HertzContact
 from impact_damper.model.packed import FREQUENCY
+from impact_damper.model.settling import Settling
 from impact_damper.model.units import QUANTITIES
 from impact_damper.motions import traces
+from impact_damper.motions.response import frequency_response
 from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.orbits.all_branches import complete_branches
 
-# SAMPLES: number of states in a forcing cycle from which a motion is measured.
-# WATCHED: number of cycles over which a motion that is not periodic is measured.
+# States in a forcing cycle from which a motion is measured, and number of cycles over which a
+# motion that is not periodic is measured.
 SAMPLES, WATCHED = 64, 200
-# Variables of the dataset, with the name of the cost (`performance.costs`) and its quantity.
+# Variables of the response without the damper, with their names in the dataset of a design.
+BARE = {
+    "followed_value": "bare_frequency",
+    "orbit_displacement": "bare_displacement",
+    "orbit_stability": "bare_stability",
+    "orbit_branch": "bare_branch",
+}
+# Variables of the dataset, with the name of the cost (`costs.measured_costs`) and its quantity.
 COSTS = {
     "impact_rate_by_frequency": ("impact_rate", "rate"),
     "contact_force_by_frequency": ("contact_force", "force"),
@@ -35,26 +41,36 @@ COSTS = {
 }
 
 
-def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
+def damped_response(task, choice, progress=None) -> xr.Dataset:
+    """Return the response with and without the chosen damper: motions and branches of orbits."""
+    # Motions that have not settled after the largest number of cycles are run further. The
+    # comparisons of gaps do not do this, to save time.
+    effort = task.effort
+    settling = replace(effort.settling, further=Settling().further)
+    searched = {"starts": effort.starts, "seed": effort.seed, "settling": settling}
+    searched |= {"workers": effort.workers, "progress": progress}
+    damper, span = task.damper(1e-3 * float(choice["design_gap"])), task.band
+    motions = frequency_response(task.machine, damper, task.grid, **searched)
+    orbits = complete_branches(task.machine, damper, span, [motions])
+    alone = frequency_response(task.machine, None, task.grid, **searched)
+    alone = complete_branches(task.machine, None, span, [alone])
+    bare = {new: shown_variable(new, alone[old].values) for old, new in BARE.items()}
+    # The motions have a variable `branch`, so the dimension `branch` of the orbits is renamed.
+    # All steps get the same coordinate `frequency`.
+    motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
+    return motions.merge(orbits.rename_dims(branch="curve")).merge(xr.Dataset(bare))
+
+
+def reached_motions(task, choice, response, progress=None) -> xr.Dataset:
     """Return the largest motion to which starts lead at each frequency of the band, with its costs.
 
-    A motion in which the loose mass touches no wall lasts only if the loose mass does not drift at
-    all. Such a motion counts as reached only if random starts lead to it. The largest one that does
-    not count is stored as `untouched_displacement`.
-
-    Parameters
-    ----------
-    task : Task
-    gap : float
-        Gap of the design, mm.
-    response : xarray.Dataset
-        Result of `frequency_response` with this gap at the frequencies of the task, in SI units.
-    limit : float
-        Quiet limit, mm.
-    contact : HertzContact or None
-        Radius and materials from which the pressure in the contact is computed.
+    `choice` is the dataset of `cliff.choose_gap`, and `response` that of `damped_response`. A
+    motion in which the loose mass touches no wall lasts only if the loose mass does not drift at
+    all. It counts as reached only if random starts lead to it. The largest one that does not count
+    is stored as `untouched_displacement`.
     """
     sizes = response["maximum_displacement"].values
+    limit = float(choice["displacement_limit"])
     quiet = are_quiet(sizes, response["outcome"].values, limit)
     counts = np.where(quiet, response["motion_starts"].values, 0).sum(axis=1)
     total = response.sizes["start"]
@@ -69,8 +85,8 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     for k, (column, frequency) in enumerate(zip(columns, task.grid, strict=True)):
         settled = response["outcome"].values[k, column] == flag("outcome", "settled")
         periods = int(response["period"].values[k, column]) if settled else WATCHED
-        case = Case(1e-3 * gap, frequency)
-        rows.append(_measured(task, case, sizes[k, column], states[k, column], periods, contact))
+        case = Case(1e-3 * float(choice["design_gap"]), frequency)
+        rows.append(_measured(task, case, sizes[k, column], states[k, column], periods))
     values = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     values |= {
         "reached_quiet_share": counts / total,
@@ -80,14 +96,14 @@ def reached_motions(task, gap, response, limit, contact) -> xr.Dataset:
     return labelled(values, frequency=task.grid, side=SIDES)
 
 
-def _measured(task, case, size, state, periods, contact):
+def _measured(task, case, size, state, periods):
     """Return the measured numbers of one motion, keyed by the name of the dataset variable.
 
     `size` is the largest displacement that earlier runs found (mm), infinite after an escape.
-    `state` is a state of the motion at the strobe (W T = pi/2).
+    `state` is a state of the motion at the strobe.
     """
     if not np.isfinite(size):
-        unknown = ("motion_rms", "motion_peak_mean", "motion_peak_high", "pressure_by_frequency")
+        unknown = ("motion_rms", "motion_peak_high", "pressure_by_frequency")
         return dict.fromkeys((*unknown, *COSTS), np.nan) | {
             "reached_displacement": size,
             "yields_by_frequency": flag("yields_by_frequency", "unknown"),
@@ -96,10 +112,8 @@ def _measured(task, case, size, state, periods, contact):
     begin = strobe_time(p)
     count = periods * SAMPLES
     times = begin + 2 * np.pi / p[FREQUENCY] * np.arange(count + 1) / SAMPLES
-    states = np.empty((count + 1, 4))
-    tolerance = task.settling.tolerance
-    y = state.copy()
-    traces.trace(p, y, begin, times, tolerance, states, np.empty((0, 5)))
+    states, tolerance = np.empty((count + 1, 4)), task.effort.settling.tolerance
+    traces.trace(p, state.copy(), begin, times, tolerance, states, np.empty((0, 5)))
     course = task.millimetres(states[:-1, 0])
     peaks = np.abs(course).reshape(periods, SAMPLES).max(axis=1)
     costs = measured_costs(p, state.copy(), begin, periods)
@@ -107,13 +121,13 @@ def _measured(task, case, size, state, periods, contact):
         name: task.scales.to_si(costs[cost], quantity) * QUANTITIES[quantity].factor
         for name, (cost, quantity) in COSTS.items()
     }
+    contact = task.contact if isinstance(task.contact, HertzContact) else None
     speed = shown["impact_speed_by_frequency"]
-    pressed = pressure_costs(task.machine, task.damper(case.gap), contact, speed)
+    pressure, yields = pressure_costs(task.machine, task.damper(case.gap), contact, speed)
     return shown | {
         "reached_displacement": max(size, peaks.max()),
         "motion_rms": np.sqrt(np.mean(course**2)),
-        "motion_peak_mean": peaks.mean(),
         "motion_peak_high": np.quantile(peaks, 0.95),
-        "pressure_by_frequency": pressed["contact_pressure"],
-        "yields_by_frequency": pressed["contact_yields"],
+        "pressure_by_frequency": pressure,
+        "yields_by_frequency": flag("yields_by_frequency", yields),
     }

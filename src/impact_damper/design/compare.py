@@ -1,20 +1,17 @@
 """Comparisons of gaps by the share of random starts that lead to quiet motions, over the band.
 
-A start is an initial state. A start, or its motion, is quiet if the largest displacement is at most
-the quiet limit. A gap is quiet if at each frequency of the band the share of quiet starts is at
-least `Task.share`. Gaps are first compared coarsely, with few starts at some of the frequencies.
-Candidates around the best of these gaps are then run from all starts at all frequencies. A
-candidate that fails with the first starts is not run from the others. Runs of a comparison are
-short: a motion that is not quiet at their end is run for the full time of the task before its start
-counts as not quiet.
+Gaps are first compared coarsely, with few starts at some of the frequencies. Candidates around the
+best of these gaps are then run from all starts at all frequencies, until they can no longer be
+quiet.
 """
 
 from itertools import pairwise
 
 import numpy as np
+import xarray as xr
 
 from impact_damper.data.shares import failures_allowed
-from impact_damper.design.choose import Comparison
+from impact_damper.design.choose import choose, least_shares, quiet_gaps, worst_sizes
 from impact_damper.design.outcomes import (
     Case,
     draw_starts,
@@ -23,6 +20,7 @@ from impact_damper.design.outcomes import (
     run_starts,
     summarise,
 )
+from impact_damper.design.task import SIDES, labelled
 from impact_damper.motions.records import MOTION
 
 # Coarse comparison: largest number of gaps (fewer with few candidates), of frequencies, of starts.
@@ -44,31 +42,31 @@ ABOVE = 2.5
 PROMISING = 0.5
 
 
-def compare(task, gaps, frequencies, limit, starts, stream, *, workers=1, progress=None):
+def compare_gaps(task, first, progress=None) -> xr.Dataset:
+    """Return the coarse comparison of gaps, and the comparison of candidates with all starts.
+
+    `first` is the dataset of the screening (`screen.screen`).
+    """
+    span, limit = first["screened_gap"].values[[0, -1]], float(first["orbit_limit"])
+    coarse = coarse_comparison(task, span, limit, progress=progress)
+    found = candidate_comparison(task, coarse, progress)
+    values = {
+        "coarse_displacement": worst_sizes(coarse),
+        "coarse_share": least_shares(coarse),
+        "compared_motions": sum(int(each["start_count"].sum()) for each in (coarse, found)),
+    }
+    return found.merge(labelled(values, coarse_gap=coarse["candidate_gap"].values))
+
+
+def compare(task, gaps, frequencies, limit, starts, stream, progress=None) -> xr.Dataset:
     """Return the comparison of the motions at all gaps (mm) and frequencies (Hz).
 
     The share of quiet starts is tested in at most two looks: with `starts` starts and, at
     frequencies at which too many of these are not quiet, with SECOND times as many. The probability
     that one of the looks wrongly confirms the share is below 5 %. A gap is given up as soon as more
-    starts at one of the frequencies are not quiet than the second look allows. The numbers for
-    gaps that are not quiet therefore come from fewer starts.
-
-    Parameters
-    ----------
-    task : Task
-    gaps, frequencies : array
-    limit : float
-        Quiet limit, mm.
-    starts : int
-        Random starts of the first look at each gap and frequency. If they are too few to prove the
-        share even when all are quiet, there is no second look, and one start that is not quiet
-        suffices to give a gap up.
-    stream, workers, progress
-        As in `outcomes.run`.
-
-    Returns
-    -------
-    Comparison
+    starts at one of the frequencies are not quiet than the second look allows, so its numbers come
+    from fewer starts. If `starts` are too few to prove the share even when all are quiet, there is
+    no second look, and one start that is not quiet suffices to give a gap up.
     """
     gaps, frequencies = np.asarray(gaps), np.asarray(frequencies)
     cases = [Case(1e-3 * gap, f) for gap in gaps for f in frequencies]
@@ -76,11 +74,10 @@ def compare(task, gaps, frequencies, limit, starts, stream, *, workers=1, progre
     first_allowed = failures_allowed(task.share, starts)
     total = SECOND * starts if first_allowed >= 0 else starts
     allowed = max(failures_allowed(task.share, total), 0)
-    drawn = draw_starts(task, cases, total, stream, workers=workers)
+    drawn = draw_starts(task, cases, total, stream)
     records = np.zeros(drawn.shape[:2], MOTION)
     counts, failures = np.zeros((2, len(cases)), int)
     places = np.arange(len(cases))
-    running = {"workers": workers, "progress": progress}
     for begin, end in pairwise(np.unique([0, min(TRIAL, starts), starts, total])):
         if not len(places):
             break
@@ -91,21 +88,20 @@ def compare(task, gaps, frequencies, limit, starts, stream, *, workers=1, progre
             limit,
             owners[places],
             allowed - failures[places],
-            **running,
+            progress,
         )
         counts[places] = end
         failures[places] += np.sum(~quiet_motions(task, records[places, begin:end], limit), axis=1)
         hopeful = ~np.isin(owners, owners[failures > allowed])
         is_open = failures > first_allowed if end >= starts else hopeful
         places = np.flatnonzero(hopeful & is_open)
-    return _comparison(task, gaps, frequencies, _numbers(task, records, counts, limit), limit)
+    return _comparison(gaps, frequencies, _numbers(task, records, counts, limit), limit)
 
 
-def run_until_sure(task, cases, starts, limit, owners, allowed, **running):
+def run_until_sure(task, cases, starts, limit, owners, allowed, progress=None):
     """Return motions; those that are not quiet after a short run are run for the full time.
 
-    All motions are run with the settling `Task.hurried`. Motions that are not quiet at the end are
-    run again with the settling of the task, some for each gap at a time. Once more motions than
+    The motions that are not quiet are run again some for each gap at a time. Once more motions than
     allowed remain not quiet at one frequency, the gap is lost, and its other motions are not run
     again.
 
@@ -113,7 +109,6 @@ def run_until_sure(task, cases, starts, limit, owners, allowed, **running):
     ----------
     task : Task
     cases : sequence of Case
-        A case is a gap with a frequency.
     starts : array, shape (cases, count, 4)
     limit : float
         Quiet limit, mm.
@@ -121,14 +116,13 @@ def run_until_sure(task, cases, starts, limit, owners, allowed, **running):
         Number of the gap to which a case belongs.
     allowed : array of int, shape (cases,)
         Largest number of motions that may be not quiet; with more, the gap of the case is lost.
-    running
-        `workers` and `progress` of `outcomes.run`.
+    progress : str, optional
 
     Returns
     -------
     numpy.ndarray of records.MOTION, shape (cases, count)
     """
-    records = run_starts(task, cases, starts, settling=task.hurried, **running)
+    records = run_starts(task, cases, starts, settling=task.hurried, progress=progress)
     loud = ~quiet_motions(task, records, limit)
     turn = (np.cumsum(loud, axis=1) - 1) // (1 + allowed.max())
     remain = np.zeros(len(cases), int)
@@ -137,10 +131,59 @@ def run_until_sure(task, cases, starts, limit, owners, allowed, **running):
         rows, columns = np.nonzero(loud & (turn == number) & ~lost[:, None])
         if len(rows):
             begun = starts[rows, columns][:, None]
-            again = run_starts(task, [cases[k] for k in rows], begun, **running)[:, 0]
+            again = run_starts(task, [cases[k] for k in rows], begun, progress=progress)[:, 0]
             records[rows, columns] = again
             remain += np.bincount(rows[~quiet_motions(task, again, limit)], minlength=len(cases))
     return records
+
+
+def coarse_comparison(
+    task, span, limit, *, most=COARSE_GAPS, starts=COARSE_STARTS, progress=None
+) -> xr.Dataset:
+    """Return a comparison of at most `most` gaps over a whole range (mm), with few starts.
+
+    If the task has no displacement limit, the quiet limit of the comparison is `limit` or, if
+    smaller, ABOVE times the largest displacement of all motions at the best gap, mm.
+    """
+    frequencies = task.few(COARSE_FREQUENCIES)
+    gaps = np.geomspace(*span, min(most, 2 * task.effort.candidates + 4))
+    cases = [Case(1e-3 * gap, f) for gap in gaps for f in frequencies]
+    records = run(task, cases, starts, "coarse", settling=task.hurried, progress=progress)
+    found = _comparison(gaps, frequencies, summarise(task, records, limit), limit)
+    if task.displacement_limit is not None:
+        return found
+    limit = min(limit, ABOVE * float(worst_sizes(found).min()))
+    return _comparison(gaps, frequencies, summarise(task, records, limit), limit)
+
+
+def candidate_comparison(task, coarse, progress=None) -> xr.Dataset:
+    """Return a comparison of the candidates from all starts, with the limit of the coarse one.
+
+    The candidates lie around the best gap of the coarse comparison. Its few starts may miss motions
+    that are not quiet. If no choice from the candidates is "robust", further candidates are added:
+
+    - around a gap that is robust in the coarse comparison and lies beyond all candidates that are
+      not quiet;
+    - if there is none and no candidate is quiet: on both sides of the candidate with the most quiet
+      starts, if their share is at least PROMISING. A narrow range of quiet gaps may lie there.
+    """
+    share, limit = task.share, float(coarse["displacement_limit"])
+    given = (task.grid, limit, task.effort.starts)
+    gaps = _around(choose(coarse, share, task.gap_tolerance).gap, task)
+    found = compare(task, gaps, *given, "candidates", progress)
+    if choose(found, share, task.gap_tolerance).kind == "robust":
+        return found
+    beyond = _best_beyond(task, coarse, found)
+    if beyond is not None:
+        stream, gaps = "candidates_beyond", _around(beyond, task)
+    elif not quiet_gaps(found, share).any() and least_shares(found).max() >= PROMISING:
+        stream, gaps = "further_candidates", _beside_best(found, task.effort.candidates)
+    else:
+        return found
+    further = np.setdiff1d(gaps, found["candidate_gap"].values)
+    more = compare(task, further, *given, stream, progress)
+    parts = xr.concat([found, more], "candidate", data_vars="minimal", coords="minimal")
+    return parts.isel(candidate=np.argsort(parts["candidate_gap"].values))
 
 
 def _numbers(task, records, counts, limit):
@@ -156,100 +199,45 @@ def _numbers(task, records, counts, limit):
     return numbers
 
 
-def _comparison(task, gaps, frequencies, numbers, limit):
+def _comparison(gaps, frequencies, numbers, limit):
     """Return a comparison from the numbers of cases that are sorted by gap, then by frequency."""
     shape = len(gaps), len(frequencies)
     folded = {name: values.reshape(*shape, *values.shape[1:]) for name, values in numbers.items()}
-    return Comparison(gaps, frequencies, folded, limit, task.share)
-
-
-def coarse_comparison(task, span, limit, *, most=COARSE_GAPS, starts=COARSE_STARTS, **running):
-    """Return a comparison of gaps over a whole range, with few starts.
-
-    If the task has no displacement limit, the quiet limit of the comparison is `limit` or, if
-    smaller, ABOVE times the largest displacement of all motions at the best gap.
-
-    Parameters
-    ----------
-    task : Task
-    span : tuple of float
-        Least and greatest gap, mm.
-    limit : float
-        Provisional quiet limit, mm.
-    most, starts : int
-        Largest number of gaps, and random starts at each gap and frequency.
-    running
-        `workers` and `progress` of `outcomes.run`.
-
-    Returns
-    -------
-    Comparison
-    """
-    frequencies = task.few(COARSE_FREQUENCIES)
-    gaps = np.geomspace(*span, min(most, 2 * task.candidates + 4))
-    cases = [Case(1e-3 * gap, f) for gap in gaps for f in frequencies]
-    records = run(task, cases, starts, "coarse", settling=task.hurried, **running)
-    found = _comparison(task, gaps, frequencies, summarise(task, records, limit), limit)
-    if task.displacement_limit is not None:
-        return found
-    limit = min(limit, ABOVE * float(found.worst.min()))
-    return _comparison(task, gaps, frequencies, summarise(task, records, limit), limit)
-
-
-def candidate_comparison(task, coarse, **running) -> Comparison:
-    """Return a comparison of the candidates from all starts, with the limit of the coarse one.
-
-    The candidates lie around the best gap of the coarse comparison. The few starts of the coarse
-    comparison may miss violent (not quiet) motions. If no choice from the candidates is "robust"
-    (`choose.Choice`), further candidates are added in one of two places:
-
-    - around a gap that is robust in the coarse comparison and lies beyond all violent candidates;
-    - if there is none and no candidate is quiet: on both sides of the candidate with the most quiet
-      starts, if their share is at least PROMISING. A narrow range of quiet gaps may lie there.
-    """
-    tolerance = task.tolerances.get("gap", 0.0)
-    gaps = _around(coarse.choose(tolerance).gap, task)
-    found = compare(task, gaps, task.grid, coarse.limit, task.starts, "candidates", **running)
-    if found.choose(tolerance).kind == "robust":
-        return found
-    beyond = _best_beyond(coarse, found, tolerance)
-    if beyond is not None:
-        stream, gaps = "candidates_beyond", _around(beyond, task)
-    elif not found.quiet.any() and found.least_share.max() >= PROMISING:
-        stream, gaps = "further_candidates", _beside_best(found, task.candidates)
-    else:
-        return found
-    further = np.setdiff1d(gaps, found.gaps)
-    return found.joined(
-        compare(task, further, task.grid, coarse.limit, task.starts, stream, **running)
+    return labelled(
+        folded | {"displacement_limit": limit},
+        candidate_gap=gaps,
+        frequency=frequencies,
+        side=SIDES,
     )
 
 
 def _around(gap, task):
     """Return the gaps of candidates around a gap (mm); they cover more than its tolerance."""
-    reach = BEYOND / (1 - task.tolerances.get("gap", 0.0))
-    return gap * np.geomspace(1 / reach, reach, task.candidates)
+    reach = BEYOND / (1 - task.gap_tolerance)
+    return gap * np.geomspace(1 / reach, reach, task.effort.candidates)
 
 
-def _best_beyond(coarse, found, tolerance):
-    """Return the best robust gap of the coarse comparison beyond the violent candidates, or None.
+def _best_beyond(task, coarse, found):
+    """Return the best robust gap of the coarse comparison beyond the candidates not quiet, or None.
 
-    Beyond means below the first or above the last candidate that is not quiet. Of a robust gap
-    below and one above, the one with the smaller worst displacement is returned.
+    Of a robust gap below and one above them, the one with less motion is returned.
     """
-    loud = found.gaps[~found.quiet]
+    loud = found["candidate_gap"].values[~quiet_gaps(found, task.share)]
     if not len(loud):
         return None
-    sides = coarse.gaps < loud.min(), coarse.gaps > loud.max()
-    parts = [coarse.only(side) for side in sides if side.any()]
-    choices = [(part, part.choose(tolerance)) for part in parts]
-    robust = [(part, choice.gap) for part, choice in choices if choice.kind == "robust"]
-    sizes = [np.interp(gap, part.gaps, part.worst) for part, gap in robust]
-    return robust[int(np.argmin(sizes))][1] if robust else None
+    gaps, robust = coarse["candidate_gap"].values, []
+    for side in (gaps < loud.min(), gaps > loud.max()):
+        if side.any():
+            part = coarse.isel(candidate=side)
+            choice = choose(part, task.share, task.gap_tolerance)
+            if choice.kind == "robust":
+                size = np.interp(choice.gap, gaps[side], worst_sizes(part))
+                robust.append((size, choice.gap))
+    return min(robust)[1] if robust else None
 
 
 def _beside_best(found, count):
     """Return gaps between the neighbours of the candidate with the most quiet starts."""
-    k = int(np.argmax(found.least_share))
-    near = found.gaps[max(k - 1, 0)], found.gaps[min(k + 1, len(found.gaps) - 1)]
+    k, gaps = int(np.argmax(least_shares(found))), found["candidate_gap"].values
+    near = gaps[max(k - 1, 0)], gaps[min(k + 1, len(gaps) - 1)]
     return np.geomspace(*near, count)[1:-1]  # the ends have been compared already

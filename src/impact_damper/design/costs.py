@@ -1,174 +1,169 @@
 """Costs of a motion with a damper: impacts, forces, losses, noise, and the pressure of contacts.
 
 The force of a wall per unit of primary mass is f = r1 q + D q', with the penetration q, the contact
-stiffness r1 and the dashpot coefficient D. This force accelerates the primary mass by -f and the
-loose mass by f/rm. A contact loses the work of its dashpot. Over a period of the motion,
+stiffness r1 and the dashpot coefficient D. Over a period of the motion,
 
     work of the external force = loss in the machine's dashpot + loss in contacts.
 
-Over other times the difference is stored as energy of the motion. The variable `power_error` states
-the relative error of this balance, with the stored energy included.
-
 The measure of noise is n <J^2>, the number n of impacts per unit of time times the mean square of
 their impulses J. By Campbell's theorem this is the two-sided spectral density of the force of
-impacts at random times, for frequencies between n and the inverse of the duration of an impact.
-With this density impacts excite the thin plates of a machine's casing, which radiate noise.
-(S. O. Rice, Bell System Technical Journal 23, 1944, section 1.5.)
+impacts at random times, for frequencies between n and the inverse of the duration of an impact
+(S. O. Rice, Bell System Technical Journal 23, 1944, section 1.5).
 
-Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass and rm
-the mass ratio.
+Time is divided at the beginnings and ends of contacts, and further into panels, in which a motion
+is represented by its states at the Chebyshev nodes, to about twelve digits (L. N. Trefethen,
+Spectral Methods in MATLAB, 2000, chapters 6 and 12).
 """
 
-import numpy as np
+from typing import NamedTuple
 
-from impact_damper.data.datasets import dataset, flag, shown_variable
-from impact_damper.design.panels import integrals, largest, logged, sampled
-from impact_damper.kernel.equation import energy, forcing_amplitude, spring
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from impact_damper.kernel.equation import energy, forcing_amplitude, spring, spring_slope
 from impact_damper.kernel.single import side_of
-from impact_damper.model.arguments import read_forced, read_state
-from impact_damper.model.bounds import check_count, shown
-from impact_damper.model.hertz import HertzContact
-from impact_damper.model.machine import check_fit
 from impact_damper.model.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
     DAMPING,
     DASHPOT,
     FREQUENCY,
+    INVERSE_MASS_RATIO,
 )
-from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE
+from impact_damper.motions.traces import trace
 
+# Nodes of a panel, scaled to [-1, 1]; matrix that maps values at the nodes to coefficients of
+# Chebyshev polynomials; weights of the rule of Clenshaw and Curtis.
+NODES = -np.cos(np.pi * np.arange(14) / 13)
+COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
+WEIGHTS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))] @ COEFFICIENTS
+# FINE maps values at the nodes to values at 33 points. The largest modulus in a panel exceeds the
+# largest of these 33 moduli by a fraction of less than MISSED.
+FINE = chebyshev.chebvander(np.linspace(-1, 1, 33), len(NODES) - 1) @ COEFFICIENTS
+MISSED = 0.01
+# The fastest oscillation of the motion turns by at most this angle (radian) in a panel.
+LONGEST_ANGLE = 2.0
+# States in a forcing cycle from which the largest displacement is estimated, and contacts for which
+# the log has room at first.
+SAMPLES, FIRST_LOG = 32, 256
 # If the first state is in a contact, the next flight is sought within PATIENCE forcing cycles.
 PATIENCE = 2
-# Largest number of forcing cycles of a motion. Each cycle takes about 10 kB of memory.
-MOST_PERIODS = 10**4
 
 
-def motion_costs(machine, damper, frequency, state, periods, *, start=None, contact=None):
-    """Return the costs of a motion of a machine with its damper.
+class Panels(NamedTuple):
+    """A motion in n panels.
 
-    Parameters
-    ----------
-    machine : Machine
-    damper : MachineDamper
-        It must have a contact stiffness.
-    frequency : float
-        Forcing frequency, Hz.
-    state : sequence of 4 floats
-        A state of the motion, m and m/s.
-    periods : int
-        Number of forcing cycles over which the costs are measured. For a periodic motion use its
-        period, and for a chaotic motion enough cycles for accurate means.
-    start : float, optional
-        Time of the state, s. The default is a quarter of a forcing cycle, the phase of the states
-        that `steady_motion` returns.
-    contact : HertzContact, optional
-        Radius and materials with which the pressure in the contact is computed.
-
-    Returns
-    -------
-    xarray.Dataset
-        In SI units, with the variables of `measured_costs` and of `pressure_costs`.
-
-        For a machine on a moving base the two powers have a special meaning. Let y be the
-        displacement of the base, and k and c the stiffness and damping of the machine. Then
-        `force_power` is the power of the force k y + c y'. `dashpot_power` is the power of the
-        force c x', with the machine's displacement x in space. Because both ends of the dashpot
-        move, `force_power` is not the power of the base's drive, and `dashpot_power` is not the
-        loss in the dashpot. Their difference is the power that impacts lose.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is out of range; the message names it.
+    `log` has a row for each contact: wall, times of its beginning and end, relative velocity at
+    both. `lengths`, shape (n,), and `times`, shape (n, nodes), are dimensionless; `states` are
+    those at the nodes, NaN after an escape. `contact`, shape (n,), is the row of the log or -1 in
+    flight, and `wall` is -1, 1, or 0 in flight.
     """
-    check_fit(machine, damper)
-    if contact is not None and not isinstance(contact, HertzContact):
-        raise TypeError(f"contact = {shown(contact)}: must be a HertzContact")
-    costs = _costs(machine, damper, frequency, state, periods, start=start)
-    pressed = pressure_costs(machine, damper, contact, float(costs["impact_speed"]))
-    return costs.assign({name: shown_variable(name, value) for name, value in pressed.items()})
 
-
-def pressure_costs(machine, damper, contact, speed) -> dict:
-    """Return force and pressure of an elastic impact by Hertz's theory, and whether walls yield.
-
-    Parameters
-    ----------
-    machine : Machine
-    damper : MachineDamper
-    contact : HertzContact or None
-    speed : float
-        Largest speed of impact, m/s; 0 without impacts.
-
-    Returns
-    -------
-    dict
-        `hertz_force` (N) and `contact_pressure` (Pa), NaN if `contact` is None; the flag
-        `contact_yields`, which says whether the material yields at this pressure.
-    """
-    force = pressure = np.nan
-    yields = "unknown"
-    if contact is not None:
-        mass = machine.mass * damper.mass / (machine.mass + damper.mass)
-        force = contact.impact(speed, mass).force if speed > 0 else 0.0
-        pressure = contact.pressure(force)
-        yields = contact.yields(pressure)
-    return {
-        "hertz_force": force,
-        "contact_pressure": pressure,
-        "contact_yields": flag("contact_yields", yields),
-    }
-
-
-def _costs(machine, damper, frequency, state, periods, *, start=None):
-    """Return the dataset of `measured_costs`; the arguments are those of `motion_costs`."""
-    model = read_forced(machine, damper, frequency)
-    p, y = model.pack(), read_state(model, state)
-    check_count("periods", periods, most=MOST_PERIODS)
-    begin = strobe_time(p) if start is None else model.scales.read("start", start, "time")
-    made = model.describe() | {"periods": int(periods)}
-    return dataset(measured_costs(p, y, begin, periods), {}, made, "Costs of a motion", model)
+    log: np.ndarray
+    lengths: np.ndarray
+    times: np.ndarray
+    states: np.ndarray
+    contact: np.ndarray
+    wall: np.ndarray
 
 
 def measured_costs(p, y, begin, periods) -> dict:
-    """Return the dimensionless costs of a motion.
+    """Return the dimensionless costs of a motion over a number of forcing cycles.
 
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters, with a damper.
-    y : array, shape (4,)
-        State Z1, Z1', Z2, Z2' at the time `begin`.
-    begin : float
-    periods : int
-        Number of forcing cycles. If the state is in a contact, the cycles begin in the next flight.
-
-    Returns
-    -------
-    dict
-        Values of dataset variables (`data.variables.costs`), keyed by name. They are dimensionless;
-        forces and powers are divided by the primary mass. Variables that begin with "contact_",
-        except `contact_force`, and the velocities of approach and departure are arrays with one
-        entry for each whole contact. All other values are scalars. Means over impacts are NaN
-        without impacts. Rates, forces and powers are NaN if the motion escapes over the barrier of
-        a softening spring.
+    If the state y at the time `begin` is in a contact, the cycles begin in the next flight. Rates,
+    forces and powers are NaN if the motion escapes over the barrier of a softening spring. Forces
+    and powers are divided by the primary mass.
     """
     begin, y = _in_flight(p, y, begin)
     time = periods * 2 * np.pi / p[FREQUENCY]
     panels = sampled(p, y, begin, begin + time)
-    escaped = np.isnan(panels.states[-1, -1, 0])
-    time = np.nan if escaped else time
-    data = {"costs_time": time} | _impacts(p, panels, time) | _extremes_and_powers(p, panels, time)
-    status = "escaped" if escaped else "impacts" if data["impact_rate"] > 0 else "no_impact"
-    return data | {"costs_status": flag("costs_status", status)}
+    if np.isnan(panels.states[-1, -1, 0]):
+        time = np.nan
+    return _impacts(p, panels, time) | _extremes_and_powers(p, panels, time)
+
+
+def pressure_costs(machine, damper, contact, speed) -> tuple[float, str]:
+    """Return the pressure (Pa) of an elastic impact by Hertz's theory, and whether walls yield.
+
+    `contact` is a HertzContact or None, and `speed` the largest speed of impact, m/s.
+    """
+    if contact is None:
+        return np.nan, "unknown"
+    mass = machine.mass * damper.mass / (machine.mass + damper.mass)
+    pressure = contact.pressure(contact.impact(speed, mass).force if speed > 0 else 0.0)
+    return pressure, contact.yields(pressure)
+
+
+def sampled(p, state, begin, end) -> Panels:
+    """Run a motion from a state at the time `begin` and return its panels."""
+    rough = np.linspace(begin, end, int(SAMPLES * (end - begin) * p[FREQUENCY] / (2 * np.pi)) + 2)
+    states, log = logged(p, state, begin, rough)
+    # The edges are alternately beginnings and ends of contacts, so every second interval is a
+    # flight.
+    ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
+    edges = np.concatenate([[begin], np.column_stack([log[:, 1], ends]).ravel(), [end]])
+    walls = np.zeros(len(edges) - 1)
+    walls[1::2] = log[:, 0]
+    steepest = np.nanmax(np.abs(spring_slope.py_func(p, np.append(states[:, 0], 0.0))))
+    fastest = np.sqrt(steepest) + p[FREQUENCY]
+    contact = np.sqrt(p[CONTACT_STIFFNESS] * (1 + p[INVERSE_MASS_RATIO]))
+    rates = np.where(walls, fastest + contact, fastest)
+    counts = np.ceil(np.diff(edges) * rates / LONGEST_ANGLE).astype(int)
+    interval = np.repeat(np.arange(len(counts)), counts)
+    place = np.arange(len(interval)) - np.repeat(np.cumsum(counts) - counts, counts)
+    lengths = (np.diff(edges) / np.maximum(counts, 1))[interval]
+    begins = edges[interval] + place * lengths
+    times = begins[:, None] + lengths[:, None] * (NODES + 1) / 2
+    states, _ = logged(p, state, begin, times.ravel(), len(log))
+    return Panels(
+        log,
+        lengths,
+        times,
+        states.reshape(*times.shape, 4),
+        np.where(interval % 2, interval // 2, -1),
+        walls[interval],
+    )
+
+
+def logged(p, state, begin, times, room=FIRST_LOG):
+    """Return the states of a motion at given times, shape (n, 4), and the log of its contacts.
+
+    With more contacts than `room`, the motion is integrated again with a longer log.
+    """
+    states = np.empty((len(times), 4))
+    while True:
+        log = np.empty((room, 5))
+        count = trace(p, np.array(state), begin, times, POLISH_TOLERANCE, states, log)
+        if count <= room:
+            return states, log[:count]
+        room = count
+
+
+def integrals(panels, values):
+    """Return the integral over each panel of a function with `values` at the nodes."""
+    return values @ WEIGHTS * panels.lengths / 2
+
+
+def largest(values) -> float:
+    """Return the largest modulus of a function with `values` at the nodes; 0 without panels."""
+    if len(values) == 0:
+        return 0.0
+    fine = np.max(np.abs(values @ FINE.T), axis=1)
+    best = np.max(fine)
+    for panel in values[fine > (1 - MISSED) * best]:
+        series = COEFFICIENTS @ panel
+        roots = chebyshev.chebroots(chebyshev.chebder(series))
+        inside = roots.real[(np.abs(roots.imag) < 1e-6) & (np.abs(roots.real) < 1)]
+        best = max(best, np.max(np.abs(chebyshev.chebval(inside, series)), initial=0.0))
+    return float(best)
 
 
 def _in_flight(p, y, begin):
     """Return a time at which the loose mass is in flight, and the state at this time.
 
-    They are `begin` and y if y is in flight, otherwise the middle of the next flight and the state
-    there. If the contact does not end within PATIENCE, `begin` and y are returned.
+    If y is in a contact, the time is the middle of the next flight. If the contact does not end
+    within PATIENCE, `begin` and y are returned.
     """
     if side_of(p, y) == 0:
         return begin, y
@@ -182,47 +177,35 @@ def _in_flight(p, y, begin):
 
 
 def _penetration(p, panels):
-    """Return penetration and its time derivative at the nodes of panels, both 0 in flight.
-
-    Panels are short intervals of time with nodes at which the state is known (`panels`).
-    """
+    """Return penetration and its time derivative at the nodes of panels, both 0 in flight."""
     wall = panels.wall[:, None]
     depth = np.where(wall, wall * panels.states[..., 2] - p[CLEARANCE], 0.0)
     return depth, wall * panels.states[..., 3]
 
 
 def _impacts(p, panels, time):
-    """Return the variables of single contacts, and the means, rates and noise of all contacts.
-
-    A contact that is cut by the beginning or end of the motion is left out.
-    """
+    """Return impulses and losses of whole contacts, and the means, rates and noise of contacts."""
     depth, rate = _penetration(p, panels)
     force = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * rate
     impulse, loss = (
         np.bincount(panels.contact + 1, integrals(panels, values), len(panels.log) + 1)[1:]
         for values in (force, p[DASHPOT] * rate**2)
     )
-    wall, start, end, approach, departure = panels.log.T
+    _, start, end, approach, _ = panels.log.T
     whole = np.isfinite(end) & (start > panels.times[0, 0])
-    speed, count = np.abs(approach[whole]), np.sum(whole)
+    count = np.sum(whole)
     return {
-        "contact_wall": wall[whole],
-        "contact_begin": start[whole],
-        "contact_end": end[whole],
-        "approach_velocity": approach[whole],
-        "departure_velocity": departure[whole],
         "contact_impulse": impulse[whole],
         "contact_loss": loss[whole],
         "impact_rate": count / time,
-        "impact_speed": np.max(speed, initial=0.0),
-        "mean_impact_speed": np.mean(speed) if count else np.nan,
+        "impact_speed": np.max(np.abs(approach[whole]), initial=0.0),
         "mean_impact_loss": np.mean(loss[whole]) if count else np.nan,
         "impulse_noise": np.sum(impulse[whole] ** 2) / time,
     }
 
 
 def _extremes_and_powers(p, panels, time):
-    """Return the variables of largest force, penetration and acceleration, and of mean powers."""
+    """Return the largest force, penetration and acceleration, mean powers, and their balance."""
     depth, rate = _penetration(p, panels)
     contact = p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * rate
     x, v = panels.states[..., 0], panels.states[..., 1]
@@ -238,8 +221,6 @@ def _extremes_and_powers(p, panels, time):
         "penetration": largest(depth),
         "largest_acceleration": largest(acceleration - panels.wall[:, None] * contact),
         "force_power": work,
-        "dashpot_power": damped,
         "impact_power": lost,
-        "stored_power": stored,
         "power_error": (work - damped - lost - stored) / (damped + lost),
     }

@@ -1,31 +1,27 @@
-"""Tests of a design with deviating values: samples and corners of all tolerances.
+"""Tests of a design with deviating values: samples and corners of all tolerances, and new starts.
 
-A tolerance is the largest relative deviation of a value from its nominal one. In a sample the
-values deviate at random within their tolerances. At a corner each value deviates by its whole
-tolerance, up or down. At each set of values motions are run from random starts (initial states). A
-start is quiet if its motion stays below the quiet limit. A design claims, at 95 % confidence, that
-at least a given share of all starts is quiet at each frequency of the band. The promise is this
-claim to the user.
+In a sample the values deviate at random within their tolerances. At a corner each value deviates by
+its whole tolerance, up or down.
 """
 
 import itertools
 from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
 from scipy.special import bdtr
 from scipy.stats import qmc
 
-from impact_damper.data.shares import wilson
-from impact_damper.design.choose import Choice
+from impact_damper.data.datasets import decode, flag
+from impact_damper.data.shares import BOUNDS, wilson
+from impact_damper.design.choose import Choice, robust_gaps
 from impact_damper.design.outcomes import Case, run, summarise
-from impact_damper.design.task import spread
-from impact_damper.design.tolerances import NOMINAL, VARIED
+from impact_damper.design.task import NOMINAL, VARIED, labelled, spread
 
 # SAMPLES: number of samples, a power of 2 for Sobol's sequence.
 # SAMPLE_FREQUENCIES, SAMPLE_STARTS: frequencies, and starts at each, with which a sample is run.
 SAMPLES, SAMPLE_FREQUENCIES, SAMPLE_STARTS = 16, 7, 24
-# TRIED: number of gaps that are tried with deviations of all values.
-# TRIED_FREQUENCIES, TRIED_STARTS: frequencies, and starts at each, with which a gap is tried.
+# Number of gaps that are tried with deviations of all values; frequencies, and starts at each.
 TRIED, TRIED_FREQUENCIES, TRIED_STARTS = 5, 5, 12
 # UNSEEN: new starts, not used by the design, at the nominal values and at each corner.
 # CORNERS: largest number of corners; of more, some are drawn.
@@ -35,22 +31,11 @@ FALSE_ALARM = 0.05
 
 
 class Cloud(NamedTuple):
-    """Motions of a design at several sets of deviations.
+    """Motions at m sets of deviations.
 
-    Attributes
-    ----------
-    factors : numpy.ndarray, shape (m, len(VARIED))
-        Values divided by the nominal ones, in the order of VARIED.
-    worst : numpy.ndarray, shape (m,)
-        Largest displacement of all motions over the band, mm.
-    share : numpy.ndarray, shape (m, 3)
-        Share of all starts over the band that lead to quiet motions, with its 95 % interval.
-    least : numpy.ndarray, shape (m,)
-        Share of quiet starts at the worst frequency.
-    starts : int
-        Starts at each frequency.
-    frequencies : int
-        Number of frequencies.
+    `factors` multiply the nominal values in the order of VARIED, shape (m, len(VARIED)); `worst` is
+    the largest displacement over the band (mm), `share` the share of quiet starts over the band
+    with its 95 % interval, shape (m, 3), and `least` the share at the worst frequency.
     """
 
     factors: np.ndarray
@@ -63,29 +48,57 @@ class Cloud(NamedTuple):
     def keeps(self, share) -> np.ndarray:
         """Return whether the starts of each set agree with a claimed share, shape (m,) of bool.
 
-        They disagree in two cases. Either the share of quiet starts over the band is smaller than
-        claimed. Or the share at one frequency is much smaller: if the claim were true, a share so
-        small at any frequency of any set would have a probability below FALSE_ALARM.
+        The share over the band must not be smaller. At one frequency it may be smaller, unless the
+        probability of so small a share at any frequency of any set is below FALSE_ALARM.
         """
         chance = bdtr(np.rint(self.least * self.starts), self.starts, share)
         agree = chance >= FALSE_ALARM / (self.frequencies * len(self.least))
         return (self.share[:, 0] >= share) & agree
 
 
-def sampled_factors(task) -> np.ndarray:
-    """Return the nominal values, then SAMPLES samples of the tolerances.
+def check_design(task, choice, progress=None) -> xr.Dataset:
+    """Return the tests of a design with deviating values and with new starts.
 
-    The rows are factors of the nominal values, in the order of VARIED. The samples are the first
-    points of a scrambled Sobol sequence, which fills the tolerances evenly. Without tolerances only
-    the nominal values are returned.
+    `choice` is the dataset of `cliff.choose_gap`.
     """
+    gap, limit = float(choice["design_gap"]), float(choice["displacement_limit"])
+    frequencies = task.few(SAMPLE_FREQUENCIES, float(choice["branch_frequency"]))
+    running = {"settling": task.hurried, "progress": progress}
+    factors = np.vstack([sampled_factors(task), corner_factors(task)[1:]])
+    samples = run_cloud(task, gap, factors, frequencies, SAMPLE_STARTS, limit, "samples", **running)
+    unseen = check_unseen(task, gap, limit, progress=progress)
+    kept = promise(task, decode(choice["design_choice"]).item(), samples, unseen)
+    values = {"promise": flag("promise", kept)}
+    for prefix, cloud in (("sample", samples), ("corner", unseen)):
+        values |= {
+            f"{prefix}_factor": cloud.factors,
+            f"{prefix}_displacement": cloud.worst,
+            f"{prefix}_share": cloud.share,
+        }
+    return labelled(values, varied=list(VARIED), bound=BOUNDS)
+
+
+def sampled_factors(task) -> np.ndarray:
+    """Return the nominal factors, then those of SAMPLES points of a scrambled Sobol sequence."""
     names = [name for name in VARIED if task.tolerances.get(name)]
     factors = np.ones((SAMPLES + 1 if names else 1, len(VARIED)))
     if names:
-        points = qmc.Sobol(len(names), rng=task.seed).random(SAMPLES)
+        points = qmc.Sobol(len(names), rng=task.effort.seed).random(SAMPLES)
         for name, column in zip(names, points.T, strict=True):
             factors[1:, VARIED.index(name)] += task.tolerances[name] * (2 * column - 1)
     return _possible(task, factors)
+
+
+def corner_factors(task) -> np.ndarray:
+    """Return the nominal factors, then those of at most CORNERS corners of the tolerances."""
+    widths = [task.tolerances.get(name, 0.0) for name in VARIED]
+    signs = [(-1, 1) if width else (0,) for width in widths]
+    corners = np.array(list(itertools.product(*signs)), float)
+    if len(corners) > CORNERS:
+        generator = np.random.default_rng(task.effort.seed)
+        corners = corners[np.sort(generator.permutation(len(corners))[:CORNERS])]
+    corners = corners[np.any(corners != 0, axis=1)]
+    return _possible(task, np.vstack([NOMINAL, 1 + corners * widths]))
 
 
 def _possible(task, factors):
@@ -95,43 +108,11 @@ def _possible(task, factors):
     return factors
 
 
-def corner_factors(task) -> np.ndarray:
-    """Return the nominal values, then at most CORNERS corners of the tolerances.
-
-    The rows are factors of the nominal values, in the order of VARIED.
-    """
-    widths = [task.tolerances.get(name, 0.0) for name in VARIED]
-    signs = [(-1, 1) if width else (0,) for width in widths]
-    corners = np.array(list(itertools.product(*signs)), float)
-    if len(corners) > CORNERS:
-        generator = np.random.default_rng(task.seed)
-        corners = corners[np.sort(generator.permutation(len(corners))[:CORNERS])]
-    corners = corners[np.any(corners != 0, axis=1)]
-    return _possible(task, np.vstack([NOMINAL, 1 + corners * widths]))
-
-
-def deviating_factors(task) -> np.ndarray:
-    """Return the rows of `sampled_factors`, then the corners of `corner_factors`."""
-    return np.vstack([sampled_factors(task), corner_factors(task)[1:]])
-
-
 def run_cloud(task, gap, factors, frequencies, starts, limit, stream, **running) -> Cloud:
-    """Run motions at each set of deviations and each frequency, and return their `Cloud`.
+    """Run motions at each set of deviations of a gap (mm) and each frequency (Hz).
 
-    Parameters
-    ----------
-    task : Task
-    gap : float
-        Nominal gap, mm.
-    factors : array, shape (m, len(VARIED))
-    frequencies : array, shape (n,)
-        Hz.
-    starts : int
-        Random starts at each frequency.
-    limit : float
-        Quiet limit, mm.
-    stream, running
-        `stream`, `settling`, `workers` and `progress` of `outcomes.run`.
+    `starts` is their number at each frequency, `limit` the quiet limit (mm), and `stream` and
+    `running` are arguments of `outcomes.run`.
     """
     cases = [Case(1e-3 * gap, f, tuple(row)) for row in factors for f in frequencies]
     numbers = summarise(task, run(task, cases, starts, stream, **running), limit)
@@ -148,73 +129,44 @@ def run_cloud(task, gap, factors, frequencies, starts, limit, stream, **running)
     )
 
 
-def sample_tolerances(task, gap, frequency, limit, **running) -> Cloud:
-    """Return the `Cloud` of the motions at samples and corners of all tolerances.
-
-    The motions are run at some frequencies of the band, one of which is `frequency` (Hz). `gap` and
-    `limit` are in mm.
-    """
-    few = task.few(SAMPLE_FREQUENCIES, frequency)
-    running = {"settling": task.hurried} | running
-    factors = deviating_factors(task)
-    return run_cloud(task, gap, factors, few, SAMPLE_STARTS, limit, "samples", **running)
-
-
-def choose_with_tolerances(task, comparison, choice, **running) -> Choice:
+def choose_with_tolerances(task, compared, choice, progress=None) -> Choice:
     """Return the choice of a robust gap, moved to where all tolerances together do least harm.
 
     At a robust gap, deviations of the gap alone leave the motions quiet. Several robust gaps are
-    therefore run at samples and corners of all tolerances. If at some gaps the share of quiet
-    starts is large enough at every sample and corner, the gap among these with the smallest worst
-    displacement is returned. Otherwise the gap whose smallest share is largest is returned.
-
-    Parameters
-    ----------
-    task : Task
-    comparison : choose.Comparison
-    choice : choose.Choice
-    running
-        `workers` and `progress` of `outcomes.run`.
+    therefore run at samples and corners of all tolerances. The gap with the smallest worst
+    displacement is returned among those whose share is large enough at every sample and corner, or
+    else the gap whose smallest share is largest.
     """
     others = [value for name, value in task.tolerances.items() if name != "gap"]
     if choice.kind != "robust" or not any(others):
         return choice
-    robust = comparison.robust_gaps(task.tolerances.get("gap", 0.0))
+    robust = robust_gaps(compared, task.share, task.gap_tolerance)
     gaps = np.union1d(spread(robust, TRIED), [choice.gap])
-    few, factors = task.few(TRIED_FREQUENCIES), deviating_factors(task)
-    running = {"settling": task.hurried} | running
+    few = task.few(TRIED_FREQUENCIES)
+    factors = np.vstack([sampled_factors(task), corner_factors(task)[1:]])
+    limit = float(compared["displacement_limit"])
+    running = {"settling": task.hurried, "progress": progress}
     scores = []
     for gap in gaps:
-        cloud = run_cloud(
-            task, gap, factors, few, TRIED_STARTS, comparison.limit, "deviations", **running
-        )
+        cloud = run_cloud(task, gap, factors, few, TRIED_STARTS, limit, "deviations", **running)
         lacking = max(0.0, task.share - cloud.share[:, 0].min())
         scores.append((lacking, cloud.worst.max()))
     return choice._replace(gap=float(gaps[min(range(len(gaps)), key=scores.__getitem__)]))
 
 
-def check_unseen(task, gap, limit, **running) -> Cloud:
+def check_unseen(task, gap, limit, progress=None) -> Cloud:
     """Return the `Cloud` of UNSEEN new starts at the nominal values and at each corner."""
     starts = -(-UNSEEN // len(task.grid))
-    factors = corner_factors(task)
-    return run_cloud(task, gap, factors, task.grid, starts, limit, "unseen", **running)
+    given = (corner_factors(task), task.grid, starts, limit, "unseen")
+    return run_cloud(task, gap, *given, progress=progress)
 
 
 def promise(task, kind, samples, unseen) -> str:
-    """Return the value of the flag `promise`.
+    """Return the name of the flag `promise`.
 
-    The flag says what a design promises, and whether new starts confirm the promise. A design with
-    a quiet gap promises that at its nominal values, at each frequency, at least `task.share` of the
-    starts lead to quiet motions. A robust design promises this within all tolerances, provided that
-    the samples and corners of the tolerances agree with this claim.
-
-    Parameters
-    ----------
-    task : Task
-    kind : str
-        The attribute of `choose.Choice`.
-    samples, unseen : Cloud
-        Motions at samples of the tolerances, and from new starts at nominal values and corners.
+    A design with a quiet gap promises that at its nominal values, at each frequency, at least
+    `task.share` of the starts lead to quiet motions. A robust design promises this within all
+    tolerances, provided that `samples` agree with this claim. The new starts `unseen` confirm it.
     """
     if kind == "least_worst":
         return "none_made"

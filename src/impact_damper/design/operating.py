@@ -3,10 +3,10 @@
 import numpy as np
 import xarray as xr
 
-from impact_damper.design.absorber_responses import SHARES
-from impact_damper.design.labelled import SIDES, labelled
+from impact_damper.design.absorbers import SHARES
 from impact_damper.design.outcomes import Case, are_quiet, run
-from impact_damper.design.tolerances import VARIED
+from impact_damper.design.quiet_branch import quiet_orbit
+from impact_damper.design.task import SIDES, VARIED, labelled
 from impact_damper.model.bounds import RESTITUTION_RANGE
 from impact_damper.orbits.grid_following import Grid, follow_line
 from impact_damper.orbits.orbit import STROBE
@@ -22,14 +22,25 @@ GAPS, LEAST_RESTITUTION = (0.5, 1.6), 0.3
 SHORTEST, BISECTIONS = 1 / 16, 12
 
 
-def force_map(task, gap, frequency, orbit, limit, **running) -> xr.Dataset:
+def operating_maps(task, choice, progress=None) -> xr.Dataset:
+    """Return the maps over frequency and force, and over gap and restitution.
+
+    `choice` is the dataset of `cliff.choose_gap`.
+    """
+    names = ("design_gap", "branch_frequency", "displacement_limit")
+    gap, frequency, limit = (float(choice[name]) for name in names)
+    given = (task, gap, frequency, quiet_orbit(task, gap, frequency), limit, progress)
+    return force_map(*given).merge(damper_map(*given))
+
+
+def force_map(task, gap, frequency, orbit, limit, progress=None) -> xr.Dataset:
     """Return the map over frequency and force; `orbit` is the quiet one at `frequency`, or None.
 
     Forces are multiples of the nominal one, and the quiet limit is proportional to them.
     """
-    frequencies, shares = task.few(CELLS), np.array(SHARES)
+    frequencies, shares = task.few(CELLS, frequency), np.array(SHARES)
     cases = [[_case(gap, f, "force", share) for share in shares] for f in frequencies]
-    share, worst = _starts(task, cases, limit * shares[None], "force_map", running)
+    share, worst = _starts(task, cases, limit * shares[None], "force_map", progress)
     start = Case(1e-3 * gap, frequency)
     near = int(np.argmin(np.abs(frequencies - frequency))), int(np.argmin(np.abs(shares - 1)))
     grid = quiet_grid(task, cases, near, start, orbit)
@@ -43,16 +54,16 @@ def force_map(task, gap, frequency, orbit, limit, **running) -> xr.Dataset:
     return labelled(values, operating_frequency=frequencies, force_share=shares, side=SIDES)
 
 
-def damper_map(task, gap, frequency, orbit, limit, **running) -> xr.Dataset:
+def damper_map(task, gap, frequency, orbit, limit, progress=None) -> xr.Dataset:
     """Return the map over gap (mm) and restitution at a frequency (Hz)."""
-    count = min(CELLS, task.candidates + 3)
+    count = min(CELLS, task.effort.candidates + 3)
     gaps = gap * np.geomspace(*GAPS, count)
     restitutions = np.linspace(LEAST_RESTITUTION, RESTITUTION_RANGE["most"], count)
     cases = [
         [_case(each, frequency, "restitution", e / task.restitution) for e in restitutions]
         for each in gaps
     ]
-    share, worst = _starts(task, cases, limit, "damper_map", running)
+    share, worst = _starts(task, cases, limit, "damper_map", progress)
     near = tuple(
         int(np.argmin(np.abs(values - value)))
         for values, value in ((gaps, gap), (restitutions, task.restitution))
@@ -90,10 +101,10 @@ def _case(gap, frequency, name, factor):
     return Case(1e-3 * gap, frequency, tuple(factor if k == name else 1.0 for k in VARIED))
 
 
-def _starts(task, cases, limits, stream, running):
+def _starts(task, cases, limits, stream, progress):
     """Return the shares of quiet starts and the largest displacements (mm) of a map."""
     shape = len(cases), len(cases[0])
-    running = {"settling": task.hurried} | running
+    running = {"settling": task.hurried, "progress": progress}
     records = run(task, [case for row in cases for case in row], CELL_STARTS, stream, **running)
     sizes = task.millimetres(records["maximum_displacement"])
     limits = np.broadcast_to(limits, shape).reshape(-1, 1)
@@ -124,15 +135,15 @@ def _stable_forces(task, grid, row, gap, frequency):
         last = nominal
         while 0 <= last + step < len(stable) and stable[last + step]:
             last += step
-        inside, state = SHARES[last], grid.orbits[row, last].state
+        inside, orbit = SHARES[last], grid.orbits[row, last]
         if 0 <= last + step < len(stable):
             outside = SHARES[last + step]
             for _ in range(BISECTIONS):
                 middle = np.sqrt(inside * outside)
                 p = task.packed(*_case(gap, frequency, "force", middle))
-                found, _ = find_quiet_orbit(p, state)
-                if found is not None and abs(dominant_root(found)) < 1:
-                    inside, state = middle, found.state
+                found = follow_line(find_quiet_orbit, orbit.p, p, orbit, shortest=SHORTEST)
+                if found.arrived and abs(dominant_root(found.orbit)) < 1:
+                    inside, orbit = middle, found.orbit
                 else:
                     outside = middle
         ends.append(inside)

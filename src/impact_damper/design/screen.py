@@ -1,77 +1,41 @@
-"""Screening, the first look at a design: the machine alone, rules for the gap, exact quiet orbits.
+"""The first look at a design: the machine alone, and exact quiet orbits over gap and frequency.
 
-The quiet orbit is the symmetric periodic motion for which a damper is designed. The loose mass
-presses each wall once in a forcing cycle. The screening answers each question with the cheapest
-model. Harmonic balance gives the response without the damper. Rule (18) of the paper, stated in
-`task`, gives the range of gaps. Two better rules are stored for comparison: the flight rule, in
-which the loose mass flies at constant speed between the walls, and, for a linear machine, the slow
-invariant manifold, a theory for small mass ratios. A few motions give quiet orbits, and Newton's
-method follows these
-orbits over gap and frequency. Motions from many starts (initial states) are run only later, by the
-comparisons of gaps.
+A few motions give quiet orbits, and Newton's method follows these over the map. The smallest stable
+one is then found exactly: its displacement has a derivative with respect to the gap by the
+variational equations.
 """
 
-from typing import NamedTuple
-
 import numpy as np
+import xarray as xr
+from scipy.optimize import brentq, root_scalar
 
+from impact_damper.data.datasets import flag
 from impact_damper.design.outcomes import Case, run
-from impact_damper.design.refine import BestOrbit, refine
-from impact_damper.design.task import LEAST_GAP, spread
+from impact_damper.design.task import LEAST_GAP, labelled, spread
 from impact_damper.model.packed import CLEARANCE
-from impact_damper.orbits.quiet_orbits import dominant_root, is_symmetric_pair, quiet_orbits
-from impact_damper.theory.straight_flight import light_mass_optimum
+from impact_damper.orbits.quiet_orbits import (
+    dominant_root,
+    find_quiet_orbit,
+    is_symmetric_pair,
+    quiet_orbits,
+)
+from impact_damper.orbits.sensitivity import sensitivity
 
-# The map holds the quiet orbits at several gaps and frequencies.
-# MOST_GAP: largest gap, divided by the largest gap of rule (18) in the band.
-# GAPS: number of gaps.
+# Largest gap of the map divided by the largest gap of rule (18) in the band, and number of gaps.
 MOST_GAP, GAPS = 1.95, 40
-# Gap of the flight rule divided by the gap of rule (18), for a restitution near 1
-# (`theory.straight_flight`).
+# Gap in which the loose mass flies at constant speed between the walls, divided by the gap of rule
+# (18), for a restitution near 1 (`theory.straight_flight`).
 FLIGHT = 1.14
-# First search for quiet orbits.
-# SEEDED: number of random starts at each gap and frequency.
-# SEED_GAPS: gaps, divided by the gap of the flight rule.
-# SEED_FREQUENCIES: number of frequencies.
+# First search for quiet orbits: random starts at each gap and frequency, gaps divided by the gap of
+# straight flight, and number of frequencies.
 SEEDED = 16
 SEED_GAPS = (0.3, 0.5, 0.7, 0.9, 1.05)
 SEED_FREQUENCIES = 5
 # Shortest step with which an orbit is followed from one place of the map to the next one, as a
 # fraction of their distance.
 SHORTEST = 0.25
-
-
-class Screening(NamedTuple):
-    """Result of the screening.
-
-    Attributes
-    ----------
-    rule_gap, manifold_gap : float
-        Gap by the flight rule at the frequency at which the machine without damper moves most, and
-        gap by the slow invariant manifold at the resonance, mm. `manifold_gap` is NaN unless the
-        spring is linear and contacts lose energy.
-    gaps : numpy.ndarray, shape (m,)
-        Gaps of the map of quiet orbits, mm.
-    displacement, modulus : numpy.ndarray, shape (m, n)
-        Largest displacement of the quiet orbit (mm), and modulus of its largest Floquet multiplier
-        over half a period, at each gap and frequency of the task; NaN where no quiet orbit was
-        found. The orbit is stable if the modulus is below 1.
-    best : BestOrbit
-        The smallest stable quiet orbit.
-    limit : float
-        Provisional quiet limit, mm: a motion with a smaller displacement is quiet.
-    motions : int
-        Number of motions that were run.
-    """
-
-    rule_gap: float
-    manifold_gap: float
-    gaps: np.ndarray
-    displacement: np.ndarray
-    modulus: np.ndarray
-    best: BestOrbit
-    limit: float
-    motions: int
+# Accuracy of the logarithms of gaps.
+ACCURACY = 1e-10
 
 
 def gap_span(task) -> tuple[float, float]:
@@ -80,82 +44,162 @@ def gap_span(task) -> tuple[float, float]:
     return 1e3 * LEAST_GAP * min(rules), 1e3 * MOST_GAP * max(rules)
 
 
-def screen(task, *, workers=1, progress=None) -> Screening:
-    """Return the result of the screening of a task.
+def screen(task, progress=None) -> xr.Dataset:
+    """Return the response without damper, the map of quiet orbits and the smallest stable one.
 
-    Parameters
-    ----------
-    task : Task
-    workers, progress
-        As in `ensemble.settle`.
-
-    Returns
-    -------
-    Screening
+    The dataset also has `orbit_limit`, the provisional quiet limit.
     """
-    frequencies, gaps = task.grid, np.geomspace(*gap_span(task), GAPS)
-    worst = int(np.argmax(task.bare))
-    parameters = np.array([[task.packed(1e-3 * gaps[0], f) for f in frequencies]] * GAPS)
+    gaps = np.geomspace(*gap_span(task), GAPS)
+    parameters = np.array([[task.packed(1e-3 * gaps[0], f) for f in task.grid]] * GAPS)
     clearances = task.scales.from_si(1e-3 * gaps / 2, "clearance")
     parameters[..., CLEARANCE] = clearances[:, None]
-    rules = 1e3 * FLIGHT * np.array([task.rule_gap(f) for f in frequencies])
-    columns = spread(np.arange(len(frequencies)), SEED_FREQUENCIES)
-    cells = [
-        (int(np.argmin(np.abs(gaps - share * rules[column]))), int(column))
-        for column in np.union1d(columns, worst)
-        for share in SEED_GAPS
-    ]
-    cases = [Case(1e-3 * gaps[row], frequencies[column]) for row, column in cells]
-    running = {"settling": task.hurried, "workers": workers, "progress": progress}
-    found = run(task, cases, SEEDED, "screening", **running)
-    states = np.full((*parameters.shape[:2], 4), np.nan)
-    for cell, records in zip(cells, found, strict=True):
-        pairs = records[is_symmetric_pair(records)]
-        if len(pairs):
-            states[cell] = pairs["state"][np.argmin(pairs["maximum_displacement"])]
+    states, count = _seeds(task, gaps, progress)
     grid = quiet_orbits(parameters, states, shortest=SHORTEST)
     displacement, modulus = np.full((2, *grid.shape), np.nan)
     for cell, orbit in grid.orbits.items():
         displacement[cell] = task.millimetres(orbit.record["maximum_displacement"])
         modulus[cell] = abs(dominant_root(orbit))
-    best = refine(task, grid, np.where(modulus < 1, displacement, np.nan))
-    return Screening(
-        rules[worst],
-        1e3 * _manifold_gap(task),
-        gaps,
-        displacement,
-        modulus,
-        best,
-        _limit(task, best),
-        found.size,
-    )
+    best = best_orbit(task, grid, np.where(modulus < 1, displacement, np.nan))
+    values = {
+        "balance_displacement": task.bare,
+        "orbit_limit": _limit(task, best),
+        "screened_displacement": displacement,
+        "screened_modulus": modulus,
+        "screen_motions": count,
+        "screen_orbits": np.sum(np.isfinite(modulus)),
+    }
+    return labelled(values | best, frequency=task.grid, screened_gap=gaps)
+
+
+def _seeds(task, gaps, progress):
+    """Return states of quiet orbits on the map, NaN elsewhere, and the number of motions run."""
+    worst = int(np.argmax(task.bare))
+    rules = 1e3 * FLIGHT * np.array([task.rule_gap(f) for f in task.grid])
+    columns = spread(np.arange(len(task.grid)), SEED_FREQUENCIES)
+    cells = [
+        (int(np.argmin(np.abs(gaps - share * rules[column]))), int(column))
+        for column in np.union1d(columns, worst)
+        for share in SEED_GAPS
+    ]
+    cases = [Case(1e-3 * gaps[row], task.grid[column]) for row, column in cells]
+    running = {"settling": task.hurried, "progress": progress}
+    found = run(task, cases, SEEDED, "screening", **running)
+    states = np.full((GAPS, len(task.grid), 4), np.nan)
+    for cell, records in zip(cells, found, strict=True):
+        pairs = records[is_symmetric_pair(records)]
+        if len(pairs):
+            states[cell] = pairs["state"][np.argmin(pairs["maximum_displacement"])]
+    return states, found.size
 
 
 def _limit(task, best):
     """Return the provisional quiet limit, mm: the displacement limit of the task, if it has one.
 
-    Otherwise the limit is the geometric mean of two displacements: that of the best orbit, and that
-    of the machine without damper at the same frequency. On a logarithmic scale a quiet motion is
-    nearer to the orbit. Without an orbit the limit is half of the displacement without damper.
+    Otherwise it is the geometric mean of the displacements of the best orbit and of the machine
+    without damper at the same frequency or, without an orbit, half of the latter.
     """
     if task.displacement_limit is not None:
         return 1e3 * task.displacement_limit
-    if best.status == "absent":
+    if best["best_orbit_status"] == flag("best_orbit_status", "absent"):
         return float(task.bare.max() / 2)
-    bare = task.bare[np.argmin(np.abs(task.grid - best.frequency))]
-    return float(np.sqrt(bare * best.displacement))
+    bare = task.bare[np.argmin(np.abs(task.grid - best["best_orbit_frequency"]))]
+    return float(np.sqrt(bare * best["best_orbit_displacement"]))
 
 
-def _manifold_gap(task):
-    """Return the gap (m) with the smallest response at the natural frequency, or NaN.
+def best_orbit(task, grid, stable) -> dict:
+    """Return the smallest stable quiet orbit, as values of the variables `best_orbit_...`.
 
-    It follows from the slow invariant manifold (`theory.straight_flight`).
+    It is searched for at the frequency with a stable quiet orbit at which the machine without
+    damper moves most. `stable` are the displacements (mm) of the stable orbits of the map, NaN
+    elsewhere.
     """
-    machine = task.machine
-    if machine.cubic_stiffness or not machine.linear_stiffness or task.restitution == 1:
-        return np.nan
-    oscillator, damper, frequency = task.system(1e-3, machine.natural_frequency)
-    damping_ratio = oscillator.damping / (2 * oscillator.linear_frequency)
-    best = light_mass_optimum(damper.mass_ratio, task.restitution, damping_ratio)
-    static = oscillator.forcing_amplitude(frequency) / oscillator.linear_frequency**2
-    return 2 * task.scales.to_si(best * static, "displacement")
+    known = np.isfinite(stable).any(axis=0)
+    frequency = gap = size = np.nan
+    status = "absent"
+    if known.any():
+        place = int(np.argmax(np.where(known, task.bare, 0)))
+        row = int(np.nanargmin(stable[:, place]))
+        column = _Column(grid, place)
+        try:
+            x, status = column.smallest(row)
+        except ArithmeticError:
+            x, status = column.x[row], "not_refined"
+        frequency = float(task.grid[place])
+        gap = 2e3 * task.scales.to_si(np.exp(x), "clearance")
+        size = task.millimetres(column.at(x).maximum_displacement)
+    return {
+        "best_orbit_frequency": frequency,
+        "best_orbit_gap": gap,
+        "best_orbit_displacement": size,
+        "best_orbit_status": flag("best_orbit_status", status),
+    }
+
+
+class _Column:
+    """The quiet orbits at the frequency `place`, as functions of the logarithm x of the clearance.
+
+    The rows of the map `grid` are gaps, and its columns frequencies.
+    """
+
+    def __init__(self, grid, place):
+        self.x, self.found = np.log(grid.points[:, place, CLEARANCE]), {}
+        self.orbits = {
+            row: orbit for (row, column), orbit in grid.orbits.items() if column == place
+        }
+
+    def at(self, x):
+        """Return the `Sensitivity` of the orbit at x, found from the nearest orbit of the map."""
+        if x in self.found:
+            return self.found[x]
+        row = min(self.orbits, key=lambda each: abs(self.x[each] - x))
+        orbit = self.orbits[row]
+        if x != self.x[row]:
+            p, slopes = orbit.p.copy(), self.at(self.x[row]).state_slopes
+            p[CLEARANCE] = np.exp(x)
+            guess = orbit.state + slopes[:, CLEARANCE] * (p[CLEARANCE] - orbit.p[CLEARANCE])
+            orbit, status = find_quiet_orbit(p, guess)
+            if orbit is None:
+                raise ArithmeticError(f"no quiet orbit at the clearance {np.exp(x):g}: {status}")
+        try:
+            self.found[x] = sensitivity(orbit)
+        except np.linalg.LinAlgError as error:
+            raise ArithmeticError(f"fold at the clearance {np.exp(x):g}") from error
+        return self.found[x]
+
+    def slope(self, x):
+        """Return the derivative of the largest displacement with respect to the clearance."""
+        return self.at(x).displacement_slopes[CLEARANCE]
+
+    def excess(self, x):
+        """Return the modulus minus 1, and its derivative with respect to x."""
+        found = self.at(x)
+        return found.modulus - 1, found.modulus_slopes[CLEARANCE] * np.exp(x)
+
+    def smallest(self, row):
+        """Return the x of the smallest stable orbit near a row of the map, and a status.
+
+        The row is that of the smallest stable orbit of the map.
+        """
+        here = self.x[row]
+        step = 1 if self.slope(here) < 0 else -1
+        if row + step not in self.orbits:
+            return here, "range_ends"
+        there = self.x[row + step]
+        if self.slope(there) * step > 0:
+            there = brentq(self.slope, here, there, xtol=ACCURACY)
+            if self.at(there).modulus < 1:
+                return there, "smooth" if self.at(there).displacement_smooth else "kink"
+        elif self.at(there).modulus < 1:
+            return here, "not_refined"
+        return self.edge_between(here, there), "stability_ends"
+
+    def edge_between(self, inside, outside):
+        """Return the x at which the modulus reaches 1, between two values of x."""
+        ends = sorted((inside, outside))
+        (low, _), (high, _) = self.excess(ends[0]), self.excess(ends[1])
+        guess = ends[0] + (ends[1] - ends[0]) * low / (low - high)
+        found = root_scalar(self.excess, x0=guess, fprime=True, method="newton", xtol=ACCURACY)
+        if found.converged and ends[0] <= found.root <= ends[1]:
+            return float(found.root)
+        # Newton's method fails if the modulus has a kink, where two multipliers meet.
+        return brentq(lambda x: self.excess(x)[0], *ends, xtol=ACCURACY)

@@ -1,20 +1,19 @@
-"""A design task: machine, loose mass, band of frequencies, tolerances and confidence.
+"""A design task: machine, loose mass, contact, band of frequencies, tolerances, confidence, effort.
 
-Rule (18) of the paper is m2 w^2 (gap/2) = F, with the loose mass m2, the angular forcing frequency
-w and the amplitude F of the force. A start is a random initial state. A motion is quiet if its
-largest displacement is at most the quiet limit.
+All values are in SI units. Rule (18) of the paper is m2 w^2 (gap/2) = F, with the loose mass m2,
+the angular forcing frequency w and the amplitude F of the force.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
+import xarray as xr
 
+from impact_damper.data.datasets import SOURCE, shown_variable
 from impact_damper.data.shares import starts_needed
-from impact_damper.design.band import checked_band, grid_over, resonance_of, resonances_within
-from impact_damper.design.tolerances import NOMINAL, TOLERANCES, VARIED, checked_tolerances
 from impact_damper.model.bounds import (
     MASS_RATIO_RANGE,
     RESTITUTION_RANGE,
@@ -25,20 +24,26 @@ from impact_damper.model.bounds import (
     shown,
 )
 from impact_damper.model.checks import check_starts
-from impact_damper.model.machine import Machine, MachineDamper
+from impact_damper.model.hertz import HertzContact
+from impact_damper.model.machine import Machine, MachineDamper, describe_si
+from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import pack
 from impact_damper.model.settling import Settling, check_settling
+from impact_damper.model.text import with_unit
 from impact_damper.model.units import check_si
-from impact_damper.theory.free_oscillator import balance_amplitudes
+from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 
+# Values that may deviate from their nominal ones; the last three belong to the machine. NOMINAL:
+# their factors without a deviation. TOLERANCES: largest relative deviations by default.
+VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
+NOMINAL = (1.0,) * len(VARIED)
+TOLERANCES = {"gap": 0.2}
+# Ends of a range or of a confidence interval.
+SIDES = ["lower", "upper"]
 # Least gap that a design considers, divided by the gap of rule (18).
 LEAST_GAP = 0.3
-# Comparisons of many gaps run motions for a shorter time. Their unit is the decay time, in which an
-# unforced vibration of the machine decays by the factor e.
-# PATIENT, LEAST_PATIENCE: a chaotic motion is stopped after PATIENT decay times, but not before
-#     LEAST_PATIENCE cycles.
-# LONG, LEAST_LIMIT: any other motion is stopped after LONG * PATIENT decay times, but not before
-#     LEAST_LIMIT cycles.
+# Comparisons of many gaps stop a chaotic motion after PATIENT decay times of the machine and any
+# other motion after LONG times as long, but not before LEAST_PATIENCE and LEAST_LIMIT cycles.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
 # Cycles over which a motion that has not settled is measured. With 50 cycles the largest peak of
@@ -48,99 +53,125 @@ WATCHED = 100
 LATER = 1.5
 
 
+def labelled(values, **coordinates) -> xr.Dataset:
+    """Return a dataset of registered variables; displacements are in mm, all else in SI units."""
+    made = {name: shown_variable(name, value) for name, value in values.items()}
+    known = {name: shown_variable(name, value) for name, value in coordinates.items()}
+    return xr.Dataset(made, known, {"source": SOURCE})
+
+
 def spread(values, count) -> np.ndarray:
     """Return at most `count` of the values, evenly spread, including the first and the last."""
     return values[np.unique(np.linspace(0, len(values) - 1, count).round().astype(int))]
 
 
+@names_arguments
 @dataclass(frozen=True, kw_only=True)
-class Task:
-    """A design task; values are checked before anything is computed.
-
-    Each physical value is a number in the SI unit, text with units, or a quantity of pint.
+class Effort:
+    """How much a design computes; more effort gives a finer and surer design.
 
     Attributes
     ----------
-    machine : Machine
-    mass : float
-        Loose mass, kg; at most the mass of the machine.
-    band : tuple of float
-        Least and greatest forcing frequency, Hz. The band must overlap the range `resonance`.
-    restitution : float
+    frequencies : int
+        Number of frequencies over the band; the resonances in it are added.
+    candidates : int
+        Number of gaps that are compared closely.
+    starts : int
+        Random starts (initial states of machine and loose mass) at each gap and frequency.
+    seed : int
+        Seed of the random starts.
+    settling : Settling, optional
+        How long motions are run, and how accurately.
+    workers : int
+        Threads; the result does not depend on it.
+    """
+
+    frequencies: int = 41
+    candidates: int = 12
+    starts: int = 96
+    seed: int = 1995
+    settling: Settling | None = None
+    workers: int = 1
+
+    def __post_init__(self):
+        check_count("frequencies", self.frequencies, least=3, most=10**4)
+        check_count("candidates", self.candidates, least=4, most=1000)
+        check_count("starts", self.starts, least=1, most=10**5)
+        check_count("seed", self.seed, **SEED_RANGE)
+        check_count("workers", self.workers, least=1, most=1024)
+        settling = check_settling(self.settling)
+        settling = replace(settling, watched=max(settling.watched, WATCHED), further=0)
+        object.__setattr__(self, "settling", settling)
+
+    def lasting(self, periods) -> Settling:
+        """Return the settling with which a motion is run for `periods` unless it settles."""
+        return replace(self.settling, patience=periods, limit=periods)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """A design task; the arguments of `design_damper`, checked before anything is computed.
+
+    Attributes
+    ----------
+    contact : float or HertzContact
+        Stiffness, N/m, or the contact from which it is computed.
     contact_stiffness : float
         N/m.
-    frequencies : int
-        Number of frequencies over the band.
-    candidates : int
-        Number of gaps that are compared.
-    starts : int
-        Random starts at each gap and frequency.
-    tolerances : dict
-        Largest relative deviations, keyed by names of VARIED.
-    displacement_limit : float or None
-        Quiet limit, the largest displacement of a quiet motion, m. If None, the design sets a limit
-        (`screen`, `compare.coarse_comparison`).
-    share : float
-        Least share of starts that must lead to quiet motions, at 95 % confidence.
-    seed : int
-    settling : Settling
-        Lengths and tolerances of runs. Motions that have not settled are measured over at least
-        WATCHED cycles.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If a value is out of range; the message names it, in SI units.
     """
 
     machine: Machine
     mass: float
     band: tuple
     restitution: float
-    contact_stiffness: float
-    frequencies: int = 41
-    candidates: int = 12
-    starts: int = 96
+    contact: float | HertzContact
     tolerances: Mapping = field(default_factory=lambda: dict(TOLERANCES))
     displacement_limit: float | None = None
     share: float = 0.95
-    seed: int = 1995
-    settling: Settling | None = None
+    effort: Effort = field(default_factory=Effort)
+    contact_stiffness: float = field(init=False)
 
     def __post_init__(self):
         if not isinstance(self.machine, Machine):
             raise TypeError(f"machine = {shown(self.machine)}: must be a Machine")
-        settle = object.__setattr__
+        if not isinstance(self.effort, Effort):
+            raise TypeError(f"effort = {shown(self.effort)}: must be an Effort")
         least = self.scales.to_si(MASS_RATIO_RANGE["least"], "mass")
         why = "mass of the machine: a heavier loose mass is no damper"
         mass = check_si("mass", self.mass, "mass", least=least, most=self.machine.mass, why=why)
-        settle(self, "mass", mass)
-        settle(
-            self,
-            "restitution",
-            check_si("restitution", self.restitution, "number", **RESTITUTION_RANGE),
-        )
-        bounds = self.scales.range_to_si(STIFFNESS_RANGE, "stiffness")
-        stiffness = check_si("contact_stiffness", self.contact_stiffness, "stiffness", **bounds)
-        settle(self, "contact_stiffness", stiffness)
-        settling = check_settling(self.settling)
-        settling = replace(settling, watched=max(settling.watched, WATCHED), further=0)
-        settle(self, "settling", settling)
+        self._set("mass", mass)
+        restitution = check_si("restitution", self.restitution, "number", **RESTITUTION_RANGE)
+        self._set("restitution", restitution)
         self._check_excitation()
-        settle(self, "band", checked_band(self.machine, self.band, self.resonance))
-        settle(self, "tolerances", checked_tolerances(self.tolerances))
-        check_count("seed", self.seed, **SEED_RANGE)
+        self._set("band", checked_band(self.machine, self.band, self.resonance))
+        self._set("contact_stiffness", self._stiffness())
+        self._set("tolerances", checked_tolerances(self.tolerances))
         check_number("share", self.share, least=0.5, most=0.999)
-        least = starts_needed(self.share)
+        least, effort = starts_needed(self.share), self.effort
         why = f"a share of {self.share:g} at 95 % confidence needs {least}, all quiet"
-        check_count("starts", self.starts, least=least, most=10**5, why=why)
-        check_count("frequencies", self.frequencies, least=3, most=10**4)
-        check_count("candidates", self.candidates, least=4, most=1000)
-        check_starts(self.starts, self.frequencies * self.candidates, least)
+        check_count("starts", effort.starts, least=least, most=10**5, why=why)
+        check_starts(effort.starts, effort.frequencies * effort.candidates, least)
         if self.displacement_limit is not None:
             limit = check_si("displacement_limit", self.displacement_limit, "displacement", above=0)
-            settle(self, "displacement_limit", limit)
+            self._set("displacement_limit", limit)
         self._check_deviations()
+
+    def _set(self, name, value):
+        object.__setattr__(self, name, value)
+
+    def _stiffness(self):
+        """Return the stiffness of the contact.
+
+        By Hertz's law it grows with the speed of impact. Here the loose mass crosses the gap of
+        rule (18) in half a cycle, at the middle frequency of the band.
+        """
+        bounds = self.scales.range_to_si(STIFFNESS_RANGE, "stiffness")
+        stiffness = self.contact
+        if isinstance(stiffness, HertzContact):
+            middle = sum(self.band) / 2
+            reduced = self.machine.mass * self.mass / (self.machine.mass + self.mass)
+            stiffness = stiffness.stiffness(2 * self.rule_gap(middle) * middle, reduced)
+        return check_si("contact", stiffness, "stiffness", **bounds)
 
     def _check_excitation(self):
         if not self.machine.static_force:
@@ -170,6 +201,11 @@ class Task:
             for frequency in self.band:
                 self.packed(gap, frequency, factors)
 
+    @property
+    def gap_tolerance(self) -> float:
+        """Largest relative deviation of the gap."""
+        return self.tolerances.get("gap", 0.0)
+
     @cached_property
     def resonance(self) -> tuple[float, float]:
         """Lowest and highest frequency at which the machine without damper resonates, Hz."""
@@ -177,26 +213,31 @@ class Task:
 
     @cached_property
     def hurried(self) -> Settling:
-        """Settling for comparisons of many gaps: shorter runs, a few decay times of the machine.
+        """Settling for comparisons of many gaps: runs of a few decay times of the machine.
 
-        After a short run fewer motions are quiet, because some become quiet slowly. Therefore
-        `compare.run_until_sure` runs motions that are not quiet for the full time.
+        Some motions become quiet slowly, so `compare` runs those that are not quiet for longer.
         """
+        full = self.effort.settling
         # Decay time of the machine in forcing cycles.
         decay = sum(self.band) * self.machine.mass / self.machine.viscous_damping
-        patience = int(np.clip(PATIENT * decay, LEAST_PATIENCE, self.settling.patience))
-        limit = int(np.clip(LONG * PATIENT * decay, LEAST_LIMIT, self.settling.limit))
-        return replace(self.settling, patience=patience, limit=limit)
+        patience = int(np.clip(PATIENT * decay, LEAST_PATIENCE, full.patience))
+        limit = int(np.clip(LONG * PATIENT * decay, LEAST_LIMIT, full.limit))
+        return replace(full, patience=patience, limit=limit)
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances within the band, Hz: without the loose mass, and with it fixed on."""
-        return resonances_within(self.band, self.resonance, self.mass / self.machine.mass)
+        """Resonances in the band, Hz: without the loose mass, and with it fixed on."""
+        ratio = math.sqrt(1 + self.mass / self.machine.mass)
+        found = [each for end in self.resonance for each in (end / ratio, end)]
+        return [each for each in found if self.band[0] < each < self.band[1]]
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Frequencies over the band, Hz: evenly spaced, but some are moved onto `resonances`."""
-        return grid_over(self.band, self.frequencies, self.resonances)
+        """Frequencies over the band, Hz: evenly spaced, but the nearest ones on the resonances."""
+        values = np.linspace(*self.band, self.effort.frequencies)
+        for frequency in self.resonances:
+            values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
+        return np.unique(values)
 
     @cached_property
     def bare(self) -> np.ndarray:
@@ -212,11 +253,7 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return some frequencies, Hz, ascending.
-
-        They are `count` evenly spread frequencies of `grid`, the worst frequency, all resonances,
-        and `others`.
-        """
+        """Return `count` frequencies of `grid`, Hz, with the worst one, resonances and `others`."""
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(spread(self.grid, count), [self.worst_frequency, *resonances, *others])
 
@@ -225,25 +262,17 @@ class Task:
         """Scales of the machine."""
         return self.machine.scales
 
-    def lasting(self, periods) -> Settling:
-        """Return the settling with which a motion is run for `periods` unless it settles."""
-        return replace(self.settling, patience=periods, limit=periods)
-
     def rule_gap(self, frequency) -> float:
-        """Return the gap (m) by rule (18) of the paper at a frequency (Hz).
-
-        If the force acted on the loose mass alone, the amplitude would be half of this gap.
-        """
+        """Return the gap (m) by rule (18) of the paper at a frequency (Hz)."""
         force = self.machine.oscillator(frequency).forcing_amplitude(
             self.scales.from_si(frequency, "frequency")
         )
         return 2 * self.scales.to_si(force, "force") / (self.mass * (2 * math.pi * frequency) ** 2)
 
     def damper(self, gap, factors=NOMINAL) -> MachineDamper:
-        """Return the damper with a gap (m).
+        """Return the damper with a gap (m), its values multiplied by factors in order of VARIED.
 
-        Gap, restitution and contact stiffness are multiplied by their `factors`, which are in the
-        order of VARIED. A restitution above 1 becomes 1.
+        A restitution above 1 becomes 1.
         """
         varied = dict(zip(VARIED, factors, strict=True))
         return MachineDamper(
@@ -254,10 +283,7 @@ class Task:
         )
 
     def system(self, gap, frequency, factors=NOMINAL) -> tuple:
-        """Return the oscillator, the damper and the frequency W, dimensionless.
-
-        They are made dimensionless by the scales of the nominal machine, whatever the factors.
-        """
+        """Return oscillator, damper and frequency W in the scales of the nominal machine."""
         varied = dict(zip(VARIED, factors, strict=True))
         oscillator = self.machine.oscillator(frequency)
         oscillator = replace(
@@ -272,11 +298,7 @@ class Task:
         return oscillator, damper, float(self.scales.from_si(frequency, "frequency"))
 
     def _force(self, frequency, varied):
-        """Return the factor of the force.
-
-        The force of a moving base also depends on the deviations of spring and dashpot, which
-        transmit it.
-        """
+        """Return the factor of the force, which spring and dashpot transmit from a moving base."""
         machine = self.machine
         if machine.force is not None or machine.unbalance is not None:
             return varied["force"]
@@ -294,14 +316,73 @@ class Task:
         return 1e3 * self.scales.to_si(displacement, "displacement")
 
     def describe(self) -> dict:
-        """Return the values of the task except those of the machine, keyed by name, in SI units."""
-        kept = ("mass", "restitution", "contact_stiffness", "frequencies", "candidates", "starts")
-        found = {name: getattr(self, name) for name in (*kept, "share", "seed")}
-        return found | {
+        """Return all values that determine the design, keyed by name, in SI units."""
+        effort = asdict(self.effort)
+        del effort["workers"]
+        return effort | {
+            "machine": describe_si(self.machine),
+            "mass": self.mass,
             "band": list(self.band),
+            "restitution": self.restitution,
+            "contact": repr(self.contact),
+            "contact_stiffness": self.contact_stiffness,
             "tolerances": dict(self.tolerances),
             "displacement_limit": self.displacement_limit,
+            "share": self.share,
             "later_displacement": LATER,
-            "settling": asdict(self.settling),
             "compared_settling": asdict(self.hurried),
         }
+
+
+def resonance_of(machine) -> tuple[float, float]:
+    """Return the lowest and the highest frequency (Hz) at which the machine resonates.
+
+    These are the natural frequency of small vibrations, the peak by harmonic balance, and the folds
+    of a response bent by a cubic spring.
+    """
+    natural = machine.natural_frequency
+    oscillator = machine.oscillator()
+    found = [point.frequency for point in free_folds(oscillator)]
+    try:
+        found.append(maximum_response(oscillator).frequency)
+    except ValueError:
+        pass  # no peak: heavy damping, or motion over the barrier of a softening spring
+    ends = [*machine.scales.to_si(np.array(found), "frequency")]
+    if natural or not ends:
+        ends.append(natural)
+    return float(min(ends)), float(max(ends))
+
+
+def checked_band(machine, band, resonance) -> tuple[float, float]:
+    """Return the ends of a band, Hz; it must reach into the range `resonance`."""
+    if not isinstance(band, Sequence | np.ndarray) or len(band) != 2:
+        raise ValueError(f"band = {shown(band)}: must be least and greatest frequency")
+    ends = tuple(machine.check_frequency(f"band[{i}]", value) for i, value in enumerate(band))
+    low, high = resonance
+    if not ends[0] < ends[1] or ends[1] < low or ends[0] > high:
+        given = " to ".join(with_unit(end, "Hz") for end in ends)
+        where = f"{low:.4g} Hz" if high - low < 1e-3 * low else f"{low:.4g} to {high:.4g} Hz"
+        raise ValueError(
+            f"band = {given}: must ascend and reach into the resonance of the machine, at "
+            f"{where} (away from its resonance a machine needs no damper)"
+        )
+    return ends
+
+
+def checked_tolerances(tolerances) -> dict:
+    """Return the largest relative deviations as numbers, keyed by names of VARIED."""
+    if not isinstance(tolerances, Mapping):
+        raise TypeError(f"tolerances = {shown(tolerances)}: must be a dictionary")
+    found = {}
+    for name, value in tolerances.items():
+        if name not in VARIED:
+            raise ValueError(f"tolerances = {shown(name)}: must be of {', '.join(VARIED)}")
+        found[name] = check_si(
+            f"tolerances[{name!r}]",
+            value,
+            "number",
+            least=0,
+            most=0.9,
+            why="relative deviation: at 1 the nominal value would become 0",
+        )
+    return found

@@ -7,13 +7,23 @@ new figure, and returns the matplotlib axes. New figures have a legend; on given
 
 from impact_damper.plot.basin_plane import basins
 from impact_damper.plot.branches import branch
-from impact_damper.plot.designs import design
+from impact_damper.plot.designs import conclusion, design
 from impact_damper.plot.motions import migration, orbit
 from impact_damper.plot.responses import response
 from impact_damper.plot.stacked_shares import shares
 from impact_damper.plot.sweeps import sweep
 
-__all__ = ["basins", "branch", "design", "migration", "orbit", "response", "shares", "sweep"]
+__all__ = [
+    "basins",
+    "branch",
+    "conclusion",
+    "design",
+    "migration",
+    "orbit",
+    "response",
+    "shares",
+    "sweep",
+]
 
 
 def __getattr__(name):

@@ -1,7 +1,6 @@
-"""The plot of a finished design."""
+"""The plot and the conclusion of a finished design."""
 
-from impact_damper.plot.machine_figures.cliff import share_panel, size_panel
-from impact_damper.plot.machine_figures.response import response_panel
+from impact_damper.plot.machine_figures.figures import response_panel, share_panel, size_panel
 from impact_damper.plot.sheets import dataset_in, sheet
 
 
@@ -23,7 +22,7 @@ def design(data, axes=None):
     >>> import impact_damper as idm
     >>> machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
     >>> found = idm.design_damper(
-    ...     machine, mass=1.2, band=(20.4, 20.7), restitution=0.6, contact_stiffness=2e7
+    ...     machine, mass=1.2, band=(20.4, 20.7), restitution=0.6, contact=2e7
     ... )  # doctest: +SKIP
     >>> axes = idm.plot.design(found)  # doctest: +SKIP
     """
@@ -34,3 +33,21 @@ def design(data, axes=None):
         for each in axes[1:]:
             each.set_xlabel("Gap, full play (mm)")
     return axes
+
+
+def conclusion(data) -> list[str]:
+    """Return the conclusion of a design in sentences: what to build, and how sure that is.
+
+    The sentences stand in a template, for which Jinja2 must be installed.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        A result of `design_damper`.
+    """
+    found = dataset_in(data, lambda each: "design_gap" in each, "design_damper")
+    try:
+        from impact_damper.plot.pages.render import conclusion as sentences
+    except ModuleNotFoundError as error:
+        raise ImportError("the conclusion of a design needs Jinja2: pip install jinja2") from error
+    return sentences(found)

@@ -87,22 +87,20 @@ def test_a_design_is_for_the_task_of_its_file_and_has_a_page(tmp_path):
     data = load(folder / "design.nc")
     machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.02, force=40)
     made, asked = (json.loads(data.attrs[name]) for name in ("machine", "parameters"))
+    ball = idm.HertzContact("20 mm", "3 GPa", 0.4)
     task = Task(
         machine=machine,
         mass=1.2,
         band=(20.4, 20.7),
         restitution=0.6,
-        contact_stiffness=made["contact_stiffness"],
-        frequencies=3,
-        candidates=4,
-        starts=16,
+        contact=ball,
         share=0.8,
         tolerances={"gap": 0.05},
+        effort=idm.Effort(frequencies=3, candidates=4, starts=16),
     )
     assert asked | task.describe() == asked
     # The stiffness for an impact at the speed that crosses the gap in half a cycle. The gap is that
     # of the flight rule, by which the loose mass flies straight from wall to wall.
-    ball = idm.HertzContact("20 mm", "3 GPa", 0.4)
     speed = 2 * task.rule_gap(20.55) * 20.55
     assert made["contact_stiffness"] == pytest.approx(ball.stiffness(speed, 12 * 1.2 / 13.2))
     assert told["design_gap_mm"] == float(data["design_gap"])

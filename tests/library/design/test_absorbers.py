@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from impact_damper.data.datasets import flag
-from impact_damper.design.absorber_responses import absorber_responses
 from impact_damper.design.absorbers import (
+    absorber_responses,
     den_hartog_absorber,
     exact_absorber,
     linear_machine,

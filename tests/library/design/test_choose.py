@@ -1,25 +1,18 @@
-"""Choice of a gap from a table of outcomes, against brute force.
-
-A start is an initial state.
-"""
+"""Choice of a gap from a table of outcomes, against brute force."""
 
 import numpy as np
 import pytest
+from helpers.design_tasks import compared
 
-from impact_damper.design.choose import Comparison, buildable, middle_gap, runs_of
+from impact_damper.data.sweeps import runs_of_true
+from impact_damper.design.choose import buildable, choose, middle_gap, quiet_gaps, worst_sizes
 
-FREQUENCIES = np.array([20.0, 21.0])
+SHARE = 0.95
 
 
 def table(worst, shares):
-    """Comparison over gaps of 1 to 4 mm; the confidence interval of a share ends at the share."""
-    shares = np.asarray(shares, float)
-    numbers = {
-        "worst_displacement": np.asarray(worst, float),
-        "start_quiet_share": shares,
-        "start_quiet_interval": np.stack([shares - 0.04, shares], axis=-1),
-    }
-    return Comparison(np.geomspace(1, 4, len(shares)), FREQUENCIES, numbers, 2.0, 0.95)
+    """Return a comparison over gaps of 1 to 4 mm."""
+    return compared(np.geomspace(1, 4, len(shares)), shares, worst)
 
 
 def made_up(seed, quiet):
@@ -38,18 +31,18 @@ def judged(comparison, gap, tolerance):
     They are the worst displacement, whether all gaps are quiet, and the largest share of starts
     that are not quiet.
     """
-    gaps = comparison.gaps
+    gaps, are_quiet = comparison["candidate_gap"].values, quiet_gaps(comparison, SHARE)
     low, high = gap * (1 - tolerance), gap * (1 + tolerance)
     # Displacement and share are interpolated, so they are largest at an end or at a compared gap.
     tried = np.log([low, *gaps[(gaps > low) & (gaps < high)], high])
-    worst = np.exp(np.interp(tried, np.log(gaps), np.log(comparison.worst))).max()
-    shares = comparison.numbers["start_quiet_share"].mean(axis=1)
+    worst = np.exp(np.interp(tried, np.log(gaps), np.log(worst_sizes(comparison)))).max()
+    shares = comparison["start_quiet_share"].values.mean(axis=1)
     loud = np.interp(tried, np.log(gaps), 1 - shares).max()
     quiet = low >= gaps[0] and high <= gaps[-1]
-    quiet &= comparison.quiet[(gaps >= low) & (gaps <= high)].all()
+    quiet &= are_quiet[(gaps >= low) & (gaps <= high)].all()
     for k in range(len(gaps) - 1):
         if low < gaps[k + 1] and high > gaps[k]:
-            quiet &= comparison.quiet[k : k + 2].all()
+            quiet &= are_quiet[k : k + 2].all()
     return worst, quiet, loud
 
 
@@ -58,7 +51,7 @@ def judged(comparison, gap, tolerance):
 @pytest.mark.parametrize("tolerance", [0.0, 0.08, 0.2])
 def test_the_choice_is_that_of_brute_force(seed, share, tolerance):
     comparison = made_up(seed, share)
-    choice = comparison.choose(tolerance)
+    choice = choose(comparison, SHARE, tolerance)
     coarse = buildable(1, 4)
     found = [judged(comparison, gap, tolerance) for gap in coarse]
     worst, quiet, loud = map(np.array, zip(*found, strict=True))
@@ -68,16 +61,16 @@ def test_the_choice_is_that_of_brute_force(seed, share, tolerance):
         return
     assert not quiet.any()
     if choice.kind == "needs_tolerance":
-        begins, ends = runs_of(comparison.quiet)
-        ranges = np.log(comparison.gaps[ends] / comparison.gaps[begins])
-        first, last = (comparison.gaps[each[np.argmax(ranges)]] for each in (begins, ends))
+        gaps = comparison["candidate_gap"].values
+        runs = [(gaps[a], gaps[b - 1]) for a, b in runs_of_true(quiet_gaps(comparison, SHARE))]
+        widths = [np.log(high / low) for low, high in runs]
         assert any(
-            comparison.gaps[a] <= choice.gap <= comparison.gaps[b]
-            for a, b, width in zip(begins, ends, ranges, strict=True)
-            if width >= np.log(last / first) - 2e-3
+            low <= choice.gap <= high
+            for (low, high), width in zip(runs, widths, strict=True)
+            if width >= max(widths) - 2e-3
         )
         return
-    assert not comparison.quiet.any()
+    assert not quiet_gaps(comparison, SHARE).any()
     covered = (coarse * (1 - tolerance) >= 1) & (coarse * (1 + tolerance) <= 4)
     assert here[2] <= loud[covered].min() + 0.0011
 
@@ -86,36 +79,24 @@ def test_a_narrow_quiet_range_needs_a_closer_tolerance():
     shares = np.ones((9, 2))
     shares[[0, 1, 2, 5, 6, 7, 8], 1] = 0.5
     comparison = table(np.ones((9, 2)), shares)
-    assert comparison.choose(0.2).kind == "needs_tolerance"
-    assert comparison.gaps[3] <= comparison.choose(0.2).gap <= comparison.gaps[4]
-    assert comparison.choose(0.05).kind == "robust"
-
-
-def test_gaps_left_out_are_not_chosen_again():
-    shares = np.full((9, 2), 0.5)
-    shares[[1, 5, 6]] = 1
-    comparison = table(np.ones((9, 2)), shares)
-    gaps = comparison.gaps
-    assert gaps[5] <= comparison.choose(0.2).gap <= gaps[6]
-    fewer = comparison.without(gaps[5], gaps[6])
-    assert list(fewer.gaps) == [*gaps[:5], *gaps[7:]]
-    assert fewer.choose(0.2) == (pytest.approx(gaps[1], rel=1e-3), "needs_tolerance")
-    assert fewer.without(gaps[1], gaps[1]).choose(0.2).kind == "least_worst"
+    gaps, choice = comparison["candidate_gap"], choose(comparison, SHARE, 0.2)
+    assert choice.kind == "needs_tolerance" and gaps[3] <= choice.gap <= gaps[4]
+    assert choose(comparison, SHARE, 0.05).kind == "robust"
 
 
 def test_one_loud_frequency_makes_a_gap_loud():
     shares = np.ones((4, 2))
     shares[2, 1] = 0.98  # its confidence interval, from 0.94, reaches below the required 0.95
     comparison = table(np.ones((4, 2)), shares)
-    assert list(comparison.quiet) == [True, True, False, True]
+    assert list(quiet_gaps(comparison, SHARE)) == [True, True, False, True]
 
 
 def test_motions_that_escape_are_the_worst():
     worst = np.ones((5, 2))
     worst[3:] = np.inf
     comparison = table(worst, np.full((5, 2), 0.5))
-    choice = comparison.choose(0.05)
-    assert choice.kind == "least_worst" and choice.gap * 1.05 < comparison.gaps[3]
+    choice = choose(comparison, SHARE, 0.05)
+    assert choice.kind == "least_worst" and choice.gap * 1.05 < comparison["candidate_gap"][3]
 
 
 @pytest.mark.parametrize(

@@ -2,22 +2,17 @@
 
 import numpy as np
 import pytest
+from helpers.design_tasks import task
 
 import impact_damper as idm
 from impact_damper.design.chosen_motions import reached_motions
-from impact_damper.design.task import Task
+from impact_damper.design.task import labelled
 from impact_damper.motions.response import frequency_response
 
 RATIO, BASE, GAP, LIMIT = 0.01, 2e-4, 18.3, 4.6
 MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=RATIO, base_displacement=BASE)
-TASK = Task(
-    machine=MACHINE,
-    mass=0.24,
-    band=(20.4, 20.7),
-    restitution=0.5,
-    contact_stiffness=2e7,
-    frequencies=3,
-    starts=73,
+TASK = task(
+    machine=MACHINE, mass=0.24, band=(20.4, 20.7), restitution=0.5, frequencies=3, starts=73
 )
 
 
@@ -27,8 +22,9 @@ def test_a_motion_within_the_gap_is_not_counted_as_reached():
     A loose mass at rest in the middle of the gap then stays at rest.
     """
     damper = TASK.damper(1e-3 * GAP)
-    response = frequency_response(MACHINE, damper, TASK.grid, starts=TASK.starts)
-    found = reached_motions(TASK, GAP, response, LIMIT, None)
+    response = frequency_response(MACHINE, damper, TASK.grid, starts=73)
+    choice = labelled({"design_gap": GAP, "displacement_limit": LIMIT})
+    found = reached_motions(TASK, choice, response)
     r = TASK.grid / MACHINE.natural_frequency
     bare = 1e3 * BASE * np.hypot(1, 2 * RATIO * r) / np.hypot(1 - r**2, 2 * RATIO * r)
     inside = bare < GAP / 2

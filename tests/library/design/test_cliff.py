@@ -1,24 +1,13 @@
-"""Ranges of quiet gaps that are too narrow to build a gap in, with made-up edges.
-
-A motion is quiet if its largest displacement is at most the quiet limit.
-"""
+"""Ranges of quiet gaps that are too narrow to build a gap in, with made-up edges."""
 
 import numpy as np
 import pytest
+from helpers.design_tasks import compared, task
 
-import impact_damper as idm
 from impact_damper.design import cliff
-from impact_damper.design.choose import Comparison
 from impact_damper.design.cliff import HOLDABLE, can_be_held, choose_with_edges
-from impact_damper.design.task import Task
 
-TASK = Task(
-    machine=idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40),
-    mass=0.6,
-    band=(20.3, 20.8),
-    restitution=0.7,
-    contact_stiffness=2e7,
-)
+TASK = task()
 
 
 def edges(low, high):
@@ -47,19 +36,14 @@ def quiet_ranges(monkeypatch, quiet, width):
     """
     shares = np.where(np.isin(np.arange(9), quiet), 1.0, 0.5)[:, None]
     gaps = np.geomspace(1, 4, 9)
-    numbers = {"start_quiet_share": shares, "worst_displacement": np.ones((9, 1))}
-    numbers["start_quiet_interval"] = np.stack([shares - 0.04, shares], axis=-1)
 
-    def compare(task, gaps, frequencies, *_, **__):
-        ranges = [(comparison.gaps[k], comparison.gaps[k] * (1 + width)) for k in quiet]
-        is_quiet = any(low <= gaps[0] <= high for low, high in ranges)
-        share = np.full((1, 1), 1.0 if is_quiet else 0.5)
-        found = {"start_quiet_share": share, "start_quiet_interval": np.stack([share, share], -1)}
-        return Comparison(np.array(gaps), frequencies, found, 2.0, 0.95)
+    def compare(task, tried, *_, **__):
+        ranges = [(gaps[k], gaps[k] * (1 + width)) for k in quiet]
+        is_quiet = any(low <= tried[0] <= high for low, high in ranges)
+        return compared(tried, [[1.0 if is_quiet else 0.5]], [[1.0]])
 
-    comparison = Comparison(gaps, np.array([20.5]), numbers, 2.0, 0.95)
     monkeypatch.setattr(cliff, "compare", compare)
-    return gaps, choose_with_edges(TASK, comparison)
+    return gaps, choose_with_edges(TASK, compared(gaps, shares, np.ones((9, 1))))
 
 
 def test_a_quiet_gap_without_a_range_is_no_design(monkeypatch):

@@ -6,25 +6,17 @@ of a start is the number of cycles after which its motion becomes quiet.
 
 import numpy as np
 import pytest
+from helpers.design_tasks import compared, task
 from scipy.stats import binom
 
-import impact_damper as idm
 from impact_damper.data.shares import failures_allowed
 from impact_damper.design import compare as compare_module
-from impact_damper.design.choose import Comparison
+from impact_damper.design.choose import choose, quiet_gaps
 from impact_damper.design.compare import SECOND, TRIAL, compare
-from impact_damper.design.task import Task
 from impact_damper.motions.records import MOTION, SETTLED
 
 STARTS = 73
-TASK = Task(
-    machine=idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40),
-    mass=0.6,
-    band=(20.3, 20.8),
-    restitution=0.7,
-    contact_stiffness=2e7,
-    starts=STARTS,
-)
+TASK = task(starts=STARTS)
 FREQUENCIES = np.array([20.4, 20.6])
 NEVER = 10**6
 # Cycles after which a motion becomes quiet: within a short run, and only within the full time.
@@ -54,7 +46,7 @@ def made_up(monkeypatch):
             assert states.size  # never called without starts
             records = np.zeros(states.shape[:2], MOTION)
             records["outcome"] = SETTLED
-            quiet = states[..., 0] <= (settling or task.settling).limit
+            quiet = states[..., 0] <= (settling or task.effort.settling).limit
             records["maximum_displacement"] = np.where(quiet, 0.0, np.inf)
             return records
 
@@ -70,7 +62,7 @@ def test_starts_that_become_quiet_late_are_quiet(made_up):
     times = np.full((2, STARTS), EARLY)
     times[0, [3, TRIAL + 1]] = times[1, :TRIAL] = LATE
     found, run_again = made_up([8.0], times)
-    assert found.quiet.all() and (found.numbers["start_count"] == STARTS).all()
+    assert quiet_gaps(found, TASK.share).all() and (found["start_count"].values == STARTS).all()
     assert run_again == 2 + TRIAL
 
 
@@ -78,11 +70,11 @@ def test_a_loud_start_is_judged_by_the_interval_of_more_starts(made_up):
     times = np.full((2, STARTS), EARLY)
     times[0, [3, 40]] = NEVER
     found, _ = made_up([8.0], times)
-    assert list(found.numbers["start_count"][0]) == [SECOND * STARTS, STARTS]
+    assert list(found["start_count"].values[0]) == [SECOND * STARTS, STARTS]
     share = 1 - 2 / (SECOND * STARTS)
-    assert found.numbers["start_quiet_share"][0] == pytest.approx([share, 1])
-    assert found.numbers["start_quiet_interval"][0, 0, 0] >= TASK.share
-    assert found.quiet.all()
+    assert found["start_quiet_share"].values[0] == pytest.approx([share, 1])
+    assert found["start_quiet_interval"].values[0, 0, 0] >= TASK.share
+    assert quiet_gaps(found, TASK.share).all()
 
 
 @pytest.mark.parametrize("more", [0, 1])
@@ -91,7 +83,7 @@ def test_the_second_look_allows_as_many_as_its_interval(made_up, more):
     times = np.full((2, SECOND * STARTS), EARLY)
     times[1, [5, *range(STARTS, STARTS + allowed - 1 + more)]] = NEVER
     found, _ = made_up([8.0], times)
-    assert found.quiet[0] == (more == 0)
+    assert quiet_gaps(found, TASK.share)[0] == (more == 0)
 
 
 def test_a_gap_is_given_up_as_soon_as_the_claim_is_lost(made_up):
@@ -99,8 +91,8 @@ def test_a_gap_is_given_up_as_soon_as_the_claim_is_lost(made_up):
     times[:2] = NEVER  # both frequencies of the first gap
     times[3, 0] = LATE
     found, run_again = made_up([8.0, 9.0], times)
-    assert list(found.quiet) == [False, True]
-    assert list(found.numbers["start_count"].ravel()) == [TRIAL, TRIAL, STARTS, STARTS]
+    assert list(quiet_gaps(found, TASK.share)) == [False, True]
+    assert list(found["start_count"].values.ravel()) == [TRIAL, TRIAL, STARTS, STARTS]
     allowed = failures_allowed(TASK.share, SECOND * STARTS)
     assert run_again == 2 * (allowed + 1) + 1
 
@@ -109,8 +101,8 @@ def test_starts_too_few_for_a_claim_must_all_be_quiet(made_up):
     times = np.full((4, 12), EARLY)
     times[2, 3] = NEVER
     found, _ = made_up([8.0, 9.0], times, starts=12)
-    assert list(found.quiet) == [True, False]
-    assert (found.numbers["start_count"] == 12).all()
+    assert list(quiet_gaps(found, TASK.share)) == [True, False]
+    assert (found["start_count"].values == 12).all()
 
 
 @pytest.mark.parametrize("share", [0.8, 0.95, 0.99])
@@ -132,32 +124,27 @@ def candidates(monkeypatch, loud):
     Motions are violent at gaps up to `loud` (mm).
     """
 
-    def made_up(task, gaps, frequencies, limit, *_, **__):
-        quiet = np.tile((np.asarray(gaps) > loud)[:, None], len(frequencies))
-        numbers = {
-            "start_quiet_share": np.where(quiet, 1.0, 0.9),
-            "start_quiet_interval": np.where(quiet, 0.96, 0.8)[..., None] * np.ones(2),
-            "worst_displacement": np.where(quiet, 1.0, 9.0) * np.ones(len(gaps))[:, None],
-        }
-        return Comparison(np.asarray(gaps), frequencies, numbers, limit, 0.95)
+    def made_up(task, gaps, *_, **__):
+        quiet = np.tile((np.asarray(gaps) > loud)[:, None], 2)
+        return compared(gaps, np.where(quiet, 1.0, 0.9), np.where(quiet, 1.0, 9.0), 3.0)
 
     # In the coarse comparison all motions are quiet, and smaller for smaller gaps.
     gaps = np.geomspace(2, 12, 20)
-    coarse = made_up(TASK, gaps, FREQUENCIES, 3.0)
-    coarse.numbers["start_quiet_share"][:] = 1
-    coarse.numbers["worst_displacement"][:] = 1 + 0.01 * gaps[:, None]
+    coarse = compared(gaps, np.ones((20, 2)), 1 + 0.01 * gaps[:, None] * np.ones(2), 3.0)
     monkeypatch.setattr(compare_module, "compare", made_up)
     return compare_module.candidate_comparison(TASK, coarse)
 
 
 def test_candidates_beyond_loud_ones_are_compared(monkeypatch):
     found = candidates(monkeypatch, loud=4.0)
-    assert found.choose(TASK.tolerances["gap"]).kind == "robust"
-    assert (np.diff(found.gaps) > 0).all() and len(found.gaps) > TASK.candidates
-    assert (found.quiet == (found.gaps > 4.0)).all()
+    assert choose(found, TASK.share, TASK.gap_tolerance).kind == "robust"
+    gaps = found["candidate_gap"].values
+    assert (np.diff(gaps) > 0).all() and len(gaps) > TASK.effort.candidates
+    assert (quiet_gaps(found, TASK.share) == (gaps > 4.0)).all()
 
 
 @pytest.mark.parametrize("loud", [0.0, 100.0])
 def test_no_further_candidates_if_all_are_quiet_or_none(monkeypatch, loud):
     found = candidates(monkeypatch, loud)
-    assert len(found.gaps) == TASK.candidates if loud == 0 else not found.quiet.any()
+    assert found.sizes["candidate"] == TASK.effort.candidates
+    assert (quiet_gaps(found, TASK.share) == (loud == 0)).all()

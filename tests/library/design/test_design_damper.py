@@ -7,24 +7,24 @@ import threading
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import impact_damper as idm
+from impact_damper.data.datasets import SOURCE
 from impact_damper.data.variables import VARIABLES
 from impact_damper.design import design_damper as machines
-from impact_damper.design import design_steps
+from impact_damper.plot import conclusion
 
 MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.02, force=40)
 SMALL = {
     "mass": 1.2,
     "band": (20.4, 20.7),
     "restitution": 0.6,
-    "contact_stiffness": 2e7,
+    "contact": 2e7,
     "tolerances": {"gap": 0.05},
-    "frequencies": 3,
-    "candidates": 4,
-    "starts": 16,
     "share": 0.8,
 }
+EFFORT = {"frequencies": 3, "candidates": 4, "starts": 16}
 STEPS = {
     "screening",
     "comparison",
@@ -40,8 +40,9 @@ STEPS = {
 }
 
 
-def design(**others):
-    return machines.design_damper(MACHINE, **SMALL | others)
+def design(folder=None, restitution=0.6, **effort):
+    given = SMALL | {"restitution": restitution, "effort": idm.Effort(**EFFORT | effort)}
+    return machines.design_damper(MACHINE, **given, folder=folder)
 
 
 def kept(folder):
@@ -63,8 +64,8 @@ def test_all_steps_are_kept_and_read_again(finished, monkeypatch):
     def computes(*_, **__):
         raise AssertionError("a step was computed again")
 
-    for name in ("screen", "reached_motions", "alternatives", "absorber_responses", "ring_down"):
-        monkeypatch.setattr(design_steps, name, computes)
+    for name in ("screen", "reached_motions", "other_masses", "competitors", "transients"):
+        monkeypatch.setattr(machines, name, computes)
     assert design(folder=folder).identical(data)
 
 
@@ -76,7 +77,7 @@ def test_an_interrupted_design_continues_after_its_kept_steps(finished, tmp_path
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
-        patch.setattr(design_steps, "alternatives", interrupt)
+        patch.setattr(machines, "other_masses", interrupt)
         design(folder=tmp_path, workers=2)
     done = kept(tmp_path)
     assert done == STEPS - {"masses", "transients", "competitors"}
@@ -108,7 +109,7 @@ def test_a_free_restitution_is_the_best_of_several(tmp_path):
     kinds, worst = data["tried_choice"].values, data["tried_displacement"].values
     assert used == tried[np.argmin(np.where(kinds == kinds.min(), worst, np.inf))]
     assert kept(tmp_path) == STEPS | {"restitutions"}
-    assert f"{used:.3g} is best" in data.attrs["conclusion"]
+    assert f"{used:.3g} is best" in " ".join(conclusion(data))
     # The candidates of the design lie around the best gap for this restitution.
     gap = data["tried_gap"].values[list(tried).index(used)]
     assert data["candidate_gap"].min() < gap < data["candidate_gap"].max()
@@ -150,4 +151,63 @@ def test_the_dataset_agrees_with_itself(finished):
     assert np.allclose(factors[1:, 0], [0.95, 1.05]) and (factors[0] == 1).all()
     assert asked["mass"] == 1.2 and asked["band"] == [20.4, 20.7]
     assert json.loads(data.attrs["machine"])["gap"] == pytest.approx(1e-3 * gap)
-    assert f"{gap:.3g} mm" in json.loads(data.attrs["conclusion"])[0]
+    assert f"{gap:.3g} mm" in conclusion(data)[0]
+
+
+class Computing:
+    """A computation that counts how often it was called."""
+
+    def __init__(self):
+        self.count = 0
+
+    def __call__(self, progress=None):
+        self.count += 1
+        return xr.Dataset({"x": ("y", [1.0, float(self.count)])}, attrs={"source": SOURCE})
+
+
+@pytest.fixture
+def compute():
+    return Computing()
+
+
+def kept_step(folder, compute, made):
+    return machines.Steps(folder, False).made_from(made)("one", compute)
+
+
+def test_a_step_is_computed_once(tmp_path, compute):
+    first, second = (kept_step(tmp_path, compute, {"mass": 1}) for _ in range(2))
+    assert compute.count == 1 and first.identical(second)
+
+
+def test_without_a_folder_nothing_is_kept(compute):
+    for _ in range(2):
+        kept_step(None, compute, {})
+    assert compute.count == 2
+
+
+def test_other_arguments_and_sources_compute_it_again(tmp_path, compute, monkeypatch):
+    kept_step(tmp_path, compute, {"mass": 1})
+    assert kept_step(tmp_path, compute, {"mass": 2})["x"][1] == 2
+    monkeypatch.setattr(machines, "_sources", lambda: "edited")
+    assert kept_step(tmp_path, compute, {"mass": 2})["x"][1] == 3
+
+
+@pytest.mark.parametrize("damage", [b"", b"no dataset", None])
+def test_a_damaged_file_is_computed_again(tmp_path, compute, damage):
+    kept_step(tmp_path, compute, {})
+    path = tmp_path / "one.nc"
+    content = path.read_bytes()
+    path.write_bytes(content[: len(content) // 2] if damage is None else damage)
+    assert kept_step(tmp_path, compute, {})["x"][1] == 2
+    assert kept_step(tmp_path, compute, {})["x"][1] == 2
+
+
+def test_a_step_that_fails_leaves_no_file(tmp_path, compute):
+    def fails(**_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        kept_step(tmp_path, fails, {})
+    assert not list(tmp_path.iterdir())
+    kept_step(tmp_path, compute, {})
+    assert compute.count == 1

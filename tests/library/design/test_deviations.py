@@ -1,21 +1,14 @@
-"""Samples and corners of tolerances, and whether starts agree with a claimed share.
-
-A corner is a set of values in which each deviates by its whole tolerance. A `Cloud` holds the
-results of starts at several sets of values.
-
-A start is an initial state. A motion is quiet if its largest displacement is at most the quiet
-limit.
-"""
+"""Samples and corners of tolerances, and whether starts agree with a claimed share."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from helpers.design_tasks import compared, task
 from scipy.stats import binom
 
-import impact_damper as idm
 from impact_damper.design import deviations
-from impact_damper.design.choose import Choice, Comparison
+from impact_damper.design.choose import Choice, robust_gaps
 from impact_damper.design.deviations import (
     CORNERS,
     FALSE_ALARM,
@@ -26,18 +19,10 @@ from impact_damper.design.deviations import (
     promise,
     sampled_factors,
 )
-from impact_damper.design.task import Task
-from impact_damper.design.tolerances import VARIED
+from impact_damper.design.task import VARIED
 
 TOLERANCES = {"gap": 0.2, "restitution": 0.1, "stiffness": 0.05, "damping": 0.5, "force": 0.3}
-TASK = Task(
-    machine=idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40),
-    mass=0.6,
-    band=(20.3, 20.8),
-    restitution=0.7,
-    contact_stiffness=2e7,
-    tolerances=TOLERANCES,
-)
+TASK = task(tolerances=TOLERANCES)
 
 
 def test_samples_lie_within_the_tolerances_one_in_each_part_of_every_one():
@@ -53,7 +38,7 @@ def test_samples_lie_within_the_tolerances_one_in_each_part_of_every_one():
 
 def test_samples_are_those_of_the_seed():
     assert (sampled_factors(TASK) == sampled_factors(TASK)).all()
-    assert (sampled_factors(TASK) != sampled_factors(replace(TASK, seed=7))).any()
+    assert (sampled_factors(TASK) != sampled_factors(task(tolerances=TOLERANCES, seed=7))).any()
 
 
 @pytest.mark.parametrize("count", [1, 2, 4, 5])
@@ -67,14 +52,14 @@ def test_corners_are_distinct_and_off_by_the_whole_tolerance(count):
 
 
 def test_a_restitution_stays_at_most_1():
-    task = replace(TASK, restitution=0.95)
-    for factors in (sampled_factors(task), corner_factors(task)):
+    given = replace(TASK, restitution=0.95)
+    for factors in (sampled_factors(given), corner_factors(given)):
         assert factors[:, VARIED.index("restitution")].max() == pytest.approx(1 / 0.95)
 
 
 def test_without_tolerances_only_the_nominal_values_are_run():
-    task = replace(TASK, tolerances={})
-    assert sampled_factors(task).shape == corner_factors(task).shape == (1, len(VARIED))
+    given = replace(TASK, tolerances={})
+    assert sampled_factors(given).shape == corner_factors(given).shape == (1, len(VARIED))
 
 
 def cloud(least, starts=112, frequencies=9):
@@ -114,10 +99,8 @@ def test_all_tolerances_together_choose_among_robust_gaps(monkeypatch, share, wo
 
     monkeypatch.setattr(deviations, "run_cloud", made_up_cloud)
     gaps = np.geomspace(1, 3, 12)
-    quiet = {"start_quiet_share": np.ones((12, 1)), "worst_displacement": np.ones((12, 1))}
-    quiet["start_quiet_interval"] = np.ones((12, 1, 2))
-    comparison = Comparison(gaps, np.array([20.5]), quiet, 2.0, 0.95)
-    robust = comparison.robust_gaps(0.2)
+    comparison = compared(gaps, np.ones((12, 1)), np.ones((12, 1)))
+    robust = robust_gaps(comparison, TASK.share, 0.2)
     assert robust[0] == 1.25 and robust[-1] == 2.5  # 1/0.8 and 3/1.2
     gap = choose_with_tolerances(TASK, comparison, Choice(1.5, "robust")).gap
     if chosen == "below":

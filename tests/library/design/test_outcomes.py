@@ -1,24 +1,13 @@
-"""Random starts of a design, and which of their motions are quiet.
-
-A start is an initial state. A motion is quiet if its largest displacement is at most the quiet
-limit.
-"""
+"""Random starts of a design, and which of their motions are quiet."""
 
 import numpy as np
 import pytest
+from helpers.design_tasks import task
 
-import impact_damper as idm
 from impact_damper.data.datasets import flag
 from impact_damper.design.outcomes import STREAMS, Case, are_quiet, draw_starts, run
-from impact_damper.design.task import Task
 
-TASK = Task(
-    machine=idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40),
-    mass=0.6,
-    band=(20.3, 20.8),
-    restitution=0.7,
-    contact_stiffness=2e7,
-)
+TASK = task()
 CASES = [Case(8e-3, 20.5), Case(8e-3, 20.5), Case(9e-3, 20.6)]
 
 
@@ -30,7 +19,7 @@ def test_each_case_and_each_purpose_has_starts_of_its_own():
 
 
 def test_the_motions_do_not_depend_on_the_number_of_threads():
-    one, two = (run(TASK, CASES, 70, "coarse", workers=n) for n in (1, 2))
+    one, two = (run(task(workers=n), CASES, 70, "coarse") for n in (1, 2))
     assert one.tobytes() == two.tobytes()
 
 

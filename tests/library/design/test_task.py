@@ -4,18 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from helpers.design_tasks import task
 
 import impact_damper as idm
-from impact_damper.design.task import Task
 
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
-LINEAR = idm.Machine(**SPRING, force=40)
 NATURAL = math.sqrt(2e5 / 12) / (2 * math.pi)
-
-
-def task(**changed):
-    given = {"machine": LINEAR, "mass": 0.6, "band": (20.3, 20.8), "restitution": 0.7}
-    return Task(**given | {"contact_stiffness": 2e7} | changed)
 
 
 @pytest.mark.parametrize(
@@ -51,7 +45,7 @@ def test_the_number_of_starts_is_the_least_for_the_confidence():
     """By Wilson's formula: n successes in n trials have the lower end n/(n + 1.96^2)."""
     for share in (0.8, 0.9, 0.95, 0.99):
         least = next(n for n in range(1, 10**4) if n / (n + 1.959964**2) >= share)
-        assert task(share=share, starts=least).starts == least
+        assert task(share=share, starts=least).effort.starts == least
         with pytest.raises(ValueError, match="starts"):
             task(share=share, starts=least - 1)
 
@@ -70,6 +64,16 @@ def test_the_bare_machine_moves_as_its_closed_form_says():
     exact = 40 / 2e5 / np.hypot(1 - r**2, 2 * 0.005 * r)
     assert made.bare == pytest.approx(1e3 * exact, rel=1e-6)
     assert made.worst_frequency == pytest.approx(NATURAL)
+
+
+def test_a_contact_after_hertz_has_the_stiffness_of_an_impact_across_the_gap_of_the_rule():
+    """The loose mass crosses 2 F/(m2 w^2) in half a cycle; F = k q^(3/2) stops the reduced mass."""
+    ball = idm.HertzContact("20 mm", "210 GPa", 0.3)
+    made = task(contact=ball, mass=1.2)
+    frequency, reduced = 20.55, 12 * 1.2 / 13.2
+    speed = 2 * frequency * 2 * 40 / (1.2 * (2 * math.pi * frequency) ** 2)
+    deepest = (5 * reduced * speed**2 / (4 * ball.coefficient)) ** 0.4
+    assert made.contact_stiffness == pytest.approx(reduced * speed**2 / deepest**2, rel=1e-9)
 
 
 def test_at_the_gap_of_the_rule_the_force_moves_the_loose_mass_by_half_of_it():

@@ -5,10 +5,12 @@ import pytest
 from helpers.made_up_design import made_up_design
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from impact_damper.plot.machine_figures.cliff import stable_runs
-from impact_damper.plot.machine_figures.looks import decades
-from impact_damper.plot.machine_figures.overview import draw_machines
-from impact_damper.plot.pages.machine import FIGURES
+from impact_damper.plot.machine_figures.figures import (
+    FIGURES,
+    decades,
+    draw_machines,
+    stable_runs,
+)
 from impact_damper.plot.style import figure
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -53,7 +55,7 @@ def test_the_overview_has_a_row_for_each_machine():
 
 
 def test_the_quiet_orbit_is_cut_where_its_stability_changes():
-    parts = list(stable_runs(made_up_design(), "gap"))
+    parts = list(stable_runs(made_up_design()))
     assert [stable for *_, stable in parts] == [False, True, False]
     assert [list(gap) for gap, *_ in parts] == [[6, 7], [7, 8, 9], [9]]
 

@@ -18,11 +18,6 @@ from impact_damper.plot.schematic_parts import (
 )
 from impact_damper.plot.style import BLACK, GREY, PALE_SKY, VERMILION, WHITE, style
 
-CAPTION = """
-The machine and its damper, drawn to scale as cubes of steel (7850 kg/m³). The loose mass slides or
-rolls freely. It is drawn at one wall, so that the whole gap, the full play from wall to wall, lies
-on its other side.
-"""
 STEEL = 7850.0  # density, kg/m^3
 # Layout in inches: x of the wall, x of the left side of the machine, largest width and height of
 # the machine, y of the rail.

@@ -1,35 +1,77 @@
-"""Files of a page: HTML that needs no other file, Markdown, and the figures as PNG."""
+"""The page of a design in HTML and Markdown with its figures, and its conclusion in sentences."""
 
 import base64
 import io
+import re
 from pathlib import Path
 
+import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
 
 from impact_damper.data.whole_files import whole
+from impact_damper.model.text import number, percent
+from impact_damper.plot.machine_figures.figures import FIGURES
+from impact_damper.plot.pages.numbers import interval, numbers_of, size
 from impact_damper.plot.style import style
 
 # Dots per inch: 748 pixels for a figure of 3.4 inches, so that pages never enlarge it.
 DPI = 220
+# Files of a page, with the templates that lay them out.
+LAYOUTS = {"index.html": "html.jinja", "report.md": "markdown.jinja"}
 
 
-def write_page(page, figures, data, folder) -> None:
-    """Write `index.html`, `report.md` and the figures into a folder.
+def conclusion(data) -> list[str]:
+    """Return the conclusion of a design in sentences: what to build, and how sure that is.
+
+    `data` is a result of `design_damper`.
+    """
+    return _conclusion(numbers_of(data))
+
+
+def write_page(name, data, folder, file=None, figures=FIGURES) -> None:
+    """Write the page of the machine `name` and its figures into a folder.
 
     Parameters
     ----------
-    page : blocks.Page
+    name : str
+    data : xarray.Dataset
+        Result of `design_damper`.
+    folder : str or pathlib.Path
+    file : str, optional
+        Name of the file of `data`, by default that of the pipeline.
     figures : dict of callable
         Functions that return a figure of `data`, keyed by name.
-    data : xarray.Dataset
-    folder : str or pathlib.Path
     """
-    pictures = {name: as_png(draw(data)) for name, draw in figures.items()}
-    for name, picture in pictures.items():
-        _write(Path(folder) / f"{name}.png", picture)
-    encoded = {name: base64.b64encode(each).decode() for name, each in pictures.items()}
-    _write(Path(folder) / "index.html", as_text("page.html", page, encoded).encode())
-    _write(Path(folder) / "report.md", as_text("page.md", page, encoded).encode())
+    folder = Path(folder)
+    pictures = {each: as_png(draw(data)) for each, draw in figures.items()}
+    files = {f"{each}.png": picture for each, picture in pictures.items()}
+    encoded = {each: base64.b64encode(picture).decode() for each, picture in pictures.items()}
+    for place, text in pages(name, data, encoded, file).items():
+        files[place] = text.encode()
+    for place, content in files.items():
+        with whole(folder / place) as part:
+            part.write_bytes(content)
+
+
+def pages(name, data, pictures, file=None) -> dict[str, str]:
+    """Return the page in each form, keyed by the name of its file.
+
+    `pictures` are the figures as PNG, encoded in base64, keyed by name.
+    """
+    numbers = numbers_of(data)
+    numbers |= {
+        "title": f"Impact damper for the machine {name.replace('_', ' ')}",
+        "conclusion": _conclusion(numbers),
+        "file": file or f"{name}.nc",
+        "pictures": pictures,
+    }
+    found = {}
+    for place, layout in LAYOUTS.items():
+        template = _environment(layout == "html.jinja").get_template("design.jinja")
+        text = template.render(numbers | {"layout": layout})
+        found[place] = re.sub(r"\n{3,}", "\n\n", text).lstrip()
+    return found
 
 
 def as_png(figure) -> bytes:
@@ -39,30 +81,28 @@ def as_png(figure) -> bytes:
         return file.getvalue()
 
 
-def as_text(template, page, pictures) -> str:
-    """Return a page as text, laid out by a template.
+def _conclusion(numbers):
+    """Return the paragraphs of the conclusion."""
+    text = _environment(False).get_template("conclusion.jinja").render(numbers)
+    return [_one_line(part).replace(" ,", ",") for part in text.split("\n\n") if part.strip()]
 
-    Parameters
-    ----------
-    template : str
-        "page.html" or "page.md".
-    page : blocks.Page
-    pictures : dict of str
-        Figures as PNG, encoded in base64, keyed by name.
-    """
+
+def _environment(escaping):
+    """Return the environment of the templates, with filters for numbers."""
     environment = Environment(
         loader=PackageLoader("impact_damper.plot.pages"),
-        autoescape=template.endswith(".html"),
+        autoescape=escaping,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
-        keep_trailing_newline=True,
     )
-    environment.filters["one_line"] = lambda text: " ".join(text.split())
-    return environment.get_template(template).render(page=page, pictures=pictures)
+    filters = {"number": number, "percent": percent, "size": size, "interval": interval}
+    environment.filters |= filters | {"one_line": _one_line}
+    environment.tests["finite"] = np.isfinite
+    return environment
 
 
-def _write(path, content):
-    """Write bytes to a file, completely or not at all."""
-    with whole(path) as part:
-        part.write_bytes(content)
+def _one_line(text):
+    """Return a text in one line; escaped text stays escaped."""
+    joined = " ".join(str(text).split())
+    return Markup(joined) if isinstance(text, Markup) else joined

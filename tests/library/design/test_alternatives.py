@@ -1,9 +1,10 @@
-"""Pareto front of several dampers, against brute force."""
+"""Pareto front of several dampers against brute force; the best of several restitutions."""
 
 import numpy as np
 import pytest
 
-from impact_damper.design.masses import is_best
+from impact_damper.design.alternatives import best_restitution, is_best
+from impact_damper.design.task import labelled
 
 
 def brute_force(masses, costs):
@@ -33,3 +34,19 @@ def test_the_front_is_that_of_brute_force(seed):
 def test_an_escape_is_worse_than_any_number():
     assert list(is_best([0.1, 0.2], np.array([[np.nan, np.nan], [1.0, 1.0]]))) == [True, True]
     assert list(is_best([0.2, 0.1], np.array([[np.nan, np.nan], [1.0, 1.0]]))) == [False, True]
+
+
+@pytest.mark.parametrize(
+    ("sizes", "kinds", "best"),
+    [
+        ([1.0, 0.5, 0.8], [0, 0, 0], 1),
+        ([1.0, 0.5, 0.8], [0, 1, 0], 2),
+        ([1.0, 0.5, 0.8], [2, 2, 1], 2),
+        ([float("inf"), 9.0], [2, 2], 1),
+        ([0.5, 0.5], [0, 0], 0),
+    ],
+)
+def test_the_kind_of_choice_counts_before_the_displacement(sizes, kinds, best):
+    values = np.linspace(0.3, 0.8, len(sizes))
+    made = {"tried_displacement": sizes, "tried_choice": kinds}
+    assert best_restitution(labelled(made, tried_restitution=values)) == values[best]

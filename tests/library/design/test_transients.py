@@ -1,15 +1,25 @@
-"""Swept sine compared with SciPy's continuous sweep, and with closed forms of linear machines."""
+"""Transients against SciPy's continuous sweep and decay, and against closed forms."""
 
-import json
 import math
 
 import numpy as np
 import pytest
 from helpers.si_motions import SiMotion
+from scipy.integrate import solve_ivp
+from scipy.special import ellipk
 
 import impact_damper as idm
 from impact_damper.data.datasets import flag
-from impact_damper.design.swept_sine import forced, sweep_periods, swept_sine
+from impact_damper.design.transients import (
+    MOST_WINDOWS,
+    decay,
+    forced,
+    ring_down,
+    sweep_periods,
+    swept_sine,
+    unforced_amplitude,
+    unforced_period,
+)
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.records import envelope
 
@@ -93,7 +103,7 @@ def test_a_slow_sweep_meets_the_resonance_peak():
     for rate, share in ((RATE / 4, 0.999), (RATE, 0.9905), (4 * RATE, 0.938)):
         found = swept_sine(LINEAR, damper, (19.5, 21.5), rate)
         for direction in ("up", "down"):
-            bare = found["envelope"].sel(direction=direction, equipment="bare")
+            bare = found["sweep_envelope"].sel(direction=direction, equipment="bare")
             assert float(bare.max()) / peak == pytest.approx(share, abs=3e-3), (rate, direction)
 
 
@@ -115,55 +125,124 @@ def test_a_sweep_begins_in_steady_state(excitation, amplitude):
     for direction, hertz in (("up", 16.0), ("down", 26.0)):
         w = 2 * math.pi * hertz
         expected = amplitude(w) / math.hypot(2e5 - 12 * w**2, w * machine.viscous_damping)
-        first = found["envelope"].sel(direction=direction, equipment="bare")[0]
+        first = found["sweep_envelope"].sel(direction=direction, equipment="bare")[0]
         assert float(first) == pytest.approx(1e3 * expected, rel=0.02)
-        assert float(found["frequency"].sel(direction=direction)[0]) == pytest.approx(
+        assert float(found["sweep_frequency"].sel(direction=direction)[0]) == pytest.approx(
             hertz, rel=1e-3
         )
 
 
 def test_a_hardening_spring_goes_higher_upwards():
     found = swept_sine(HARD, HARD.damper(**DAMPER), (19.0, 26.0), 4 * RATE)
-    up, down = found["envelope"].sel(equipment="bare").max("window")
+    up, down = found["sweep_envelope"].sel(equipment="bare").max("sweep_window")
     assert float(up) > 1.3 * float(down)
-    assert np.all(found["transient_status"] == flag("transient_status", "completed"))
-    assert np.isfinite(found["envelope"]).all()
-    assert found["window_contacts"].sel(equipment="bare").sum() == 0
-    assert found["window_contacts"].sel(equipment="damped").sum() > 0
-    held = json.loads(found.attrs["sweep"])["held"]
-    assert held[0] == pytest.approx(math.log(100) * 19 * 24 / HARD.viscous_damping, abs=1)
-    last = found["frequency"].isel(window=-1)
+    assert np.all(found["sweep_status"] == flag("sweep_status", "completed"))
+    assert np.isfinite(found["sweep_envelope"]).all()
+    last = found["sweep_frequency"].isel(sweep_window=-1)
     np.testing.assert_allclose(last, [26.0, 19.0], atol=0.01)
 
 
 def test_a_machine_that_escapes_says_so():
     soft = idm.Machine(**SPRING, cubic_stiffness=-4e9, force=400)
     found = swept_sine(soft, soft.damper(**DAMPER), (15.0, 25.0), 0.1)
-    escaped = found["transient_status"] == flag("transient_status", "escaped")
+    escaped = found["sweep_status"] == flag("sweep_status", "escaped")
     assert escaped.sel(equipment="bare").all()
-    bare = found["envelope"].sel(equipment="bare", direction="down").values
+    bare = found["sweep_envelope"].sel(equipment="bare", direction="down").values
     assert np.isinf(bare).sum() == 1
     assert np.isnan(bare[np.argmax(np.isinf(bare)) + 1 :]).all()
 
 
+def test_a_linear_machine_decays_exponentially():
+    """Without the damper the envelope is an exponential.
+
+    A window begins near a peak of the displacement, but not exactly at it, since its length is the
+    undamped period.
+    """
+    rows, end = decay(LINEAR, None, 0.01)
+    times, largest = rows[:, 0] - 0.5 / rows[:, 1], 1e3 * rows[:, 2]
+    rate = 0.005 * 2 * math.pi * LINEAR.natural_frequency
+    np.testing.assert_allclose(largest, 10 * np.exp(-rate * times), rtol=6e-3)
+    assert end == "at_rest" and np.all(rows[:, 3] == 0)
+    assert len(times) == math.ceil(math.log(1000) / (2 * math.pi * 0.005))
+    assert rows[0, 1] == pytest.approx(LINEAR.natural_frequency)
+    found = ring_down(LINEAR, LINEAR.damper(**DAMPER), 0.01)
+    np.testing.assert_array_equal(found["ring_envelope"][0, : len(rows)], largest)
+
+
+def test_a_cubic_machine_decays_at_a_third_of_the_rate():
+    """With a purely cubic spring, 2/3 of the energy E is kinetic on average.
+
+    E therefore falls as exp(-4 c t/(3 m)), and the amplitude as its fourth root.
+    """
+    machine = idm.Machine(mass=12, cubic_stiffness=4e9, damping=10, force=40)
+    rows, _ = decay(machine, None, 0.01)
+    times, largest = rows[:, 0] - 0.5 / rows[:, 1], 1e3 * rows[:, 2]
+    middle = largest > 3
+    expected = 10 * np.exp(-10 / (3 * 12) * times)
+    np.testing.assert_allclose(largest[middle], expected[middle], rtol=0.02)
+    frequencies = rows[:, 1]
+    np.testing.assert_allclose(
+        frequencies[middle] / frequencies[0], expected[middle] / 10, rtol=0.02
+    )
+
+
+def test_a_damper_acts_as_scipy_says():
+    rows = decay(LINEAR, LINEAR.damper(**DAMPER), 0.01)[0][:15]
+    ends = rows[:, 0] + 0.5 / rows[:, 1]
+    peaks, contacts = np.zeros((2, 15))
+    peaks[0] = 0.01
+    motion = SiMotion(LINEAR, LINEAR.damper(**DAMPER), lambda t: 0.0)
+    for wall, run in motion.run([0.01, 0, 0, 0], 0.0, ends[-1]):
+        contacts[np.searchsorted(ends, run.t[0])] += wall != 0
+        for moment in run.t_events[1]:
+            k = np.searchsorted(ends, moment)
+            peaks[k] = max(peaks[k], abs(run.sol(moment)[0]))
+        for k in np.flatnonzero((ends >= run.t[0]) & (ends <= run.t[-1])):
+            beyond = abs(run.sol(ends[k])[0])
+            peaks[k : k + 2] = np.maximum(peaks[k : k + 2], beyond)
+    np.testing.assert_allclose(rows[:, 2], peaks, rtol=1e-6)
+    np.testing.assert_array_equal(rows[:, 3], contacts)
+    assert contacts.sum() > 20
+
+
+def test_every_end_is_told():
+    soft = idm.Machine(**SPRING, cubic_stiffness=-4e9, force=40)
+    barrier = math.sqrt(2e5 / 4e9)
+    rows, end = decay(soft, soft.damper(**DAMPER), 1.2 * barrier)
+    assert end == "escaped" and np.isinf(rows[-1, 2])
+    assert decay(soft, soft.damper(**DAMPER), 0.95 * barrier)[1] == "at_rest"
+    light = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=1e-6, force=40)
+    rows, end = decay(light, None, 0.01)
+    assert end == "limit" and len(rows) == MOST_WINDOWS
+
+
 @pytest.mark.parametrize(
-    ("wrong", "told"),
-    [
-        ({"machine": None}, "machine = None: must be a Machine"),
-        ({"damper": None}, "damper = None: must be a MachineDamper"),
-        ({"band": 20}, "band = 20: must be least and greatest frequency"),
-        ({"band": (21, 20)}, "band = (21, 20): must be least and greatest frequency"),
-        ({"band": (0, 20)}, "band[0] = 0 Hz: must be at least"),
-        ({"rate": 0}, "rate = 0 Hz/s: must be greater than 0 Hz/s"),
-        ({"rate": "1 Hz"}, "rate = '1 Hz': must be a number in Hz/s"),
-        ({"rate": 5}, "rate = 5 Hz/s: must be at most 4 Hz/s (1 % of band[0] in a forcing cycle)"),
-        ({"rate": 1e-6}, "rate = 1e-06 Hz/s: must be at least 4.2e-05 Hz/s (a sweep lasts"),
-        ({"band": (20, 20.01)}, "rate = 0.5 Hz/s: must be at most 0.20005 Hz/s (a sweep lasts"),
-    ],
+    ("stiffness", "cubic", "amplitude"), [(1, 2, 1.5), (0, 1, 0.3), (1, -1, 0.9), (4, 0.1, 0.2)]
 )
-def test_wrong_arguments_are_told(wrong, told):
-    given = {"machine": LINEAR, "damper": LINEAR.damper(**DAMPER), "band": (20, 22), "rate": 0.5}
-    given["rate"] = 0.5
-    with pytest.raises((TypeError, ValueError)) as raised:
-        swept_sine(**given | wrong)
-    assert str(raised.value).startswith(told)
+def test_period_is_that_of_the_equation_of_motion(stiffness, cubic, amplitude):
+    def stopped(t, y):
+        return y[1]
+
+    stopped.direction, stopped.terminal = 1, True
+    period = unforced_period(stiffness, cubic, amplitude)
+    run = solve_ivp(
+        lambda t, y: [y[1], -stiffness * y[0] - cubic * y[0] ** 3],
+        (0, 2 * period),
+        [amplitude, 0.0],
+        method="DOP853",
+        events=stopped,
+        rtol=1e-12,
+        atol=1e-13,
+    )
+    # The event is at the other end of the motion, after half a period.
+    assert run.t_events[0][-1] == pytest.approx(period / 2, rel=1e-9)
+    energy = stiffness * amplitude**2 / 2 + cubic * amplitude**4 / 4
+    assert unforced_amplitude(stiffness, cubic, energy) == pytest.approx(amplitude, rel=1e-13)
+
+
+def test_limits_of_the_period():
+    assert unforced_period(4.0, 0.0, 0.7) == pytest.approx(math.pi, rel=1e-15)
+    assert unforced_period(0.0, 1.0, 2.0) == pytest.approx(2 * ellipk(0.5), rel=1e-15)
+    assert unforced_period(1.0, -1.0, 1.0) == math.inf
+    assert unforced_amplitude(1.0, -1.0, 0.25) == math.inf
+    assert unforced_amplitude(1.0, -1.0, 0.0) == 0

@@ -1,0 +1,109 @@
+"""The quiet orbit of a design: over the gap, and its exact derivatives by all values."""
+
+import numpy as np
+import xarray as xr
+
+from impact_damper.data.datasets import flag
+from impact_damper.design.outcomes import Case, run
+from impact_damper.design.task import SIDES, labelled
+from impact_damper.model.families import family_of
+from impact_damper.model.packed import CONTACT_STIFFNESS, DESIGN, INVERSE_MASS_RATIO, SIMPLE
+from impact_damper.orbits.branches import follow_branch
+from impact_damper.orbits.orbit import STROBE, Orbit
+from impact_damper.orbits.quiet_orbits import is_symmetric_pair
+from impact_damper.orbits.sensitivity import sensitivity
+from impact_damper.orbits.shooting import find_orbit
+
+# Least and greatest gap of the branch, divided by the nominal one.
+GAP_SPAN = (0.4, 2.0)
+# Names of parameters of `packed.DESIGN` that are called differently for a machine in SI units.
+SAID = {"cubic": "cubic_stiffness", "clearance": "gap", "mass_ratio": "mass"}
+LOST = ("fold", "symmetry_breaking", "neimark_sacker")
+
+
+def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
+    """Return the quiet orbit over the gap, where it is stable, and its derivatives.
+
+    `choice` is the dataset of `cliff.choose_gap`; the orbit has the critical frequency.
+    """
+    gap, frequency = float(choice["design_gap"]), float(choice["branch_frequency"])
+    orbit = quiet_orbit(task, gap, frequency)
+    return over_gap(task, gap, frequency, orbit).merge(dependence(task, orbit))
+
+
+def quiet_orbit(task, gap, frequency) -> Orbit | None:
+    """Return the smallest quiet orbit to which starts lead at a gap (mm) and frequency (Hz)."""
+    case = Case(1e-3 * gap, frequency)
+    records = run(task, [case], task.effort.starts, "orbit")[0]
+    pairs = records[is_symmetric_pair(records)]
+    if len(pairs) == 0:
+        return None
+    state = pairs["state"][np.argmin(pairs["maximum_displacement"])]
+    orbit = find_orbit(task.packed(*case), state, 1, STROBE)
+    return orbit if orbit.converged else None
+
+
+def over_gap(task, gap, frequency, orbit) -> xr.Dataset:
+    """Return the branch of a quiet orbit over the gap, and the gaps between which it is stable."""
+    if orbit is None:
+        unknown, names = np.empty(0), ("gap_of_orbit", "displacement_by_gap", "modulus_by_gap")
+        values = dict.fromkeys(names, unknown) | {
+            "stability_gap": np.full(2, np.nan),
+            "stability_gap_event": [flag("stability_gap_event", "no_orbit")] * 2,
+        }
+        return labelled(values, side=SIDES)
+    oscillator, damper, turning = task.system(1e-3 * gap, frequency)
+    span = tuple(damper.clearance * end for end in GAP_SPAN)
+    family, value, span = family_of(oscillator, damper, turning, "clearance", span)
+    branch = follow_branch(family, orbit, value, span)
+    start = int(np.argmin(np.abs(branch.values - value)))
+    ends = sorted(_stability_end(branch, start, step) for step in (-1, 1))
+
+    def millimetres(logarithms):
+        return 2e3 * task.scales.to_si(np.exp(logarithms), "clearance")
+
+    values = {
+        "gap_of_orbit": millimetres(branch.values),
+        "displacement_by_gap": task.millimetres(branch.displacements),
+        "modulus_by_gap": [abs(point.orbit.multipliers[0]) for point in branch.points],
+        "stability_gap": millimetres(np.array([value for value, _ in ends])),
+        "stability_gap_event": [flag("stability_gap_event", name) for _, name in ends],
+    }
+    return labelled(values, side=SIDES)
+
+
+def _stability_end(branch, start, step):
+    """Return the value, and the event, at which stability is first lost in a direction."""
+    events, k = {place: event.kind for place, event in branch.events}, start
+    while 0 <= k + step < len(branch.points):
+        k += step
+        if events.get(k) in LOST:
+            return branch.values[k], events[k]
+    end = branch.ends[0 if step < 0 else 1]
+    return branch.values[k], "range_ends" if end == "range_ends" else "branch_ends"
+
+
+def dependence(task, orbit) -> xr.Dataset:
+    """Return the changes of an orbit, in per cent, if a value grows by 1 per cent.
+
+    NaN without an orbit, or at a kink, which has no derivative.
+    """
+    names = [SAID.get(name, name) for name in DESIGN]
+    displacement = modulus = np.full(len(names), np.nan)
+    if orbit is not None:
+        p, found = orbit.p, sensitivity(orbit)
+        values = {name: p[place] for name, place in SIMPLE.items()} | {
+            "restitution": task.restitution,
+            "contact_stiffness": p[CONTACT_STIFFNESS],
+            "mass_ratio": 1 / p[INVERSE_MASS_RATIO],
+        }
+
+        def relative(slopes, size):
+            by_design = found.by_design(slopes)
+            return np.array([by_design[name] * values[name] for name in DESIGN]) / size
+
+        if found.displacement_smooth:
+            displacement = relative(found.displacement_slopes, found.maximum_displacement)
+        if found.modulus_smooth:
+            modulus = relative(found.modulus_slopes, found.modulus)
+    return labelled({"displacement_change": displacement, "modulus_change": modulus}, changed=names)

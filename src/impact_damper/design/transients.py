@@ -1,0 +1,188 @@
+"""Transients of a machine with and without its damper: a swept sine, and the unforced decay.
+
+The integrator requires a fixed frequency, so each forcing cycle of a sweep has the mean frequency
+of this cycle in the continuous sweep, whose phase it follows within pi/4 times the relative change
+of the frequency in the cycle.
+"""
+
+import math
+
+import numpy as np
+import xarray as xr
+from scipy.special import ellipk
+
+from impact_damper.data.datasets import flag
+from impact_damper.design.task import labelled
+from impact_damper.kernel.equation import energy
+from impact_damper.model.families import FORCING
+from impact_damper.model.packed import FORCE, FREQUENCY, UNBALANCE, cubic_spring, pack
+from impact_damper.motions.records import envelope
+
+# The machine without the damper, and with it.
+EQUIPMENT = ("bare", "damped")
+# Largest local error of an integration step.
+TOLERANCE = 1e-10
+# A swept sine changes the frequency at the rate SWEEP (damping ratio x natural frequency in Hz)^2
+# Hz/s, or faster if it would last longer than MOST_SWEPT cycles. The resonance peak of a linear
+# machine is then 6 % lower than in steady state.
+SWEEP, MOST_SWEPT = 4.0, 6000
+# Largest relative change of the frequency in a forcing cycle.
+STEEPEST = 0.01
+# The first frequency is held until the transients of the machine without the damper have decayed to
+# SETTLED times their first size, but at most for HELD forcing cycles.
+SETTLED, HELD = 0.01, 10**5
+# A decay ends when the energy has fallen to the energy at REST times the first displacement, or
+# after MOST_WINDOWS windows. A window is a period of the unforced vibration, at most LONGEST
+# periods of small vibrations: with a softening spring the period is infinite at the barrier.
+REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
+
+
+def transients(task, choice, progress=None) -> xr.Dataset:
+    """Return a swept sine and an unforced decay, each with and without the chosen damper.
+
+    `choice` is the dataset of `cliff.choose_gap`.
+    """
+    machine, damper = task.machine, task.damper(1e-3 * float(choice["design_gap"]))
+    # A sweep over a nonlinear machine leads to its large motions only if it passes all its
+    # resonances, which may lie outside the band.
+    low = min(task.band[0], task.resonance[0])
+    high = max(task.band[1], task.resonance[1])
+    decay_rate = machine.viscous_damping / (4 * np.pi * machine.mass)
+    slowest = (high**2 - low**2) / 2 / MOST_SWEPT
+    rate = min(max(SWEEP * decay_rate**2, slowest), STEEPEST * low**2)
+    first = task.scales.to_si(1.0, "displacement")
+    return swept_sine(machine, damper, (low, high), rate).merge(ring_down(machine, damper, first))
+
+
+def swept_sine(machine, damper, band, rate) -> xr.Dataset:
+    """Sweep the frequency over a band (Hz) up and down at a rate (Hz/s), from steady state.
+
+    The envelope is the largest displacement in each cycle: infinite in a cycle in which the motion
+    escapes over the barrier of a softening spring, and NaN later.
+    """
+    least, most = band
+    count = int((most**2 - least**2) / (2 * rate))
+    frequencies, sizes, status = [], [], []
+    for first, slope in ((least, rate), (most, -rate)):
+        _, turning = sweep_periods(first, slope, count)
+        runs = [_swept(machine, each, first, turning) for each in (None, damper)]
+        frequencies.append(turning)
+        sizes.append([1e3 * run for run in runs])
+        ends = [
+            "escaped" if np.isnan(run[-1]) or np.isinf(run[-1]) else "completed" for run in runs
+        ]
+        status.append([flag("sweep_status", end) for end in ends])
+    values = {"sweep_frequency": frequencies, "sweep_envelope": sizes, "sweep_status": status}
+    return labelled(values, direction=["up", "down"], equipment=list(EQUIPMENT))
+
+
+def _swept(machine, damper, first, frequencies):
+    """Return the largest displacement (m) in each cycle, after the first frequency was held."""
+    decay_rate = machine.viscous_damping / (2 * machine.mass)
+    held = min(math.ceil(-math.log(SETTLED) * first / decay_rate), HELD)
+    rows = forced(machine, damper, np.concatenate([np.full(held, first), frequencies]))
+    largest, _ = envelope(rows, 2 * np.pi / rows[:, FREQUENCY], np.zeros(4), TOLERANCE)
+    return machine.scales.to_si(largest[held:], "displacement")
+
+
+def sweep_periods(first, slope, count):
+    """Return when the cycles of a continuous sweep begin (s), and their mean frequencies (Hz).
+
+    At these times the phase in cycles, first t + slope t^2/2, is a whole number.
+    """
+    phases = np.arange(count + 1)
+    times = 2 * phases / (first + np.sqrt(first**2 + 2 * slope * phases))
+    return times[:-1], 1 / np.diff(times)
+
+
+def forced(machine, damper, frequencies):
+    """Return the packed parameters of a machine at frequencies in Hz, shape (n, packed.COUNT)."""
+    scales = machine.scales
+    scaled = None if damper is None else damper.scaled(scales)
+    for end in (frequencies.max(), frequencies.min()):
+        p = pack(machine.oscillator(end), scaled, scales.from_si(end, "frequency"))
+    rows = np.tile(p, (len(frequencies), 1))
+    # `machine.forcing` returns the parts of the forcing at one frequency. Its third part, the
+    # shaker, is 0: it replaces the motion of the base only where the frequency varies.
+    forces, unbalances, _ = np.array([machine.forcing(each) for each in frequencies]).T
+    rows[:, FREQUENCY] = scales.from_si(frequencies, "frequency")
+    rows[:, FORCE] = scales.from_si(forces, "force")
+    rows[:, UNBALANCE] = scales.from_si(unbalances, "unbalance")
+    return rows
+
+
+def ring_down(machine, damper, displacement) -> xr.Dataset:
+    """Return the unforced decay from a displacement (m) at rest, loose mass in mid-gap."""
+    runs, status = zip(
+        *(decay(machine, each, displacement) for each in (None, damper)), strict=True
+    )
+    padded = np.full((len(EQUIPMENT), max(map(len, runs)), 4), np.nan)
+    for rows, run in zip(padded, runs, strict=True):
+        rows[: len(run)] = run
+    values = {
+        "ring_time": padded[..., 0],
+        "ring_envelope": 1e3 * padded[..., 2],
+        "ring_status": [flag("ring_status", end) for end in status],
+    }
+    return labelled(values, equipment=list(EQUIPMENT))
+
+
+def decay(machine, damper, displacement):
+    """Return the unforced decay from a displacement (m), and how it ends.
+
+    The rows are windows: time at the middle (s), inverse of the length (Hz), largest displacement
+    (m), and number of contacts. The end is "at_rest", "escaped" or "limit".
+    """
+    scales = machine.scales
+    scaled = None if damper is None else damper.scaled(scales)
+    p = pack(machine.oscillator(scales.to_si(1.0, "frequency")), scaled, 1.0)
+    p[list(FORCING.values())] = 0.0
+    y = np.array([scales.from_si(displacement, "displacement"), 0.0, 0.0, 0.0])
+    rest, rows, begin, end = energy.py_func(p, REST * y), [], 0.0, "limit"
+    while len(rows) < MOST_WINDOWS:
+        left = energy.py_func(p, y)
+        if left <= rest:
+            end = "at_rest"
+            break
+        length = _window(p, left)
+        (largest,), (contacts,) = envelope(p[None], np.array([length]), y, TOLERANCE)
+        rows.append((begin + length / 2, 2 * np.pi / length, largest, contacts))
+        if largest == np.inf:
+            end = "escaped"
+            break
+        begin += length
+    units = [scales.to_si(1.0, each) for each in ("time", "frequency", "displacement")]
+    return np.array(rows) * [*units, 1.0], end
+
+
+def _window(p, left):
+    """Return the length of a window: the undamped period at the energy `left`, up to LONGEST."""
+    stiffness, cubic = cubic_spring(p)
+    period = unforced_period(stiffness, cubic, unforced_amplitude(stiffness, cubic, left))
+    if cubic >= 0:
+        return period
+    return min(period, LONGEST * 2 * np.pi / np.sqrt(stiffness))
+
+
+def unforced_amplitude(stiffness, cubic, stored) -> float:
+    """Return the amplitude A of x'' + a x + b x^3 = 0 with the energy a A^2/2 + b A^4/4.
+
+    It is infinite if a softening spring cannot store the energy.
+    """
+    square = stiffness**2 + 4 * cubic * stored
+    if square <= 0:
+        return math.inf if stored > 0 else 0.0
+    return 2 * math.sqrt(stored / (stiffness + math.sqrt(square)))
+
+
+def unforced_period(stiffness, cubic, amplitude) -> float:
+    """Return the period of x'' + a x + b x^3 = 0 at an amplitude A, infinite at a barrier.
+
+    The motion is A cn(w t | m) with w^2 = a + b A^2 and m = b A^2/(2 w^2). Its period is 4 K(m)/w,
+    with the complete elliptic integral K. (A. H. Nayfeh and D. T. Mook, Nonlinear Oscillations,
+    1979, section 2.1.)
+    """
+    square = stiffness + cubic * amplitude**2
+    if square <= 0:
+        return math.inf
+    return 4 * float(ellipk(cubic * amplitude**2 / (2 * square))) / math.sqrt(square)
