@@ -78,7 +78,7 @@ def test_both_forms_have_the_same_words():
     plain = re.sub(r"!\[.*\)|[#|*`]|^- |-{3}", " ", markdown, flags=re.MULTILINE)
     for text in (bare, plain):
         assert not re.search(r"\{\{|\{%|\bNone\b|\bnan\b", text)
-    marks = re.compile(r"[\s*\-]+")
+    marks = re.compile(r"[\s`*\-]+")
     missing = set(marks.split(plain)) - set(marks.split(bare))
     assert not missing
 
