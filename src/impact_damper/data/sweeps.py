@@ -48,8 +48,8 @@ def families(data) -> list:
     """
     branch, starts = data["branch"].values, data["motion_starts"].values
     found = []
-    for number in np.unique(branch[branch >= 0]):
-        places = branch == number
+    for branch_number in np.unique(branch[branch >= 0]):
+        places = branch == branch_number
         row, column = np.argwhere(places)[0]
         outcome = NAMES[int(data["outcome"][row, column])]
         period = int(data["period"][row, column])
