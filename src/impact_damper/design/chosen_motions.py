@@ -17,7 +17,7 @@ from impact_damper.model.units import QUANTITIES
 from impact_damper.motions import traces
 from impact_damper.motions.response import frequency_response
 from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.orbits.all_branches import complete_branches
+from impact_damper.orbits.orbit_branches import orbit_branches
 
 # States in a forcing cycle from which a motion is measured, and number of cycles over which a
 # motion that is not periodic is measured.
@@ -51,9 +51,9 @@ def damped_response(task, choice, progress=None) -> xr.Dataset:
     searched |= {"workers": effort.workers, "progress": progress}
     damper, span = task.damper(1e-3 * float(choice["design_gap"])), task.band
     motions = frequency_response(task.machine, damper, task.grid, **searched)
-    orbits = complete_branches(task.machine, damper, span, [motions])
+    orbits = orbit_branches(task.machine, damper, span=span, motions=[motions])
     alone = frequency_response(task.machine, None, task.grid, **searched)
-    alone = complete_branches(task.machine, None, span, [alone])
+    alone = orbit_branches(task.machine, None, span=span, motions=[alone])
     bare = {new: shown_variable(new, alone[old].values) for old, new in BARE.items()}
     # The motions have a variable `branch`, so the dimension `branch` of the orbits is renamed.
     # All steps get the same coordinate `frequency`.
