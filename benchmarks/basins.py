@@ -16,7 +16,7 @@ from impact_damper.model.settling import Settling
 from impact_damper.motions.attractors import free_attractors
 from impact_damper.motions.ensemble import label_states
 from impact_damper.motions.legs import depth_of
-from impact_damper.motions.release_set import release_set
+from impact_damper.motions.attractors import release_set
 
 # Half widths of the plane in Z1 and Z1'.
 PLANE = np.array([3.2, 5.0])

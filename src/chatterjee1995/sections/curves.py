@@ -111,7 +111,7 @@ class Motion(WithDamper):
     frequency: FREQUENCY
 
     @stage(
-        "impact_damper.motions.steady:steady_orbit",
+        "impact_damper.motions.response:steady_orbit",
         "Steady motion {name}",
     )
     def motion(self, config) -> dict:

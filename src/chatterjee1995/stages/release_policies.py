@@ -21,9 +21,9 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble
+from impact_damper.motions.attractors import PHASES, release_set
 from impact_damper.motions.legs import HOLD, PHASE, SETTLED, STATE, hold
 from impact_damper.motions.migration import PAPER_CYCLES
-from impact_damper.motions.release_set import PHASES, release_set
 from impact_damper.motions.strobe_map import strobe_time
 
 # Fixed numbers of cycles that are tried, each about 1.6 times the one before.

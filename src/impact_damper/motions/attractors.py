@@ -1,4 +1,4 @@
-"""Attractors of a plane of states: of the free oscillator with proven neighbourhoods, or by runs.
+"""Attractors and what leads to them: neighbourhoods, labels of states, and the release set.
 
 A neighbourhood is an ellipse around a state of a free orbit at a strobe. Every motion that is in
 the ellipse at a strobe tends to the orbit, so its integration can stop.
@@ -21,17 +21,20 @@ coefficient has the larger of its values at the ends of the step. In place of |R
 program requires |R| r(P) < FACTOR r0.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
+from scipy.ndimage import distance_transform_edt, maximum_filter, minimum_filter
 
 from impact_damper.data.datasets import is_settled
 from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.kernel import batch
 from impact_damper.kernel.single import workspace
 from impact_damper.kernel.tangents import advance
-from impact_damper.model.packed import CLEARANCE, FREQUENCY, cubic_spring
+from impact_damper.model.packed import CLEARANCE, FREQUENCY, cubic_spring, pack
 from impact_damper.motions import ensemble, records, traces
+from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 
 # STEPS     number of steps in a forcing cycle in the proof
@@ -59,6 +62,11 @@ LABELS = {
     records.DRIFTING: BASIN_LABEL["no_contact"],
     records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
 }
+# The release set: PHASES in a forcing cycle at which a controller observes the state, an even
+# number; WIDTH is the half width of the grid in Z1 and in Z1'/W, divided by max |Z1| of the
+# resonance motion (larger states count as outside); REFINED cells of the fine grid in a cell of the
+# coarse grid, along an axis, a power of 2.
+PHASES, WIDTH, REFINED = 16, 1.6, 4
 
 
 class Attractors(NamedTuple):
@@ -261,3 +269,95 @@ def orbit_passages(p, record, phase):
         p, record["state"].copy(), begin, times, POLISH_TOLERANCE, states, np.empty((0, 5))
     )
     return states[:, :2]
+
+
+class ReleaseSet(NamedTuple):
+    """The states of the free oscillator at one frequency that lead to the goal of migration.
+
+    The goal is the smaller of the two free motions of period 1.
+
+    Attributes
+    ----------
+    p : numpy.ndarray, shape (packed.COUNT,)
+        Packed parameters without a damper.
+    attractors : Attractors
+        The stable free motions; the last one is the resonance motion.
+    goal : int
+        Index of the goal among the attractors.
+    depth : numpy.ndarray, shape (PHASES, cells, cells)
+        Distance of a state from the boundary of the set, positive inside, in units of Z1, with Z1'
+        divided by W. Axes: phase, Z1', Z1.
+    half : numpy.ndarray, shape (2,)
+        Half widths of the grid in Z1 and Z1'.
+    """
+
+    p: np.ndarray
+    attractors: Attractors
+    goal: int
+    depth: np.ndarray
+    half: np.ndarray
+
+
+def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> ReleaseSet:
+    """Compute the release set at one frequency on a grid at each of PHASES phases.
+
+    A mirrored state half a cycle later leads to the mirrored motion, and the goal is its own mirror
+    image, so only half of the phases are computed. `cells` is the number of states on each axis of
+    the coarse grid. ValueError if one of the two free motions of period 1 is missing.
+    """
+    p = pack(oscillator, None, frequency)
+    known = free_motions(oscillator, frequency, settling)
+    window = REACH / 2 * np.array([known.displacement, known.speed])
+    attractors = free_attractors(p, window, settling)
+    ones = np.flatnonzero(attractors.records["period"] == 1)
+    if len(ones) < 2 or ones[-1] != len(attractors.records) - 1:
+        raise ValueError(
+            f"frequency = {frequency:g}: must have a non-resonance and a resonance motion "
+            "without the damper"
+        )
+    goal = int(ones[0])
+    size = attractors.records["maximum_displacement"][-1]
+    half = WIDTH * size * np.array([1.0, p[FREQUENCY]])
+    depth = []
+    for k in range(PHASES // 2):
+
+        def reach_goal(states, phase=2 * math.pi * k / PHASES):
+            arguments = attractors, settling.tolerance, settling.limit, workers
+            return ensemble.label_states(p, states, phase, *arguments)[0] == goal
+
+        inside = _refined(reach_goal, half, cells)
+        depth.append(signed_distance(inside) * 2 * WIDTH * size / len(inside))
+    depth = np.array(depth + [each[::-1, ::-1] for each in depth])
+    return ReleaseSet(p, attractors, goal, depth, half)
+
+
+def _refined(inside, half, cells):
+    """Return which cells of the fine grid lie inside a set, shape (n, n) with n = REFINED cells.
+
+    The function `inside` takes states, shape (m, 2). It is called for all cells of the coarse grid,
+    and on finer grids only for cells near the boundary.
+    """
+    mask = inside(_centres(half, cells)).reshape(cells, cells)
+    for _ in range(int(math.log2(REFINED))):
+        # The cells at the boundary: those with a different neighbour, and their neighbours.
+        edge = maximum_filter(mask, 3) != minimum_filter(mask, 3)
+        fine, edge = (np.kron(each, np.ones((2, 2), bool)) for each in (mask, edge))
+        cells *= 2
+        fine[edge] = inside(_centres(half, cells)[edge.ravel()])
+        mask = fine
+    return mask
+
+
+def _centres(half, cells):
+    """Return the centres of the cells of a grid, shape (cells^2, 2), in rows of equal Z1'."""
+    middles = (np.arange(cells) + 0.5) * 2 / cells - 1
+    return np.stack(np.meshgrid(half[0] * middles, half[1] * middles), axis=-1).reshape(-1, 2)
+
+
+def signed_distance(inside):
+    """Return the distance of each cell from the boundary of a set, in cells, negative outside."""
+    if inside.all() or not inside.any():
+        return np.where(inside, np.inf, -np.inf)
+    # The boundary lies midway between the centres of two cells.
+    inward, outward = distance_transform_edt(inside), distance_transform_edt(~inside)
+    return np.where(inside, inward - 0.5, 0.5 - outward)

@@ -118,20 +118,50 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop
         Number of this strobe, at which the waiting begins.
     out : array of records.MOTION, shape (1,)
     """
-    none = np.empty((0, 4))
+    wait_and_switch(before, after, y, wait, place, tolerance)
+    strobe += math.floor(wait) + 1.0
+    run_and_measure(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, out, stop)
+    return strobe + out[0]["periods_run"]
+
+
+def wait_and_switch(before, after, y, wait, place, tolerance):
+    """Run from a strobe for `wait` forcing cycles, and switch the damper; return the time."""
     t = strobe_time(before)
     end = t + wait * 2.0 * math.pi / before[FREQUENCY]
-    advance(before, y, none, side_of(before, y), t, end, tolerance, workspace())
+    advance(before, y, np.empty((0, 4)), side_of(before, y), t, end, tolerance, workspace())
     if after[CLEARANCE] == math.inf:
         y[2], y[3] = y[0], y[1]
     else:
         y[2], y[3] = place * after[CLEARANCE], 0.0
-    strobe += math.floor(wait) + 1.0
-    record = out[0]
-    run(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, record, stop)
-    if record["period"] > 0:
-        measure(after[None], tolerance, 0, out, NEVER)
-    return strobe + record["periods_run"]
+    return end
+
+
+def run_and_measure(p, y, ahead, strobe, tolerance, limit, path, out, stop):
+    """Do `run` and, for a settled motion, `measure`; `out` is an array of one record."""
+    run(p, y, ahead, strobe, tolerance, limit, path, out[0], stop)
+    if out[0]["period"] > 0:
+        measure(p[None], tolerance, 0, out, NEVER)
+
+
+def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
+    """Wait, switch the damper on, and off as soon as the state lies in the set `releases`.
+
+    Return rows as `run` writes them, for the switching on, each strobe, and the switching off, at
+    the latest `longest` forcing cycles later. y is replaced by the free state after it.
+    """
+    begin = wait_and_switch(off, on, y, wait, place, tolerance)
+    path = np.full((longest + 2, 5), np.nan)
+    path[0] = 0.0, *y
+    rule, set_ = (STATE, float(longest), 0), (releases.depth, releases.half)
+    side = side_of(on, y)
+    end, _, _ = hold(
+        on, y, side, begin, longest + 1.0, rule, 0.0, *set_, tolerance, path[1:], workspace()
+    )
+    y[2], y[3] = y[0], y[1]
+    rows = path[~np.isnan(path[:, 0])]
+    rows = np.vstack([rows, [(end - begin) * on[FREQUENCY] / (2.0 * math.pi), *y]])
+    rows[:, 0] += strobe + wait
+    return rows
 
 
 def life(p, path, record, tolerance):

@@ -1,14 +1,25 @@
-"""All motions at each frequency, and the share of random starts that lead to a collision.
+"""The steady motion that a state leads to, all motions at each frequency, and their lives.
 
-A start is an initial state of oscillator and loose mass.
-
-Z1 is the displacement of the primary mass. Multipliers are Floquet multipliers.
+Runs that begin close together on a chaotic motion are independent after a few tens of cycles. On a
+transient they end at random times, distributed exponentially. The number of runs that end, divided
+by the sum of the lives of all runs, therefore estimates the rate of ending, even if some do not
+end.
 """
+
+from dataclasses import replace
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset
-from impact_damper.model.arguments import read_frequencies, read_radius, read_system
+from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.data.shares import escape_rate
+from impact_damper.model.arguments import (
+    read_forced,
+    read_frequencies,
+    read_radius,
+    read_start,
+    read_state,
+    read_system,
+)
 from impact_damper.model.bounds import (
     LIFETIME_RANGE,
     PERIODS_RANGE,
@@ -22,10 +33,119 @@ from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import Settling, check_settling
 from impact_damper.motions import ensemble
-from impact_damper.motions.lives import find_lives
-from impact_damper.motions.simulate import COMPONENTS, random_states
+from impact_damper.motions.ensemble import settle_many
+from impact_damper.motions.records import CHAOTIC, MOTION, UNRESOLVED, tabulate
+from impact_damper.motions.simulate import COMPONENTS, random_states, simulate
 from impact_damper.motions.start_states import describe_search, free_motions, search_starts
+from impact_damper.motions.strobe_map import STROBE
 from impact_damper.motions.sweep import sweep
+from impact_damper.motions.watch import NEAR
+
+# Z1 and Z1' of the first state of a run that measures a life differ by at most APART from the state
+# of the motion.
+APART = 1e-4
+# A transient ends when the distance of its state from an orbit falls below CAPTURE.
+CAPTURE = 0.1
+# A run that has not ended is continued for CHECKED forcing cycles, to decide whether it is still
+# chaotic.
+CHECKED = 300
+
+
+@names_arguments
+def steady_motion(
+    system, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, start=None, settling=None
+):
+    """Return the steady motion that a state leads to.
+
+    Parameters
+    ----------
+    system : Oscillator or Machine
+    damper : Damper, MachineDamper or None
+    frequency : float
+        Forcing frequency W, or Hz for a machine.
+    state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
+        Z1, Z1', Z2, Z2' at time `start`, or a state of a dataset, which has its phase as a
+        coordinate.
+    start : float, optional
+        Time of the state, dimensionless. The default is the time of the phase of the state, or 0 if
+        the state has no phase.
+    settling : Settling, optional
+
+    Returns
+    -------
+    xarray.Dataset
+        Scalars: outcome (see `decode`), period (in forcing cycles), contacts per forcing cycle,
+        largest |Z1|, asymmetry (0 if the motion is its own mirror image half a period later),
+        phases of the first harmonic, largest Floquet multiplier, Lyapunov exponent, and the two
+        frequencies of a quasi-periodic motion. Also `state`, a state of the motion at W T = pi/2.
+        The state has this phase as a coordinate, so `simulate` and this function can continue from
+        it. In a sweep, pass the state on from one frequency to the next.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range; the message names it.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> oscillator, damper, state = idm.Oscillator(0.215), idm.Damper(0.12, 2.0), (0, 0, 0, 0)
+    >>> upward = []
+    >>> for frequency in (1.9, 2.0, 2.1):
+    ...     steady = idm.steady_motion(oscillator, damper, frequency, state)
+    ...     state = steady.state
+    ...     upward.append(steady)
+    """
+    settling = check_settling(settling)
+    model = read_forced(system, damper, frequency)
+    p = model.pack()
+    y = read_state(model, state)
+    start = read_start(model, state, start)
+    begin = before_strobe(start, model.frequency)
+    record = ensemble.settle(p[None], y[None], settling, start=begin)[0]
+    data = {name: ((), value) for name, value in tabulate(record).items()}
+    data["state"] = (("component",), record["state"])
+    data |= {"state_phase": STROBE}
+    parameters = model.describe(settling) | {
+        "state": y.tolist(),
+        "start": start,
+    }
+    coordinates = {"component": list(COMPONENTS), "frequency": ((), model.frequency)}
+    return dataset(data, coordinates, parameters, "Steady motion of the oscillator", model)
+
+
+def before_strobe(start, frequency) -> float:
+    """Return a time shifted by whole forcing cycles into the cycle that ends at W T = pi/2."""
+    strobe, period = STROBE / frequency, 2 * np.pi / frequency
+    moved = start - np.ceil((start - strobe) / period - 1e-9) * period
+    return min(moved, strobe)
+
+
+def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None):
+    """Return samples of one period of the steady motion that a state leads to, as `simulate` does.
+
+    The period begins at W T = pi/2, with `samples` in a forcing cycle. ArithmeticError if the
+    motion does not settle, escapes, or comes to rest.
+    """
+    settling = check_settling(settling)
+    steady = steady_motion(system, damper, frequency, state, settling=settling)
+    for name in ("escaped", "at_rest", "drifting", "quasi_periodic"):
+        if steady["outcome"] == flag("outcome", name):
+            raise ArithmeticError(f"{name}: the state leads to no periodic orbit; use simulate")
+    if not is_settled(steady):
+        raise ArithmeticError(
+            f"settling.limit = {settling.limit}: the motion has not settled within this number of "
+            "forcing cycles; a larger limit lets it run longer; steady_motion returns its outcome"
+        )
+    return simulate(
+        system,
+        damper,
+        frequency,
+        steady["state"],
+        periods=int(steady["period"]),
+        samples=samples,
+        tolerance=settling.tolerance,
+    )
 
 
 @names_arguments
@@ -139,6 +259,78 @@ def frequency_response(
     return dataset(data, coordinates, made, "Frequency response", model)
 
 
+def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
+    """Return the lives of the chaotic motions of a sweep, registered variables of shape (n, m).
+
+    Parameters
+    ----------
+    parameters : array, shape (n, packed.COUNT)
+    outcomes, states : array, shape (n, m) and (n, m, 4)
+        Flags `outcome` of the motions at each value of the parameter, and their states at the
+        strobe.
+    runs, periods : int
+        Number of runs of each chaotic motion, and forcing cycles of a run.
+    **running
+        `workers` and `progress` of `ensemble.settle`.
+    """
+    chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
+    table = {"life_ends": np.full(outcomes.shape, -1)}
+    for name in ("mean_life", "mean_life_lower", "mean_life_upper"):
+        table[name] = np.full(outcomes.shape, np.nan)
+    if len(chaotic) == 0 or runs == 0:
+        return table
+    rows = np.repeat(parameters[chaotic[:, 0]], runs, axis=0)
+    starts = np.repeat(states[tuple(chaotic.T)], runs, axis=0)
+    starts[:, :2] += np.random.default_rng([seed, runs]).uniform(-APART, APART, (len(starts), 2))
+    lives = _lives(rows, starts, periods, settling, **running).reshape(-1, runs)
+    for place, own in zip(map(tuple, chaotic), lives, strict=True):
+        rate, lower, upper = escape_rate(own, periods, lead=0)
+        table["life_ends"][place] = np.sum(own <= periods)
+        table["mean_life"][place] = 1 / rate if rate > 0 else np.nan
+        table["mean_life_lower"][place] = 1 / upper
+        table["mean_life_upper"][place] = 1 / lower if lower > 0 else np.inf
+    return table
+
+
+def _lives(parameters, states, periods, settling, **running):
+    """Return the life of each run in forcing cycles; for a run that does not end `periods` + 1.
+
+    The time for which a run approaches an orbit before it counts as settled is subtracted.
+    """
+    records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
+
+    def work(part):
+        begin = 0.5 * np.pi / parameters[part, FREQUENCY]
+        # The patience exceeds the limit. Therefore no run is stopped as chaotic, and no
+        # neighbouring motion (tangent) is followed for the Lyapunov exponent.
+        settle_many(
+            parameters[part],
+            states[part],
+            begin,
+            settling.tolerance,
+            2 * periods + 2,
+            periods,
+            records[part],
+            stop,
+        )
+
+    ensemble.run_chunks(work, len(states), running["workers"], running["progress"], stop)
+    lasting = np.flatnonzero(records["outcome"] == UNRESOLVED)
+    checked = replace(settling, patience=CHECKED, limit=CHECKED)
+    again = ensemble.settle(
+        parameters[lasting], records["state"][lasting], checked, from_strobe=True, **running
+    )
+    lives = records["periods_run"].astype(float)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        decay = -np.log(np.abs(records["multiplier"])) / records["period"]
+        approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
+    lives = np.maximum(lives - approach, 1)
+    # A run that proves no longer chaotic when it is continued counts as ended at `periods`.
+    still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
+    lives[lasting] = np.where(still, periods + 1, periods)
+    return lives
+
+
 def collisions(
     oscillator,
     damper,
@@ -152,21 +344,16 @@ def collisions(
 ):
     """Count the random starts that lead to a collision, in the whole ball and within the gap.
 
-    A start is a state in a ball around rest. Read literally, the ball of the paper extends beyond
-    the walls.
+    Read literally, the ball of the paper (section 3, iii) extends beyond the walls.
 
     Parameters
     ----------
-    oscillator : Oscillator
-    damper : Damper or None
-        Without a damper no start collides.
-    frequency : float
-        Forcing frequency W, dimensionless.
+    oscillator, damper, frequency
     starts : int
         Number of starts at T = 0 in each ball.
     radius : float, optional
-        Radius of the ball; 2 in the paper (section 3, iii). By default the largest displacement or
-        speed of the motions without the damper, whichever is larger.
+        Radius of the ball; 2 in the paper. By default the largest displacement or speed of the
+        motions without the damper, whichever is larger.
     seed : int
     periods : int
         Forcing cycles of a run; only collisions within them count.
@@ -179,11 +366,6 @@ def collisions(
         For each `ball` (literal, within the gap): the share of starts that lie beyond a wall, the
         share that collide within the given forcing cycles, and the longest time before a first
         collision.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is out of range; the message names it.
     """
     p = pack(oscillator, damper, frequency)
     check_count("starts", starts, most=10**7)

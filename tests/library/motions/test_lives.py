@@ -12,8 +12,8 @@ from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
-from impact_damper.motions.lives import find_lives
 from impact_damper.motions.records import CHAOTIC
+from impact_damper.motions.response import find_lives
 
 RUNNING = {"workers": 2, "progress": None}
 

@@ -79,9 +79,10 @@ def test_a_single_run_repeats_the_trial(runs):
     assert_array_equal(one.displacement, runs.displacement)
 
 
-def test_course_of_a_run():
+@pytest.mark.parametrize("options", [{"longest_hold": 1}, {"release": "state"}], ids=str)
+def test_course_of_a_run(options):
     """A run with an early release agrees with SciPy's integrator through both switchings."""
-    run = migrate(CUBIC, PAPER, 1.95, seed=3, longest_hold=1)
+    run = migrate(CUBIC, PAPER, 1.95, seed=3, **options)
     here = release_case(CUBIC, PAPER, 1.95, Settling())
     on, off = float(run.on_time[0]), float(run.off_time[0])
     y = course(1.95, here.state, (np.pi / 2 / 1.95, on))[:, -1]
@@ -94,6 +95,17 @@ def test_course_of_a_run():
         # SciPy's run does not locate contacts, and the free transient amplifies this error.
         assert_allclose(path[0, :-1], run.displacement.values[inside], atol=1e-4)
         y = path[:, -1]
+
+
+def test_release_by_state_arrives_sooner():
+    """At W = 1.7 no run arrives within 350 cycles if the motion has settled before the release."""
+    goal = flag("trial_outcome", "reached")
+    sooner = [migrate(CUBIC, PAPER, 1.7, seed=k, release="state", periods=350) for k in range(3)]
+    settled = [migrate(CUBIC, PAPER, 1.7, seed=k, periods=350) for k in range(3)]
+    assert np.sum([run.trial_outcome == goal for run in sooner]) >= 2
+    assert not np.any([run.trial_outcome == goal for run in settled])
+    with pytest.raises(ValueError, match="release = 'later': must be 'settled' or 'state'"):
+        migrate(CUBIC, PAPER, 1.7, release="later")
 
 
 @pytest.mark.parametrize("row", [1, 2])

@@ -20,8 +20,8 @@ from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble, records
 from impact_damper.motions.following import follow_stable
 from impact_damper.motions.records import tabulate
+from impact_damper.motions.response import steady_motion, steady_orbit
 from impact_damper.motions.simulate import COMPONENTS, random_states, simulate
-from impact_damper.motions.steady import steady_motion, steady_orbit
 
 ON_ORBIT = (0.00572, 0.187394, 0.001944, -2.407912)
 

@@ -13,8 +13,8 @@ from chatterjee1995.tables.balance import balance_map as table_of
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Damper
 from impact_damper.model.settling import Settling
+from impact_damper.motions.response import steady_motion
 from impact_damper.motions.simulate import simulate
-from impact_damper.motions.steady import steady_motion
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.free_oscillator import free_folds
 from impact_damper.theory.harmonic_balance import harmonic_balance_response

@@ -11,8 +11,8 @@ from chatterjee1995.stages.release_policies import Trials, quantile, release_pol
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
+from impact_damper.motions.attractors import PHASES, release_set, signed_distance
 from impact_damper.motions.legs import HOLD, STATE, depth_of
-from impact_damper.motions.release_set import PHASES, release_set, signed_distance
 from impact_damper.orbits.boundary import saddles, stable_manifold
 
 CUBIC = Oscillator(0.215)
