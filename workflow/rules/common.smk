@@ -64,7 +64,10 @@ def code(script, *modules):
 
     The lock file stands for the versions of all other packages.
     """
-    paths = {ROOT / "workflow/scripts" / f"{script}.py", *map(module_file, modules)}
+    paths = {ROOT / "workflow/scripts" / f"{script}.py", module_file("chatterjee1995.workflow.job")}
+    # The first import of a module of the paper registers the paper's variables.
+    paper = {"chatterjee1995"} if any(name.startswith("chatterjee1995") for name in modules) else ()
+    paths.update(map(module_file, (*modules, *paper)))
     return sorted(map(local, sources(*paths) | {ROOT / "requirements.lock"}))
 
 

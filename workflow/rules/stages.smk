@@ -52,7 +52,7 @@ rule study_chunks:
 rule studies:
     input:
         chunks=chunks_of_study,
-        code=code("studies"),
+        code=code("studies", STAGES["studies"].function.split(":")[0]),
     output:
         "<results>/studies/{name}.nc",
     log:

@@ -30,17 +30,11 @@ def test_configurations_are_told_apart_by_value_and_not_by_order(project):
     assert digest(seed=1, points={"free": 2}) != digest(seed=1, points={"free": 3})
 
 
-def test_versions_are_those_installed(project):
-    versions = provenance({}, project)["versions"]
-    assert {name: versions[name] for name in ("numpy", "numba")} == {
-        name: version(name) for name in ("numpy", "numba")
-    }
-
-
-def test_the_lock_file_counts(project):
-    before = provenance({}, project)["lock"]
+def test_versions_and_the_lock_file_count(project):
+    before = provenance({}, project)
+    assert before["versions"]["numpy"] == version("numpy")
     (project / "requirements.lock").write_text("numpy==1.0\n")
-    assert provenance({}, project)["lock"] != before
+    assert provenance({}, project)["lock"] != before["lock"]
 
 
 @pytest.mark.skipif(not shutil.which("git"), reason="git is not installed")
