@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+# These register their variables.
+from impact_damper.data import design_variables, motion_variables  # noqa: F401
 from impact_damper.data.variables import VARIABLES
 from impact_damper.data.whole_files import BrokenFileError, check_length, whole_netcdf
 from impact_damper.model.arguments import PHASES, STATE, STATE_UNITS
