@@ -126,7 +126,6 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
         "best_ratio": ratios,
         "best_size": np.where(np.isfinite(sizes), sizes, np.nan),
         "best_kind": [flag("best_kind", kind) for _, kind in optima],
-        "best_multiplier": multiplier,
         "best_stability": [flag("best_stability", each) for each in stability],
         "rule_ratio": rules,
         "rule_excess": np.where(np.isfinite(reached), reached / sizes[0] - 1, np.nan),

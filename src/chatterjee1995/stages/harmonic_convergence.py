@@ -1,26 +1,122 @@
 """Harmonic balance with a rising number of harmonics, compared with the exact periodic orbit.
 
-A balance is the system of equations for the coefficients of the harmonics 1, 3, ... N. An exact
-orbit is a periodic motion found by Newton's method with an accurate integrator. Equation (7) of the
-paper is the balance with one harmonic, of amplitude |a|; e is the restitution. Floquet multipliers
-say whether a motion is stable.
-
-Z1 is the displacement of the primary mass, W T the phase of the forcing and rm the mass ratio.
+`docs/explanation/convergence.md` derives the predicted rates at which the errors decrease.
 """
 
 import numpy as np
+from scipy.integrate import solve_ivp
 from scipy.optimize import linear_sum_assignment
 
-from chatterjee1995.stages import convergence
 from impact_damper.data.datasets import dataset, flag
+from impact_damper.kernel.equation import forcing_amplitude
 from impact_damper.model.bounds import HARMONIC_RANGE, check_count, shown
 from impact_damper.model.checks import check_counts, check_increasing
-from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.packed import DAMPING, FREQUENCY, cubic_spring, pack
 from impact_damper.model.parameters import describe
 from impact_damper.motions.simulate import simulate
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory import fourier, hill
 from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
+
+# MEASURES   error of max |Z1|; root mean squares of the errors of the retained harmonics of Z1 and
+#            of the omitted harmonics of Z1; error of a Floquet multiplier
+# ELASTIC    powers of 1/N of these errors for elastic contacts
+# INELASTIC  powers of 1/N of these errors for contacts with a dashpot
+# ANALYTIC   rates of exponential decrease of these errors without contacts, in units of s W
+MEASURES = ("maximum", "retained", "omitted", "multiplier")
+ELASTIC = (4.0, 5.0, 3.5, 4.0)
+INELASTIC = (3.0, 3.0, 2.5, 3.0)
+ANALYTIC = (1.0, 1.0, 1.0, 2.0)
+# Search for a singularity (`singularity_distance`), with the forcing amplitude f and
+# x = (f/|k3|)^(1/3):
+# STARTS: number of start times in half a forcing cycle.
+# LARGE: |Z1| at which an integration towards the singularity stops, in units of x.
+# LAST_CHANGE: largest last change of the estimated position, in units of 1/(x sqrt|k3|).
+# CLOSE: fraction of the estimated distance that the next integration covers.
+STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
+
+
+def asymptotic_harmonic(damper, frequency) -> float:
+    """Return the harmonic number N above which the predicted powers can hold; 1 without a damper.
+
+    Harmonic N must resolve a contact. Its period 2 pi/(N W) equals the duration of a contact
+    without other forces, pi/(w sqrt(1 - z^2)) with w^2 = r1 (1 + 1/rm) and z = zc sqrt(1 + rm)
+    (appendix B). With a dashpot N is also at least r1/(c W), with c = 2 zc sqrt(r1 rm). Above this
+    harmonic the jump of the contact force, c Z2', contributes more to a coefficient than the jump
+    of its slope, r1 Z2'.
+    """
+    if damper is None:
+        return 1.0
+    natural = damper.contact_stiffness * (1 + 1 / damper.mass_ratio)
+    ratio = damper.contact_damping**2 * (1 + damper.mass_ratio)
+    resolving = 2 * np.sqrt(natural * (1 - ratio)) / frequency
+    if damper.restitution == 1:
+        return float(resolving)
+    return float(max(resolving, damper.contact_stiffness / (damper.dashpot * frequency)))
+
+
+def decay(damper, p, state) -> tuple:
+    """Return the predicted decrease of each error in `MEASURES` with the highest harmonic N."""
+    if damper is None:
+        return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
+    return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
+
+
+def singularity_distance(p, state) -> float:
+    """Return the distance from the real time axis to the nearest singularity of a free motion.
+
+    The motion is integrated in the direction of imaginary time, from STARTS points of the real axis
+    in half a forcing cycle. Near a singularity T* the motion is Z1 = sqrt(-2/k3)/(T - T*), so T* is
+    estimated as T + Z1/Z1'. The next integration leads along a straight line from the real part of
+    the estimate towards the estimate.
+    """
+    frequency, (stiffness, cubic) = p[FREQUENCY], cubic_spring(p)
+    if cubic == 0:
+        return np.inf
+    force = forcing_amplitude.py_func(p)
+    length = (force / abs(cubic)) ** (1 / 3)
+    duration = 1 / (np.sqrt(abs(cubic)) * length)
+
+    def rates(time, y):
+        x, v = y
+        drive = force * np.cos(frequency * time)
+        return np.array([v, drive - p[DAMPING] * v - stiffness * x - cubic * x**3])
+
+    def integrate(y, begin, end):
+        """Return time and state at the end of a line in complex time, or where |Z1| is LARGE."""
+
+        def large(fraction, y):
+            return LARGE * length - abs(y[0])
+
+        large.terminal = True
+        run = solve_ivp(
+            lambda fraction, y: (end - begin) * rates(begin + fraction * (end - begin), y),
+            (0, 1),
+            y.astype(complex),
+            method="DOP853",
+            events=large,
+            rtol=1e-10,
+            atol=1e-12 * length,
+        )
+        return begin + run.t[-1] * (end - begin), run.y[:, -1]
+
+    begin = 0.5 * np.pi / frequency
+    heights = []
+    for lag in np.pi / frequency * np.arange(STARTS) / STARTS:
+        _, real = integrate(state[:2], begin, begin + lag)
+        time, y = integrate(real, begin + lag, begin + lag + 1j * np.pi / frequency)
+        for _ in range(8):
+            before, singularity = time, time + y[0] / y[1]
+            if not 0 < singularity.imag < 2 * np.pi / frequency:
+                break
+            _, real = integrate(state[:2], begin, singularity.real)
+            close = complex(singularity.real, CLOSE * singularity.imag)
+            time, y = integrate(real, complex(singularity.real), close)
+            if abs(time - before) < LAST_CHANGE * duration:
+                heights.append(singularity.imag)
+                break
+    return float(min(heights, default=np.nan))
+
 
 # Number of values of Z1 in a cycle of the exact orbit for its Fourier coefficients.
 SAMPLES = 2**14
@@ -46,45 +142,8 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     The stability follows from Floquet multipliers, which Hill's method computes from the Fourier
     series of the linearised motion (`theory.hill`).
 
-    For the first balance Newton's method starts from a single-term solution: the solution of (7)
-    for e = 1 with the smallest |a|, or without a damper the free solution with the largest |a|. For
-    each further balance it starts from the last balance that converged. For the exact orbit it
-    starts from the balance with most harmonics.
-
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper or None
-    frequency : float
-        Forcing frequency W, dimensionless.
-    harmonics : sequence of int
-        Increasing odd numbers N, each the highest of the harmonics 1, 3, ... N.
-    cold : sequence of int
-        Values in `harmonics` for which Newton's method is also started directly from the
-        single-term solution (cold start).
-
-    Returns
-    -------
-    xarray.Dataset
-        For each `highest_harmonic` N: status, steps and residual of Newton's method, largest
-        displacement, errors relative to the exact orbit (NaN if it was not found), Floquet
-        multipliers by Hill's method, and the result of the cold start. For each error the observed
-        and predicted rates at which it decreases as N grows (`theory.convergence`).
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is out of range; the message names it.
-    ArithmeticError
-        If there is no single-term solution to begin from.
-
-    Examples
-    --------
-    >>> import impact_damper as idm
-    >>> oscillator, damper = idm.Oscillator(0.215), idm.Damper(0.12, 2.0)
-    >>> found = harmonic_convergence(oscillator, damper, 2.0, [1, 3, 5])
-    >>> float(found.series_maximum[0].round(5))
-    0.00819
+    Newton's method starts from the single-term solution, and for each further balance from the last
+    one that converged; for the values of N in `cold` also directly from the single-term solution.
     """
     harmonics = check_counts("harmonics", harmonics, **HARMONIC_RANGE)
     check_increasing("harmonics", harmonics)
@@ -103,26 +162,31 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     exact = find_orbit(p, state)
     data = {
         "series_status": [flag("series_status", each.status) for each in solutions],
-        "series_steps": [each.iterations for each in solutions],
-        "series_residual": [each.residual for each in solutions],
-        "series_maximum": [
-            fourier.largest(each.coefficients[0], each.balance.harmonics)
-            if each.status == "converged"
-            else np.nan
-            for each in solutions
-        ],
         "cold_status": [
             cold_status(each, first) if each.balance.highest in cold else -1 for each in solutions
         ],
     }
-    data |= hill_table(solutions, exact)
-    data |= exact_table(exact, 2 if damper is None else 4)
-    data["series_error"] = errors(data, solutions, exact)
+    number = 2 if damper is None else 4
+    found = exact.converged and exact.active == number
+    data |= {
+        "exact_status": flag("exact_status", "found" if found else "not_found"),
+        "exact_maximum": exact.record["maximum_displacement"] if found else np.nan,
+    }
+    exponents = [hill.exponents(each) if each.status == "converged" else None for each in solutions]
+    status = [each.status if each else "not_tried" for each in exponents]
+    data["hill_status"] = [flag("hill_status", each) for each in status]
+    period = 2 * np.pi / frequency
+    multipliers = [
+        each.multipliers(period) if each else np.full(number, np.nan) for each in exponents
+    ]
+    data["series_error"] = np.full((len(MEASURES), len(solutions)), np.nan)
+    if found:
+        data["series_error"] = errors(solutions, multipliers, exact)
     data |= decay_table(harmonics, data, damper, p, exact)
     made = describe(oscillator, damper) | {"frequency": float(frequency)}
     return dataset(
         data,
-        {"highest_harmonic": harmonics, "error_measure": list(convergence.MEASURES)},
+        {"highest_harmonic": harmonics, "error_measure": list(MEASURES)},
         made,
         "Harmonic balance with many harmonics against the exact orbit",
     )
@@ -141,59 +205,10 @@ def cold_status(warm, first) -> int:
     return flag("cold_status", "same_motion" if same else "another_motion")
 
 
-def hill_table(solutions, exact):
-    """Return the variables of Floquet multipliers by Hill's method, a dict.
-
-    `solutions` are the solutions of the balances, and `exact` is the exact `Orbit`.
-    """
-    oscillator, damper, frequency = (
-        getattr(solutions[0].balance, name) for name in ("oscillator", "damper", "frequency")
-    )
-    period = 2 * np.pi / frequency
-    trace = -oscillator.damping
-    if damper is not None:
-        # Sum of the Floquet exponents (Liouville's theorem): the average over a cycle of -h and,
-        # during contact, also of -c (1 + 1/rm), with the damping h and the dashpot c of the wall.
-        trace -= damper.dashpot * (1 + 1 / damper.mass_ratio) * exact.touching / period
-    multipliers = np.full((len(solutions), 2 if damper is None else 4), complex(np.nan, np.nan))
-    status = np.full(len(solutions), flag("hill_status", "not_tried"))
-    traces = np.full(len(solutions), np.nan)
-    for k, solution in enumerate(solutions):
-        if solution.status == "converged":
-            found = hill.exponents(solution)
-            status[k] = flag("hill_status", found.status)
-            multipliers[k] = found.multipliers(period)
-            traces[k] = np.sum(found.values.real)
-    return {
-        "hill_status": status,
-        "hill_multiplier_real": multipliers.real,
-        "hill_multiplier_imaginary": multipliers.imag,
-        "hill_trace_error": np.abs(traces - trace)
-        if exact.converged
-        else np.full_like(traces, np.nan),
-    }
-
-
-def exact_table(exact, number):
-    """Return the variables of the exact orbit, with `number` Floquet multipliers."""
-    found = exact.converged and exact.active == number
-    multipliers = exact.multipliers[:number] if found else np.full(number, complex(np.nan, np.nan))
-    maximum = exact.record["maximum_displacement"]
-    return {
-        "exact_status": flag("exact_status", "found" if found else "not_found"),
-        "exact_residual": exact.residual,
-        "exact_maximum": maximum if found else np.nan,
-        "exact_multiplier_real": multipliers.real,
-        "exact_multiplier_imaginary": multipliers.imag,
-    }
-
-
-def errors(data, solutions, exact):
-    """Return errors relative to the exact orbit, shape (4, n): a row per `convergence.MEASURES`."""
-    found = np.full((4, len(solutions)), np.nan)
-    if data["exact_status"] == flag("exact_status", "not_found"):
-        return found
-    balance, size = solutions[0].balance, data["exact_maximum"]
+def errors(solutions, multipliers, exact):
+    """Return errors relative to the exact orbit, shape (4, n): a row for each of MEASURES."""
+    found = np.full((len(MEASURES), len(solutions)), np.nan)
+    balance, size = solutions[0].balance, exact.record["maximum_displacement"]
     start = exact.strobe_states[0]
     orbit = simulate(
         balance.oscillator,
@@ -213,13 +228,11 @@ def errors(data, solutions, exact):
             away = coefficients.copy()
             away[solution.balance.harmonics] -= solution.coefficients[0]
             first_omitted = solution.balance.highest + 1
-            found[0, k] = abs(data["series_maximum"][k] - size) / size
+            largest = fourier.largest(solution.coefficients[0], solution.balance.harmonics)
+            found[0, k] = abs(largest - size) / size
             found[1, k] = np.sqrt(2 * np.sum(np.abs(away[:first_omitted]) ** 2)) / size
             found[2, k] = np.sqrt(2 * np.sum(np.abs(away[first_omitted:]) ** 2)) / size
-            multipliers = (
-                data["hill_multiplier_real"][k] + 1j * data["hill_multiplier_imaginary"][k]
-            )
-            found[3, k] = _farthest(multipliers, exact.multipliers[: exact.active])
+            found[3, k] = _farthest(multipliers[k], exact.multipliers[: exact.active])
     return found
 
 
@@ -237,22 +250,19 @@ def _farthest(values, references):
 def decay_table(harmonics, data, damper, p, exact):
     """Return the variables of the rates at which errors decrease with N, observed and predicted.
 
-    The observed rates are fitted from `convergence.asymptotic_harmonic` on.
+    The observed rates are fitted from `asymptotic_harmonic` on.
     """
-    measures = len(convergence.MEASURES)
-    lowest = convergence.asymptotic_harmonic(damper, p[FREQUENCY])
-    kind, predicted = convergence.decay(damper, p, exact.strobe_states[0])
+    lowest = asymptotic_harmonic(damper, p[FREQUENCY])
+    kind, predicted = decay(damper, p, exact.strobe_states[0])
     scale = np.log(harmonics) if kind == "algebraic" else harmonics
-    observed, fitted = np.full(measures, np.nan), np.zeros(measures, int)
+    observed = np.full(len(MEASURES), np.nan)
     for k, error in enumerate(data["series_error"]):
         used = (harmonics >= lowest) & (error > ROUNDING)
-        fitted[k] = np.sum(used)
-        if fitted[k] > 2:
+        if np.sum(used) > 2:
             observed[k] = -np.polyfit(scale[used], np.log(error[used]), 1)[0]
     return {
         "asymptotic_harmonic": lowest,
         "decay_kind": flag("decay_kind", kind),
         "decay_observed": ("error_measure", observed),
-        "decay_fitted": ("error_measure", fitted),
         "decay_predicted": ("error_measure", predicted),
     }

@@ -13,8 +13,6 @@ best_size | mass_ratio restitution contact_stiffness frequency criterion | | | v
   criterion at the optimum, times Omega^2
 best_kind | mass_ratio restitution contact_stiffness frequency criterion | | | kind of minimum
   : MINIMUM
-best_multiplier | mass_ratio restitution contact_stiffness frequency criterion | |  | modulus of
-  the dominant Floquet multiplier at the optimum
 best_stability | mass_ratio restitution contact_stiffness frequency criterion | |  | stability of
   the motion at the optimum
   : STABILITY

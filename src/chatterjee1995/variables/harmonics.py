@@ -11,10 +11,6 @@ error_measure | error_measure | | | quantity whose error is listed
 series_status | highest_harmonic | | | how Newton's method ended when started from the solution
   with fewer harmonics
   : SEARCH
-series_steps | highest_harmonic | | | number of steps of Newton's method
-series_residual | highest_harmonic | mixed | | largest residual of the balance
-series_maximum | highest_harmonic | displacement | max |Z1| | largest displacement by harmonic
-  balance
 series_error | error_measure highest_harmonic | | | difference from the exact orbit: of max |Z1|,
   and of Z1 in the harmonics up to N and beyond N (root mean square), divided by max |Z1|; and of
   a Floquet multiplier
@@ -23,25 +19,14 @@ cold_status | highest_harmonic | | | how Newton's method ended when started from
   : not_tried -1, same_motion 0, stalled 1, iteration_limit 2, another_motion 3
 hill_status | highest_harmonic | | | how Hill's method ended
   : not_tried -1, found 0, not_separated 1, not_converged 2
-hill_multiplier_real | highest_harmonic exponent | | | Floquet multiplier by Hill's method, real
-  part
-hill_multiplier_imaginary | highest_harmonic exponent | | | Floquet multiplier by Hill's method,
-  imaginary part
-hill_trace_error | highest_harmonic | rate | | sum of the exponents by Hill's method minus the sum
-  by Liouville's theorem
 exact_status | | | | whether the exact orbit was found
   : not_found 0, found 1
-exact_residual | | mixed | | distance between the state of the exact orbit and the state a period
-  later
 exact_maximum | | displacement | max |Z1| | largest displacement of the exact orbit
-exact_multiplier_real | exponent | | | exact Floquet multiplier, real part
-exact_multiplier_imaginary | exponent | | | exact Floquet multiplier, imaginary part
 asymptotic_harmonic | | | | lowest N whose errors are used in the fit of the decrease
 decay_kind | | | | decrease of the errors: a power of N, or exponential
   : algebraic 0, exponential 1
 decay_observed | error_measure | | | fitted power of 1/N, or rate per harmonic, at which an error
   decreases
-decay_fitted | error_measure | | | number of errors used in the fit
 decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmonic
     """,
     SEARCH=SEARCH,
