@@ -61,13 +61,13 @@ def test_a_state_of_a_machine_keeps_its_phase():
     run = idm.simulate(MACHINE, None, 24.0, steady.state, periods=1)
     assert_allclose(run.time[0], 0.25 / 24)
     assert_allclose(run.displacement[-1], run.displacement[0], atol=1e-6)
-    with pytest.raises(ValueError, match=r"start = 0\.01 s: must be at the phase"):
+    with pytest.raises(ValueError, match=r"start = 0\.01.*: must be at the phase"):
         idm.simulate(MACHINE, None, 24.0, steady.state, start=0.01)
 
 
 def test_units_of_states_are_not_mixed_up(quiet):
     steady = idm.steady_motion(MACHINE, None, 24.0, (0, 0))
-    with pytest.raises(ValueError, match="state = .*must be dimensionless, not in m, m/s"):
+    with pytest.raises(ValueError, match="state = .*not in m, m/s"):
         idm.simulate(OSCILLATOR, None, 2.0, steady.state)
     with pytest.raises(ValueError, match="state = .*must be in m, m/s, m, m/s, not in 1"):
         idm.simulate(MACHINE, None, 24.0, quiet.state)

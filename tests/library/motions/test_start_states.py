@@ -44,7 +44,7 @@ def hardening_machine():
 def test_the_default_search_finds_the_violent_motion_that_a_ball_of_radius_2_misses():
     oscillator, damper, frequency, unit = hardening_machine()
     wide = frequency_response(oscillator, damper, [frequency])
-    with pytest.warns(UserWarning, match=r"radius = 2: smaller than the free motion at .* = 19.5"):
+    with pytest.warns(UserWarning, match=r"radius = 2: smaller than the free motion at .* = 19.47"):
         narrow = frequency_response(oscillator, damper, [frequency], radius=2.0)
     largest = {
         name: unit * np.nanmax(data.maximum_displacement)
@@ -102,7 +102,7 @@ def test_a_radius_gives_the_ball_and_warns_only_where_it_is_narrow():
     assert np.all(np.linalg.norm(search.random, axis=2) <= 2)
     assert [len(each) for each in search.placed] == [0, 0]
     with pytest.warns(
-        UserWarning, match="radius = 2: .* frequency = 2, .* = 2.32 and speed = 4.64"
+        UserWarning, match="radius = 2: .* frequency = 2, .* = 2.31.* and speed = 4.6"
     ):
         warn_if_narrow(PAPER, [1.0, 2.0, 2.3], 2.0)
 
