@@ -83,18 +83,4 @@ def _trial(context, name, damage, old):
     return trial
 
 
-def stale_parts(context):
-    """Yield a trial with an incomplete file, as a killed job leaves it."""
-
-    def trial():
-        project = context.finished("parts")
-        path = project.folder / DATA
-        path.with_name(f"{path.name}.part-1").write_bytes(path.read_bytes()[:1000])
-        path.unlink()
-        project.recover(context.undisturbed, lost=2)
-        return "run again"
-
-    yield "a part that a killed job has left", trial
-
-
-TRIALS = [damaged, stale_parts]
+TRIALS = [damaged]

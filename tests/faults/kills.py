@@ -5,7 +5,9 @@ A trial is a run of the workflow with a kill, and a second run that must recover
 
 import os
 import signal
+import subprocess
 import time
+from functools import partial
 
 import psutil
 
@@ -50,60 +52,48 @@ def _within(folder, process):
 def kill_snakemake(context):
     """Yield trials in which Snakemake is killed at a random moment."""
     for number, moment in enumerate(moments(context, "snakemake")):
-        yield f"`kill -9` of Snakemake after {moment:.1f} s", _killed(context, number, moment)
+        trial = partial(_stopped, context, f"snakemake-{number}", moment, subprocess.Popen.kill)
+        yield f"`kill -9` of Snakemake after {moment:.1f} s", trial
 
 
-def _killed(context, number, moment):
-    def trial():
-        project = context.fresh(f"snakemake-{number}")
-        process = project.start()
-        time.sleep(moment)
-        process.kill()
-        process.communicate()
-        wait_for_end_of_orphans(project.folder)
-        return project.recover(context.undisturbed)
-
-    return trial
+def _stopped(context, name, moment, stop):
+    project = context.fresh(name)
+    process = project.start()
+    time.sleep(moment)
+    stop(process)
+    process.communicate()
+    wait_for_end_of_orphans(project.folder)
+    return project.recover(context.undisturbed)
 
 
 def kill_job(context):
     """Yield trials in which the job that runs at a random moment is killed, or the next one."""
     for number, moment in enumerate(moments(context, "job")):
-        yield f"`kill -9` of a job after {moment:.1f} s", _job_killed(context, number, moment)
+        trial = partial(_job_killed, context, f"job-{number}", moment)
+        yield f"`kill -9` of a job after {moment:.1f} s", trial
 
 
-def _job_killed(context, number, moment):
-    def trial():
-        project = context.fresh(f"job-{number}")
-        process = project.start()
-        time.sleep(moment)
-        while process.poll() is None and not (job := job_of(process)):
-            time.sleep(WAIT)
-        if process.poll() is None and job.is_running():
-            job.kill()
-        process.communicate()
-        return project.recover(context.undisturbed)
-
-    return trial
+def _job_killed(context, name, moment):
+    project = context.fresh(name)
+    process = project.start()
+    time.sleep(moment)
+    while process.poll() is None and not (job := job_of(process)):
+        time.sleep(WAIT)
+    if process.poll() is None and job.is_running():
+        job.kill()
+    process.communicate()
+    return project.recover(context.undisturbed)
 
 
 def interrupt(context):
     """Yield trials with Ctrl-C at about four of the random moments."""
-    for number, moment in enumerate(moments(context, "interrupt")[:: max(context.moments // 4, 1)]):
-        yield f"Ctrl-C after {moment:.1f} s", _interrupted(context, number, moment)
 
-
-def _interrupted(context, number, moment):
-    def trial():
-        project = context.fresh(f"interrupt-{number}")
-        process = project.start()
-        time.sleep(moment)
+    def stop(process):
         os.killpg(process.pid, signal.SIGINT)
-        process.communicate()
-        wait_for_end_of_orphans(project.folder)
-        return project.recover(context.undisturbed)
 
-    return trial
+    for number, moment in enumerate(moments(context, "interrupt")[:: max(context.moments // 4, 1)]):
+        trial = partial(_stopped, context, f"interrupt-{number}", moment, stop)
+        yield f"Ctrl-C after {moment:.1f} s", trial
 
 
 def edit_after_kill(context):

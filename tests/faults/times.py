@@ -13,7 +13,7 @@ DAY = 86400
 
 
 def two_runs(context):
-    """Yield trials with two runs at once in one folder, of the same and of different targets."""
+    """Yield a trial with two runs at once in one folder."""
 
     def trial():
         project = context.fresh("two-runs")
@@ -27,18 +27,7 @@ def two_runs(context):
         project.expect_same(context.undisturbed)
         return "nothing: the first run finishes, the second is refused"
 
-    def apart():
-        project = context.fresh("two-targets")
-        both = [
-            project.start(targets=["results/harmonic_balance/figure_05a.nc"]),
-            project.start(targets=["results/tables/optimum.csv"]),
-        ]
-        told = [process.communicate()[0] for process in both]
-        expect(not any(process.returncode for process in both), str(told)[-500:])
-        return project.recover(context.undisturbed, lost=0)
-
     yield "two runs at once", trial
-    yield "two runs at once, of different targets", apart
 
 
 def _ahead(paths):
@@ -49,7 +38,7 @@ def _ahead(paths):
 
 
 def clock_set_back(context):
-    """Yield trials in which results or sources seem to be from tomorrow."""
+    """Yield trials in which results seem to be from tomorrow."""
 
     def finished():
         project = context.finished("clock")
@@ -64,16 +53,10 @@ def clock_set_back(context):
                 path.unlink()
         return project.recover(context.undisturbed, lost=0)
 
-    def sources():
-        project = context.finished("clock-sources")
-        for part in ("workflow", "config"):
-            _ahead((project.folder / part).rglob("*"))
-        return project.recover(context.undisturbed, lost=0)
-
     def edited():
         project = context.finished("clock-edited")
         _ahead((project.folder / "results").rglob("*"))
-        script = project.folder / "workflow/scripts/optimum.py"
+        script = project.folder / "workflow/scripts/stage.py"
         script.write_text(script.read_text() + "# A word.\n")
         plan = project.planned()
         expect(
@@ -89,7 +72,6 @@ def clock_set_back(context):
 
     yield "clock set back after a run", finished
     yield "clock set back between data and figures", halfway
-    yield "sources dated in the future", sources
     yield "clock set back, then a script edited", edited
 
 

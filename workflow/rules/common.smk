@@ -60,15 +60,25 @@ def local(path):
 
 @cache
 def code(script, *modules):
-    """Return the source files of a job: script, modules, and the package's modules they import.
+    """Return the source files of a job: script, modules, and the modules that they import.
 
-    The lock file stands for the versions of all other packages.
+    Texts and templates beside these modules count too, and the lock file stands for the versions of
+    all other packages.
     """
     paths = {ROOT / "workflow/scripts" / f"{script}.py", module_file("chatterjee1995.workflow.job")}
     # The first import of a module of the paper registers the paper's variables.
     paper = {"chatterjee1995"} if any(name.startswith("chatterjee1995") for name in modules) else ()
     paths.update(map(module_file, (*modules, *paper)))
-    return sorted(map(local, sources(*paths) | {ROOT / "requirements.lock"}))
+    found = sources(*paths) | {ROOT / "requirements.lock"}
+    texts = [path for folder in {path.parent for path in found} for path in beside(folder)]
+    return sorted(map(local, found.union(texts)))
+
+
+@cache
+def beside(folder):
+    """Return the texts and templates that the modules of a folder read."""
+    kinds = ("*.yaml", "*.md", "templates/*.jinja") if (folder / "__init__.py").exists() else ()
+    return [path for kind in kinds for path in folder.glob(kind)]
 
 
 def data(stage, names=None):

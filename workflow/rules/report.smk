@@ -43,7 +43,6 @@ rule machine_pages:
     input:
         machines=data("machines"),
         code=code("machine_pages"),
-        templates=sorted(map(local, (ROOT / "src/impact_damper/plot/pages/templates").glob("*.*"))),
     output:
         [page for page in page_files("machines") if not page.endswith("index.html")],
         [
