@@ -150,17 +150,16 @@ class Trials(NamedTuple):
     workers: int = 1
 
     def rules(self, trials, seed):
-        """Return the rule of each policy, an argument of `hold`; chosen in trials of their own.
-
-        The best fixed number of cycles is also the longest hold of the release by state.
-        """
+        """Return the rule of each policy, an argument of `hold`; chosen in trials of their own."""
 
         def cost(rule):
             return np.mean(np.minimum(self.run(rule, trials, seed).cycles, PAPER_CYCLES))
 
         best = min([(HOLD, float(cycles), 0) for cycles in HOLDS], key=cost)
-        phase = min([(PHASE, 1.0, index) for index in range(PHASES)], key=cost)
-        return (SETTLED, 0.0, 0), best, phase, (STATE, best[1], 0)
+        after = sorted({1.0, best[1]})
+        phases = [(PHASE, cycles, index) for cycles in after for index in range(PHASES)]
+        states = [(STATE, float(cycles), 0) for cycles in HOLDS]
+        return (SETTLED, 0.0, 0), best, min(phases, key=cost), min(states, key=cost)
 
     def run(self, rule, trials, seed) -> Outcome:
         """Return the `Outcome` of trials with a rule; equal seeds give equal random numbers."""
