@@ -19,7 +19,7 @@ CELLS, CELL_STARTS = 11, 12
 # Ends of the map over gap and restitution: gaps divided by the nominal gap, and least restitution.
 GAPS, LEAST_RESTITUTION = (0.5, 1.6), 0.3
 # Shortest step between cells divided by their distance, and bisections of an end of stability.
-SHORTEST, BISECTIONS = 1 / 16, 12
+SHORTEST, BISECTIONS = 2.0**-10, 12
 
 
 def operating_maps(task, choice, progress=None) -> xr.Dataset:
