@@ -13,10 +13,9 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Oscillator
 from impact_damper.model.settling import Settling
-from impact_damper.motions.attractors import free_attractors
+from impact_damper.motions.attractors import free_attractors, release_set
 from impact_damper.motions.ensemble import label_states
 from impact_damper.motions.legs import depth_of
-from impact_damper.motions.attractors import release_set
 
 # Half widths of the plane in Z1 and Z1'.
 PLANE = np.array([3.2, 5.0])

@@ -6,9 +6,10 @@ import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
 from chatterjee1995.methods.equations import rate, wall_at
+from impact_damper.model.arguments import read_increasing, read_numbers
 from impact_damper.model.bounds import METHOD_TOLERANCE_RANGE, STEPS_RANGE, check_count
-from impact_damper.model.checks import check_increasing, check_numbers
 from impact_damper.model.packed import CLEARANCE
+from impact_damper.model.units import UNITLESS
 
 # Number of bisections that locate a root, enough for the accuracy of floating-point numbers.
 HALVINGS = 54
@@ -114,10 +115,10 @@ def check_resolutions(tolerances, steps):
     Return the tolerances and the numbers of steps, reversed: the fewest steps take the place of the
     largest tolerance.
     """
-    tolerances = check_numbers("tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
-    check_increasing("tolerances", tolerances)
+    tolerances = read_numbers(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
+    read_increasing(UNITLESS, "tolerances", tolerances)
     steps = [check_count("steps", value, **STEPS_RANGE) for value in steps]
-    check_increasing("steps", steps)
+    read_increasing(UNITLESS, "steps", steps)
     if len(steps) != len(tolerances):
         raise ValueError(f"steps: must be as many as tolerances, {len(tolerances)}; {steps} given")
     return tolerances, steps[::-1]

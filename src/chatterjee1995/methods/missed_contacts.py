@@ -14,10 +14,11 @@ from chatterjee1995.methods.integrator import check_resolutions
 from chatterjee1995.methods.integrators import integrators
 from chatterjee1995.methods.passages import TOLERANCE, draw_passages, without_walls
 from impact_damper.data.datasets import dataset
+from impact_damper.model.arguments import read_increasing
 from impact_damper.model.bounds import RADIUS_RANGE, RUNS_RANGE, check_count, check_number
-from impact_damper.model.checks import check_increasing, check_numbers
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
+from impact_damper.model.units import UNITLESS
 
 # The docstring of `missed_contacts` explains the outcomes.
 OUTCOMES = ("found", "unseen", "not_reached", "failed")
@@ -64,7 +65,7 @@ def missed_contacts(
     """
     check_count("passages", passages, **RUNS_RANGE)
     check_number("radius", radius, **RADIUS_RANGE)
-    depths = check_increasing("depths", check_numbers("depths", depths, above=0.0))
+    depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances, steps = check_resolutions(tolerances, steps)
     p = pack(oscillator, None, frequency)
     drawn = draw_passages(p, passages, radius, depths[-1], seed)

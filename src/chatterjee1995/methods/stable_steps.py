@@ -13,16 +13,17 @@ import numpy as np
 
 from chatterjee1995.methods.integrators import integrators
 from impact_damper.data.datasets import dataset, is_settled
+from impact_damper.model.arguments import read_increasing
 from impact_damper.model.bounds import (
     MOST_STEPS_RANGE,
     PERIODS_RANGE,
     STIFFNESS_RANGE,
     check_count,
 )
-from impact_damper.model.checks import check_increasing, check_numbers
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import check_damper, describe
 from impact_damper.model.settling import Settling
+from impact_damper.model.units import UNITLESS
 from impact_damper.motions import ensemble
 from impact_damper.motions.following import StrobeOrbit
 from impact_damper.motions.strobe_map import strobe_time
@@ -154,10 +155,8 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     check_damper(damper)
     check_count("periods", periods, **PERIODS_RANGE)
     check_count("most_steps", most_steps, **MOST_STEPS_RANGE)
-    stiffnesses = check_increasing(
-        "stiffnesses", check_numbers("stiffnesses", stiffnesses, **STIFFNESS_RANGE)
-    )
-    scaled = check_increasing("scaled_steps", check_numbers("scaled_steps", scaled_steps, above=0))
+    stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
+    scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
     scaled = scaled[::-1]
     orbits = orbits_over_stiffness(oscillator, damper, frequency, stiffnesses)
     contact = np.sqrt(stiffnesses * (1 + 1 / damper.mass_ratio))

@@ -19,7 +19,8 @@ from chatterjee1995.sections.system import (
 )
 from impact_damper.command.messages import missing, problem
 from impact_damper.command.values import choice, count, number
-from impact_damper.model.bounds import FREQUENCY_RANGE, HARMONIC_RANGE, plain
+from impact_damper.model.bounds import FREQUENCY_RANGE, HARMONIC_RANGE
+from impact_damper.model.text import plain
 
 # Parameters that may change from row to row of a map.
 MAPPED = ("damping", "mass_ratio", "clearance", "restitution")

@@ -14,11 +14,12 @@ import numpy as np
 from chatterjee1995.variables.balance_map import MAPPED, NEAR
 from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wall
 from impact_damper.model import packed
+from impact_damper.model.arguments import read_increasing
 from impact_damper.model.bounds import check_number
-from impact_damper.model.checks import check_increasing
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper, Oscillator, pick
 from impact_damper.model.settling import check_settling
+from impact_damper.model.units import UNITLESS
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import MOTION
 from impact_damper.orbits.quiet_orbits import (
@@ -248,8 +249,8 @@ def _rows(parameter, values, ratios, fixed):
         raise ValueError(f"parameter = {parameter!r}: must be one of {', '.join(MAPPED)}")
     if parameter in fixed:
         raise ValueError(f"fixed: must not hold {parameter}, which changes from row to row")
-    values = check_increasing("values", values, least="two")
-    ratios = check_increasing("frequency_ratios", ratios, least="two")
+    values = read_increasing(UNITLESS, "values", values, count=2)
+    ratios = read_increasing(UNITLESS, "frequency_ratios", ratios, count=2)
     check_number("frequency_ratios", ratios[0], above=0.0, why="the forcing is periodic")
     rows = []
     for value in values:

@@ -14,6 +14,7 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.kernel.equation import acceleration
+from impact_damper.model.arguments import read_frequencies, read_increasing
 from impact_damper.model.bounds import (
     LOAD_RANGE,
     PERIODS_RANGE,
@@ -22,10 +23,10 @@ from impact_damper.model.bounds import (
     check_count,
     check_number,
 )
-from impact_damper.model.checks import check_frequencies, check_increasing
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import check_damper, describe
 from impact_damper.model.settling import check_settling
+from impact_damper.model.units import UNITLESS
 from impact_damper.motions import ensemble, strobe_map, traces
 from impact_damper.motions.simulate import random_states
 from impact_damper.theory.contact_law import (
@@ -96,9 +97,9 @@ def contact_model(
     check_damper(damper)
     check_count("starts", starts, **RUNS_RANGE)
     check_count("periods", periods, **PERIODS_RANGE)
-    frequencies = check_frequencies(frequencies)
+    frequencies = read_frequencies(UNITLESS, frequencies)
     restitutions, loads, used = (
-        check_increasing(name, values, "two")
+        read_increasing(UNITLESS, name, values, count=2)
         for name, values in (("restitutions", restitutions), ("loads", loads), ("used", used))
     )
     data = contact_map(restitutions, loads) | unloaded_table(used)

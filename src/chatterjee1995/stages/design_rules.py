@@ -19,9 +19,10 @@ from scipy.optimize import minimize_scalar
 from tqdm import tqdm
 
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.model.checks import check_frequencies, check_increasing
+from impact_damper.model.arguments import read_frequencies, read_increasing
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import Damper, describe
+from impact_damper.model.units import UNITLESS
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.motions.traces import trace
 from impact_damper.orbits.quiet_orbits import compliant_orbit
@@ -84,14 +85,14 @@ def design_rules(
         If a sequence does not increase or a value is out of range.
     """
     given = {
-        name: check_increasing(name, values)
+        name: read_increasing(UNITLESS, name, values)
         for name, values in zip(
             ("mass_ratios", "restitutions", "contact_stiffnesses"),
             (mass_ratios, restitutions, contact_stiffnesses),
             strict=True,
         )
     }
-    given["frequencies"] = check_frequencies(frequencies)
+    given["frequencies"] = read_frequencies(UNITLESS, frequencies)
     shape = tuple(len(values) for values in given.values())
     cells = itertools.product(*given.values())
     rows = [

@@ -13,11 +13,12 @@ import numpy as np
 from chatterjee1995.methods.rigid_impacts import mended_orbit, rigid_orbit
 from chatterjee1995.stages.contact_model import extreme_motions
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.model.bounds import RUNS_RANGE, check_count
-from impact_damper.model.checks import check_frequencies, check_frequency, check_increasing
+from impact_damper.model.arguments import read_frequencies, read_increasing
+from impact_damper.model.bounds import RUNS_RANGE, check_count, check_frequency
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import check_damper, describe
 from impact_damper.model.settling import check_settling
+from impact_damper.model.units import UNITLESS
 from impact_damper.orbits.grid_following import Grid, follow_line
 from impact_damper.orbits.quiet_orbits import compliant_orbit
 
@@ -65,8 +66,8 @@ def rigid_limit(
     check_damper(damper)
     check_count("starts", starts, **RUNS_RANGE)
     frequency = check_frequency(frequency)
-    frequencies = check_frequencies(frequencies, "two")
-    stiffnesses = check_increasing("stiffnesses", stiffnesses, "two")
+    frequencies = read_frequencies(UNITLESS, frequencies, 2)
+    stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, count=2)
     settling = check_settling(settling)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
     compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)

@@ -25,11 +25,12 @@ from impact_damper.data.datasets import (
     write,
 )
 from impact_damper.data.whole_files import BrokenFileError, whole_netcdf
+from impact_damper.model.arguments import read_increasing
 from impact_damper.model.bounds import RUNS_RANGE, SEED_RANGE, check_count
-from impact_damper.model.checks import check_increasing
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper, describe
 from impact_damper.model.settling import Settling
+from impact_damper.model.units import UNITLESS
 from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.start_states import (
@@ -154,7 +155,10 @@ def _checked(axes):
     """Return the axes as increasing arrays in the order of `AXES`."""
     if not isinstance(axes, dict) or set(axes) != set(AXES):
         raise TypeError(f"axes = {axes!r}: must be a dictionary of {', '.join(AXES)}")
-    return {name: check_increasing(f"axes[{name!r}]", np.atleast_1d(axes[name])) for name in AXES}
+    return {
+        name: read_increasing(UNITLESS, f"axes[{name!r}]", np.atleast_1d(axes[name]))
+        for name in AXES
+    }
 
 
 def gather_chunks(paths, path) -> None:

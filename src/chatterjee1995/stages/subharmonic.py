@@ -10,11 +10,12 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, touches_no_wall
 from impact_damper.model import packed
-from impact_damper.model.bounds import SEED_RANGE, check_count
-from impact_damper.model.checks import check_frequencies, check_starts
+from impact_damper.model.arguments import read_frequencies
+from impact_damper.model.bounds import SEED_RANGE, check_count, check_starts
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import check_damper, check_oscillator, describe
 from impact_damper.model.settling import check_settling
+from impact_damper.model.units import UNITLESS
 from impact_damper.motions import strobe_map, traces
 from impact_damper.motions.following import record_at
 from impact_damper.motions.simulate import COMPONENTS
@@ -90,7 +91,7 @@ def subharmonic_suppression(
         raise ValueError(
             "cubic = 0: must not be 0 (without the damper a linear spring has no subharmonic)"
         )
-    frequencies = check_frequencies(frequencies, "two")
+    frequencies = read_frequencies(UNITLESS, frequencies, 2)
     check_starts(starts, max(SEARCHED, len(frequencies)), least=2)
     check_count("seed", seed, **SEED_RANGE)
     free = free_subharmonic(

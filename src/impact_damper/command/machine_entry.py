@@ -12,9 +12,10 @@ from pydantic_core import core_schema
 from impact_damper.command.messages import dotted, missing, problem
 from impact_damper.command.section import Section
 from impact_damper.command.values import Allowed, count, number, points_of, starts_of
-from impact_damper.model.bounds import RESTITUTION_RANGE, plain
+from impact_damper.model.bounds import RESTITUTION_RANGE
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.machine import Machine
+from impact_damper.model.text import plain
 from impact_damper.model.units import QUANTITIES, check_si, si_value, wrong_unit
 
 

@@ -3,7 +3,7 @@
 import re
 import reprlib
 
-from impact_damper.model.names import nearest
+from impact_damper.model.bounds import nearest
 
 # Numbers with an exponent. YAML 1.1 reads them as text if the point is missing or the exponent has
 # no sign.

@@ -4,7 +4,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
 from impact_damper.command.messages import problem
-from impact_damper.model.names import nearest
+from impact_damper.model.bounds import nearest
 
 
 class Section(BaseModel):

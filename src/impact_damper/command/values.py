@@ -11,7 +11,8 @@ from typing import Annotated, Literal
 from pydantic import Discriminator, Tag, ValidationError, confloat, conint, constr
 from pydantic_core import PydanticCustomError, core_schema
 
-from impact_damper.model.bounds import POINTS_RANGE, RUNS_RANGE, plain
+from impact_damper.model.bounds import POINTS_RANGE, RUNS_RANGE
+from impact_damper.model.text import plain
 
 # Tags that pydantic adds to the path of a value that may have one of two types. Keys cannot have
 # these names.

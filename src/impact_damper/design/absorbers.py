@@ -15,7 +15,7 @@ of the table, is g(s) N(s)/D(s) with
     acceleration B of the base        B/w1^2                  (1 + 4 z1^2 s)/s^2
 
 m1, k and w1 are mass, stiffness and natural frequency (rad/s) of the machine. All maxima follow
-from the roots of a polynomial, because g N and D are polynomials apart from the denominator s^2.
+from impact_damper.model.units import UNITLESS
 """
 
 import math
@@ -28,10 +28,10 @@ from scipy.optimize import minimize_scalar
 
 from impact_damper.data.datasets import flag
 from impact_damper.design.task import labelled
+from impact_damper.model.arguments import read_numbers
 from impact_damper.model.bounds import MASS_RATIO_RANGE, check_number, shown
-from impact_damper.model.checks import check_numbers
 from impact_damper.model.machine import Machine
-from impact_damper.model.units import check_si, convert, physical
+from impact_damper.model.units import UNITLESS, check_si, convert, physical
 from impact_damper.theory.roots import polynomial_roots
 from impact_damper.theory.tuned_mass_damper import Tuning, den_hartog, exact_optimum
 
@@ -129,7 +129,9 @@ def absorber_responses(
     """
     mass = check_mass(machine, mass)
     frequencies, shares = check_grid(machine, frequencies, force_shares)
-    detunings = _increasing("detunings", check_numbers("detunings", detunings, above=-1, most=10))
+    detunings = _increasing(
+        "detunings", read_numbers(UNITLESS, "detunings", detunings, above=-1, most=10)
+    )
     if band is None and machine.base_acceleration is not None:
         band = frequencies[[0, -1]]
     sizes = np.full((len(COMPETITORS), len(detunings), len(frequencies), len(shares)), np.nan)
@@ -169,7 +171,7 @@ def check_grid(machine, frequencies, force_shares):
         raise ValueError("force = 0 N: must be greater than 0 N (without excitation nothing moves)")
     listed = frequencies if isinstance(frequencies, list | tuple) else np.atleast_1d(frequencies)
     checked = [machine.check_frequency(f"frequencies[{i}]", each) for i, each in enumerate(listed)]
-    shares = check_numbers("force_shares", force_shares, above=0, most=1e6)
+    shares = read_numbers(UNITLESS, "force_shares", force_shares, above=0, most=1e6)
     return _increasing("frequencies", checked), _increasing("force_shares", shares)
 
 

@@ -21,9 +21,8 @@ from impact_damper.design.quiet_branch import follow_quiet_orbit
 from impact_damper.design.screen import screen
 from impact_damper.design.task import TOLERANCES, Effort, Task, labelled
 from impact_damper.design.transients import transients
-from impact_damper.model.bounds import shown
+from impact_damper.model.bounds import names_arguments, shown
 from impact_damper.model.machine import describe_si
-from impact_damper.model.names import names_arguments
 from impact_damper.theory.contact_law import contact as contact_law
 
 # The absorber to compare with is tuned over the range from ABSORBED[0] times the lowest frequency

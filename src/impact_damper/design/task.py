@@ -21,12 +21,12 @@ from impact_damper.model.bounds import (
     STIFFNESS_RANGE,
     check_count,
     check_number,
+    check_starts,
+    names_arguments,
     shown,
 )
-from impact_damper.model.checks import check_starts
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.machine import Machine, MachineDamper, describe_si
-from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import pack
 from impact_damper.model.settling import Settling, check_settling
 from impact_damper.model.text import with_unit

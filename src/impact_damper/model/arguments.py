@@ -22,7 +22,7 @@ from impact_damper.model.bounds import (
 from impact_damper.model.machine import Machine, MachineDamper
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, describe
-from impact_damper.model.scales import UNITLESS, Scales
+from impact_damper.model.units import UNITLESS, Scales
 
 # Kinds, units and bounds of the components of a state.
 STATE = ("displacement", "velocity", "displacement", "velocity")
@@ -132,7 +132,7 @@ def _read_machine_damper(machine, damper, needs_damper):
     return damper, damper.scaled(machine.scales)
 
 
-def read_numbers(scales, name, values, kind, **bounds) -> np.ndarray:
+def read_numbers(scales, name, values, kind="number", **bounds) -> np.ndarray:
     """Return a number or a sequence as an array, dimensionless; the bounds are so too."""
     return np.array(
         [scales.read(f"{name}[{i}]", value, kind, **bounds) for i, value in _numbered(values)]
@@ -146,7 +146,7 @@ def _numbered(values):
     return enumerate(np.atleast_1d(values) if not hasattr(values, "units") else [values])
 
 
-def read_increasing(scales, name, values, kind, count=1, **bounds) -> np.ndarray:
+def read_increasing(scales, name, values, kind="number", count=1, **bounds) -> np.ndarray:
     """Return at least `count` increasing numbers as an array, dimensionless.
 
     Raises

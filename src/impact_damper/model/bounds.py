@@ -1,16 +1,18 @@
-"""Bounds of the model's parameters, and checks of single numbers.
+"""Bounds of the model's parameters, and checks of single arguments.
 
 If all parameters are within these bounds, every run of the kernels (the compiled integrator) comes
-to an end. `Oscillator`, `Damper`, the functions that take a frequency, and the models of the
-configuration import their bounds from this module. The module imports no NumPy, because Snakemake
-reads it at every dry run. A range is a dictionary of keyword arguments of `check_number`; its entry
-"why" is the reason for a bound, which the error message states.
+to an end. A range is a dictionary of keyword arguments of `check_number`.
 """
 
+import difflib
+import inspect
 import math
 import numbers
 import reprlib
 from dataclasses import field, fields
+from functools import wraps
+
+from impact_damper.model.text import plain, with_unit
 
 FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "beyond, cycles are too long or too short"}
 DAMPING_RANGE = {"least": 1e-9, "most": 10.0, "why": "motions must settle"}
@@ -81,14 +83,9 @@ def parameter(bounds, kind, symbol, meaning, *, machine=None, **default):
 
 
 def check_parameters(part):
-    """Check all fields of the frozen dataclass `part` against the bounds in their metadata.
+    """Check the fields of a frozen dataclass against the bounds in their metadata.
 
     A field that holds an array without dimensions is replaced by a float.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As `check_number`, if a field is not a number or out of range.
     """
     for each in fields(part):
         if "bounds" not in each.metadata:
@@ -100,14 +97,9 @@ def check_parameters(part):
 
 
 def unlabelled(name, value):
-    """Return the number in an array without dimensions; return any other value unchanged.
+    """Return the number in an array without dimensions, such as an element of a dataset.
 
-    Elements of xarray datasets are arrays without dimensions.
-
-    Raises
-    ------
-    ValueError
-        If the attributes of the array name a unit, so that the number is not dimensionless.
+    Any other value is returned unchanged. A unit in the attributes of the array is an error.
     """
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
@@ -122,13 +114,9 @@ def shown(value) -> str:
     return " ".join(reprlib.repr(value).split())
 
 
-def plain(value) -> str:
-    """Return a number as text, with at most six digits if these are exact, else with all digits."""
-    short = f"{value:g}"
-    return short if float(short) == value else repr(float(value))
-
-
-def check_number(name, value, *, above=None, least=None, most=None, why=""):
+def check_number(
+    name, value, *, above=None, least=None, most=None, why="", unit="", given=""
+) -> float:
     """Return `value` as a float, or raise an error that names the allowed range.
 
     An array without dimensions counts as a number unless it is labelled with a unit.
@@ -142,6 +130,8 @@ def check_number(name, value, *, above=None, least=None, most=None, why=""):
         Bounds: the value must be greater than `above`, at least `least` and at most `most`.
     why : str
         Reason for the bounds, for the message.
+    unit, given : str
+        For the message: unit of value and bounds, and text in place of the value.
 
     Raises
     ------
@@ -165,23 +155,17 @@ def check_number(name, value, *, above=None, least=None, most=None, why=""):
     ):
         return value
     bounds = {"greater than": above, "at least": least, "at most": most}
-    allowed = [f"{word} {bound:g}" for word, bound in bounds.items() if bound is not None]
+    allowed = ["finite"] if not math.isfinite(value) else []
+    allowed += [
+        f"{word} {with_unit(bound, unit)}" for word, bound in bounds.items() if bound is not None
+    ]
+    given = given or (with_unit(value, unit) if unit else plain(value))
     reason = f" ({why})" if why else ""
-    raise ValueError(
-        f"{name} = {plain(value)}: must be {' and '.join(['finite', *allowed])}{reason}"
-    )
+    raise ValueError(f"{name} = {given}: must be {' and '.join(allowed)}{reason}")
 
 
 def check_count(name, value, *, least=1, most=10**9, why=""):
-    """Return `value` as an int.
-
-    Raises
-    ------
-    TypeError
-        If the value is not a whole number.
-    ValueError
-        If the value is not from `least` to `most`.
-    """
+    """Return `value` as an int, or raise an error unless it is a whole number in the range."""
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} = {shown(value)}: must be a whole number")
@@ -189,3 +173,56 @@ def check_count(name, value, *, least=1, most=10**9, why=""):
         reason = f" ({why})" if why else ""
         raise ValueError(f"{name} = {shown(int(value))}: must be from {least} to {most}{reason}")
     return int(value)
+
+
+def check_frequency(value):
+    """Return the forcing frequency W as a float, or raise an error if it is out of range."""
+    return check_number("frequency", value, **FREQUENCY_RANGE)
+
+
+def check_starts(starts, points, least=1):
+    """Raise an error unless `starts`, for each of `points` grid points, are allowed.
+
+    All points together may have MOST_RUNS starts.
+    """
+    most = max(least, MOST_RUNS // points)
+    check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
+
+
+def nearest(name, known) -> str:
+    """Return "; did you mean ...?" with the known name nearest to `name`, or "" if none is near."""
+    matches = difflib.get_close_matches(name, known, 1) if isinstance(name, str) else []
+    return f"; did you mean {matches[0]}?" if matches else ""
+
+
+def names_arguments(function):
+    """Decorate a public function or class: a TypeError for a wrong argument lists the known ones.
+
+    For an unknown keyword it proposes the nearest.
+    """
+    if inspect.isclass(function):
+        function.__init__ = _checked(function.__init__, function.__name__)
+        return function
+    return _checked(function, function.__name__)
+
+
+def _checked(function, title):
+    parameters = inspect.signature(function).parameters
+    known = [name for name in parameters if name != "self"]
+    positional = [each for each in parameters.values() if each.kind is each.POSITIONAL_OR_KEYWORD]
+
+    @wraps(function)
+    def checked(*args, **kwargs):
+        for name in kwargs:
+            if name not in parameters:
+                raise TypeError(
+                    f"{title}() has no argument {name!r}; known: {', '.join(known)}"
+                    f"{nearest(name, known)}"
+                )
+        if len(args) > len(positional):
+            raise TypeError(
+                f"{title}() has too many arguments without a name; known: {', '.join(known)}"
+            )
+        return function(*args, **kwargs)
+
+    return checked

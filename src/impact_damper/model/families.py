@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from impact_damper.model.arguments import read_span
-from impact_damper.model.bounds import FREQUENCY_RANGE, shown
-from impact_damper.model.names import nearest
+from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import DASHPOT, FORCE, SHAKER, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 

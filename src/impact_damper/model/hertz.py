@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from impact_damper.model.names import names_arguments
+from impact_damper.model.bounds import names_arguments
 from impact_damper.model.units import convert, physical
 
 # Duration of an impact, in units of the largest compression divided by the speed:

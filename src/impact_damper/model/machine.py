@@ -11,13 +11,12 @@ from impact_damper.model.bounds import (
     MASS_RATIO_RANGE,
     RESTITUTION_RANGE,
     STIFFNESS_RANGE,
+    names_arguments,
     shown,
 )
-from impact_damper.model.names import names_arguments
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.model.scales import Scales, static_deflection
 from impact_damper.model.text import with_unit
-from impact_damper.model.units import check_si, convert, physical
+from impact_damper.model.units import Scales, check_si, convert, physical
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
 # Largest damping ratio for which `Machine.oscillator` approximates the force of a moving base over
@@ -362,6 +361,20 @@ class Machine:
         damper = MachineDamper(mass=mass, gap=gap, **contact)
         damper.check_for(self)
         return damper
+
+
+def static_deflection(force, linear, cubic) -> float:
+    """Return the deflection x > 0 at which linear x + |cubic| x^3 equals a force, all in SI units.
+
+    The cubic equation has one real root, computed here in hyperbolic form.
+    """
+    cubic = abs(cubic)
+    if cubic == 0:
+        return force / linear
+    if linear == 0:
+        return (force / cubic) ** (1 / 3)
+    length = math.sqrt(linear) / math.sqrt(3 * cubic)
+    return 2 * length * math.sinh(math.asinh(1.5 * force / (linear * length)) / 3)
 
 
 def check_fit(machine, damper):

@@ -11,8 +11,7 @@ import math
 
 import numpy as np
 
-from impact_damper.model.bounds import MOST_STIFF
-from impact_damper.model.checks import check_frequency
+from impact_damper.model.bounds import MOST_STIFF, check_frequency
 from impact_damper.model.parameters import check_damper, check_oscillator
 from impact_damper.model.text import number
 

@@ -20,11 +20,11 @@ from impact_damper.model.bounds import (
     RESTITUTION_RANGE,
     STIFFNESS_RANGE,
     check_parameters,
+    names_arguments,
     parameter,
     shown,
 )
-from impact_damper.model.names import names_arguments
-from impact_damper.model.scales import UNITLESS, Scales
+from impact_damper.model.units import UNITLESS, Scales
 
 # Fields of `Oscillator` that are 0 for a linear spring, and the highest power of Z1 in the force of
 # the spring.

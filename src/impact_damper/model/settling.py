@@ -13,9 +13,9 @@ from impact_damper.model.bounds import (
     WATCHED_RANGE,
     check_count,
     check_number,
+    names_arguments,
     shown,
 )
-from impact_damper.model.names import names_arguments
 
 
 @names_arguments

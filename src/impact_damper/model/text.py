@@ -12,14 +12,12 @@ POSITIONAL = 5
 def number(value, digits=3) -> str:
     """Return a number with at most `digits` significant digits, such as "0.215", "12300" or "2e7".
 
-    With `digits=None` the text has all digits of the number. NaN becomes "none", infinity "∞".
+    NaN becomes "none", infinity "∞".
     """
     value = float(value) + 0.0  # -0.0 becomes 0.0
     if not math.isfinite(value):
         return "none" if math.isnan(value) else "∞" if value > 0 else "-∞"
-    text = f"{value:g}" if digits is None else f"{value:.{digits}g}"
-    if digits is None and float(text) != value:
-        text = repr(value)
+    text = f"{value:.{digits}g}"
     if "e" not in text:
         return text
     mantissa, power = text.split("e")
@@ -40,3 +38,12 @@ def with_unit(value, unit, digits=6) -> str:
     """Return a number with its unit; the unit "1" of a pure number is left out."""
     text = number(value, digits)
     return text if text == "none" or unit in ("", "1") else f"{text} {unit}"
+
+
+def plain(value) -> str:
+    """Return a number with at most six digits if these are exact, otherwise with all digits."""
+    value = float(value)
+    if not math.isfinite(value):
+        return repr(value)
+    short = number(value, 6)
+    return short if float(short) == value else repr(value)

@@ -1,7 +1,9 @@
-"""Physical quantities in SI units, from numbers, texts such as "0.4 mm", and quantities of pint.
+"""Physical quantities in SI units, and the scales in which the equations are dimensionless.
 
-pint takes a third of a second to import, so it is imported only where a text or a quantity of pint
-is given. This module imports no NumPy either, since Snakemake reads it at every dry run.
+A quantity is a number, a text such as "0.4 mm", or a quantity of pint. pint takes a third of a
+second to import, so it is imported only where a text or a quantity of pint is given. The equations
+of section 2.1 of Chatterjee, Mallik and Ghosh (1995) hold for any scales of length and time; the
+scale of mass is the mass of the machine.
 """
 
 import math
@@ -12,7 +14,7 @@ from functools import cache
 from typing import NamedTuple
 
 from impact_damper.model.bounds import check_number, shown
-from impact_damper.model.text import with_unit
+from impact_damper.model.text import number, with_unit
 
 
 class Quantity(NamedTuple):
@@ -110,17 +112,17 @@ def si_value(name, value, quantity) -> float:
         parts = TEXT.fullmatch(value) if len(value) <= LONGEST_TEXT else None
         if parts is None:
             raise ValueError(f"{name} = {shown(value)}: {allowed}{wrong_unit(value, quantity)}")
-        number, text = float(parts[1]), parts[2] or ""
+        magnitude, text = float(parts[1]), parts[2] or ""
     elif hasattr(value, "magnitude") and hasattr(value, "units"):
-        number, text = value.magnitude, str(value.units)
-        if isinstance(number, bool) or not isinstance(number, numbers.Real):
+        magnitude, text = value.magnitude, str(value.units)
+        if isinstance(magnitude, bool) or not isinstance(magnitude, numbers.Real):
             raise TypeError(f"{name} = {shown(value)}: {allowed}")
     else:
         raise TypeError(f"{name} = {shown(value)}: {allowed}")
     factor = _factor(text, unit)
     if factor is None:
         raise ValueError(f"{name} = {shown(str(value))}: {allowed}{wrong_unit(value, quantity)}")
-    return check_number(name, float(number) * factor)
+    return check_number(name, float(magnitude) * factor)
 
 
 def wrong_unit(value, quantity) -> str:
@@ -176,28 +178,11 @@ def _registry():
     return pint.UnitRegistry()
 
 
-def check_si(name, value, quantity, *, above=None, least=None, most=None, why="") -> float:
-    """Return a physical quantity in its SI unit, or raise an error with the bounds in that unit.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As in `si_value`, or if the value is outside the bounds.
-    """
-    number, unit = si_value(name, value, quantity), QUANTITIES[quantity].unit
-    if (
-        (above is None or number > above)
-        and (least is None or number >= least)
-        and (most is None or number <= most)
-    ):
-        return number
-    bounds = {"greater than": above, "at least": least, "at most": most}
-    allowed = [
-        f"{word} {with_unit(bound, unit)}" for word, bound in bounds.items() if bound is not None
-    ]
-    reason = f" ({why})" if why else ""
-    given = shown(value) if isinstance(value, str) else with_unit(number, unit)
-    raise ValueError(f"{name} = {given}: must be {' and '.join(allowed)}{reason}")
+def check_si(name, value, quantity, **bounds) -> float:
+    """Return a physical quantity in its SI unit; the bounds of `check_number` are in this unit."""
+    given = shown(value) if isinstance(value, str) else ""
+    unit = QUANTITIES[quantity].unit
+    return check_number(name, si_value(name, value, quantity), unit=unit, given=given, **bounds)
 
 
 def physical(quantity, **others):
@@ -222,7 +207,83 @@ def convert(part) -> None:
     for each in fields(part):
         value = getattr(part, each.name)
         if "quantity" in each.metadata and not (value is None and each.default is None):
-            number = check_si(
-                each.name, value, each.metadata["quantity"], **each.metadata["bounds"]
-            )
-            object.__setattr__(part, each.name, number)
+            found = check_si(each.name, value, each.metadata["quantity"], **each.metadata["bounds"])
+            object.__setattr__(part, each.name, found)
+
+
+class Scales(NamedTuple):
+    """Scales of a machine, in SI units; all are 1 for an `Oscillator`.
+
+    Attributes
+    ----------
+    length : float
+        Length x0, m.
+    time : float
+        Time 1/w0, s.
+    mass : float
+        Mass m1 of the machine, kg.
+    si : bool
+        Whether users give values, and read errors and results, in SI units.
+    """
+
+    length: float = 1.0
+    time: float = 1.0
+    mass: float = 1.0
+    si: bool = False
+
+    def unit(self, kind) -> float:
+        """Return the SI value of the dimensionless 1 of a key of `units.QUANTITIES`.
+
+        The dimensionless frequency W is angular; its value in Hz is W w0/(2 pi).
+        """
+        if not self.si:
+            return 1.0
+        each = QUANTITIES[kind]
+        value = self.length**each.length * self.time**each.time * self.mass**each.mass
+        return value / (2 * math.pi) if kind in ("frequency", "sweep_rate") else value
+
+    def to_si(self, value, kind):
+        """Return the SI value of a dimensionless number or array."""
+        return value * self.unit(kind)
+
+    def from_si(self, value, kind):
+        """Return the dimensionless value of an SI number or array."""
+        return value / self.unit(kind)
+
+    def range_to_si(self, bounds, kind) -> dict:
+        """Return `above`, `least` and `most` of a dimensionless range in SI units."""
+        return {
+            end: value if end == "why" else self.to_si(value, kind) for end, value in bounds.items()
+        }
+
+    def read(self, name, value, kind, **bounds) -> float:
+        """Return an argument of a public function as a dimensionless number.
+
+        Parameters
+        ----------
+        name : str
+            Name of the argument, for messages.
+        value : float, str, pint.Quantity or xarray.DataArray
+            In the unit of the user.
+        kind : str
+            A key of `units.QUANTITIES`.
+        **bounds
+            Dimensionless, as in `check_number`.
+
+        Raises
+        ------
+        TypeError, ValueError
+            In the unit of the user.
+        """
+        if not self.si:
+            return check_number(name, value, **bounds)
+        return self.from_si(check_si(name, value, kind, **self.range_to_si(bounds, kind)), kind)
+
+    def told(self, name, value, kind) -> str:
+        """Return "name = value" with a dimensionless value in the unit of the user."""
+        if not self.si:
+            return f"{name} = {number(value, 6)}"
+        return f"{name} = {with_unit(self.to_si(value, kind), QUANTITIES[kind].unit, 5)}"
+
+
+UNITLESS = Scales()

@@ -18,8 +18,8 @@ from impact_damper.model.bounds import (
     RUNS_RANGE,
     SEED_RANGE,
     check_count,
+    names_arguments,
 )
-from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble, legs

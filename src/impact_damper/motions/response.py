@@ -26,9 +26,9 @@ from impact_damper.model.bounds import (
     SEED_RANGE,
     check_count,
     check_number,
+    check_starts,
+    names_arguments,
 )
-from impact_damper.model.checks import check_starts
-from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import Settling, check_settling

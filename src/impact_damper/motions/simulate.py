@@ -16,8 +16,8 @@ from impact_damper.model.bounds import (
     SEED_RANGE,
     check_count,
     check_number,
+    names_arguments,
 )
-from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions import traces
 

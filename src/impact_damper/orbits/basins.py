@@ -15,8 +15,14 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.model.arguments import read_forced, read_pair
-from impact_damper.model.bounds import FARTHEST, FASTEST, check_count, check_number, shown
-from impact_damper.model.names import names_arguments
+from impact_damper.model.bounds import (
+    FARTHEST,
+    FASTEST,
+    check_count,
+    check_number,
+    names_arguments,
+    shown,
+)
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import check_settling
 from impact_damper.motions.attractors import (

@@ -12,11 +12,14 @@ from scipy.optimize import brentq, minimize_scalar
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.model.arguments import read_increasing, read_radius, read_swept_damper
-from impact_damper.model.bounds import CLEARANCE_RANGE, SEED_RANGE, check_count, shown
-from impact_damper.model.checks import (
+from impact_damper.model.bounds import (
+    CLEARANCE_RANGE,
+    SEED_RANGE,
+    check_count,
     check_starts,
+    names_arguments,
+    shown,
 )
-from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import CLEARANCE, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import check_settling

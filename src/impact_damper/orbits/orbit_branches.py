@@ -16,10 +16,15 @@ from impact_damper.model.arguments import (
     read_state,
     read_system,
 )
-from impact_damper.model.bounds import FREQUENCY_RANGE, check_count, check_number, shown
-from impact_damper.model.checks import check_frequency
+from impact_damper.model.bounds import (
+    FREQUENCY_RANGE,
+    check_count,
+    check_frequency,
+    check_number,
+    names_arguments,
+    shown,
+)
 from impact_damper.model.families import LINEAR, family_of, read_followed
-from impact_damper.model.names import names_arguments
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.records import phase_of
 from impact_damper.motions.simulate import COMPONENTS

@@ -27,6 +27,6 @@ __all__ = [
 
 
 def __getattr__(name):
-    from impact_damper.model.names import nearest
+    from impact_damper.model.bounds import nearest
 
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}{nearest(name, __all__)}")

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from impact_damper.model.checks import check_frequency
+from impact_damper.model.bounds import check_frequency
 from impact_damper.theory.roots import polynomial_roots
 
 # Amplitudes that exceed a bound by at most this relative amount count as within the bound.

@@ -11,7 +11,7 @@ import xarray as xr
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.model.arguments import read_frequencies, read_system
-from impact_damper.model.names import names_arguments
+from impact_damper.model.bounds import names_arguments
 from impact_damper.theory import single_harmonic
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.free_oscillator import free_solutions, resonance

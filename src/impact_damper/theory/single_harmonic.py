@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from impact_damper.model.bounds import plain
-from impact_damper.model.checks import check_frequency
+from impact_damper.model.bounds import check_frequency
 from impact_damper.model.parameters import check_damper
+from impact_damper.model.text import plain
 from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.roots import polynomial_roots, smooth_roots
 

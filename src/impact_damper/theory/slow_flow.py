@@ -6,7 +6,7 @@ same eigenvalues elsewhere.
 
 import numpy as np
 
-from impact_damper.model.checks import check_frequency
+from impact_damper.model.bounds import check_frequency
 from impact_damper.theory.single_harmonic import contact_amplitude
 
 # A motion whose growth rate has a modulus of at most MARGIN counts as marginally stable.

@@ -9,9 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from impact_damper.model.machine import Machine
-from impact_damper.model.scales import Scales, static_deflection
-from impact_damper.model.units import QUANTITIES
+from impact_damper.model.machine import Machine, static_deflection
+from impact_damper.model.units import QUANTITIES, Scales
 
 HARD = Machine(mass=12, linear_stiffness=2e5, cubic_stiffness=4e9, damping_ratio=0.005, force=40)
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}

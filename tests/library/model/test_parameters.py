@@ -18,17 +18,17 @@ from impact_damper.model.parameters import Damper, Oscillator, describe, pick
 @pytest.mark.parametrize(
     "make, key, value, allowed",
     [
-        (Oscillator, "damping", 0.0, "at least 1e-09"),
-        (Oscillator, "damping", -0.2, "at least 1e-09"),
+        (Oscillator, "damping", 0.0, "at least 1e-9"),
+        (Oscillator, "damping", -0.2, "at least 1e-9"),
         (Oscillator, "damping", 11.0, "at most 10"),
         (Oscillator, "damping", math.nan, "finite"),
         (partial(Oscillator, 0.2), "linear_frequency", -1.0, "at least 0"),
-        (partial(Damper, clearance=2.0), "mass_ratio", 0.0, "at least 1e-06"),
+        (partial(Damper, clearance=2.0), "mass_ratio", 0.0, "at least 1e-6"),
         (partial(Damper, 0.12), "clearance", math.inf, "finite"),
-        (partial(Damper, 0.12), "clearance", -1.0, "at least 1e-06"),
+        (partial(Damper, 0.12), "clearance", -1.0, "at least 1e-6"),
         (partial(Damper, 0.12, 2.0), "restitution", 0.0, "at least 0.05 and at most 1"),
         (partial(Damper, 0.12, 2.0), "restitution", 1.01, "at most 1"),
-        (partial(Damper, 0.12, 2.0), "contact_stiffness", 0.0, "at least 1e-06"),
+        (partial(Damper, 0.12, 2.0), "contact_stiffness", 0.0, "at least 1e-6"),
         (partial(pack, Oscillator(0.2), None), "frequency", 0.0, "at least 0.01"),
     ],
 )
@@ -36,7 +36,7 @@ def test_values_out_of_range(make, key, value, allowed):
     """The message names the key, the value and what is allowed."""
     with pytest.raises(ValueError) as raised:
         make(**{key: value})
-    assert str(raised.value).startswith(f"{key} = {value:g}: must be finite and ")
+    assert str(raised.value).startswith(f"{key} = {value:g}: must be ")
     assert allowed in str(raised.value)
 
 

@@ -12,8 +12,7 @@ import impact_damper as idm
 from impact_damper.data.datasets import flag, from_si, in_si, variable
 from impact_damper.data.variables import VARIABLES
 from impact_damper.model.machine import Machine
-from impact_damper.model.scales import Scales
-from impact_damper.model.units import QUANTITIES
+from impact_damper.model.units import QUANTITIES, Scales
 
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
 LINEAR = Machine(**SPRING, force=40)
