@@ -179,19 +179,15 @@ def switched_on(oscillator, p, state, loose, generator):
 def _subharmonic_table(data, free):
     """Return the variables of the subharmonics without and with the damper at each frequency."""
     size = np.where(is_subharmonic(data), data["maximum_displacement"][1], -np.inf)
-    place = np.argmax(size, axis=1)
-    row = np.arange(len(size))
-    damped = size[row, place]
-    exists = damped > 0
+    damped = np.max(size, axis=1)
     found = np.max(np.where(reached(data), size, -np.inf), axis=1)
-    table = {"free_subharmonic": free, "subharmonic_ratio": np.where(exists, damped, 0) / free}
-    for name, values in (("damped_subharmonic", damped), ("reached_subharmonic", found)):
-        table[name] = np.where(values > 0, values, np.nan)
-    for name, values in (("suppression", damped), ("reached_suppression", found)):
-        table[name] = _suppression(values, free)
-    table["damped_subharmonic_period"] = np.where(exists, data["period"][1][row, place], 0)
-    table["damped_subharmonic_contacts"] = np.where(exists, data["contacts"][1][row, place], np.nan)
-    return table
+    return {
+        "free_subharmonic": free,
+        "damped_subharmonic": np.where(damped > 0, damped, np.nan),
+        "subharmonic_ratio": np.maximum(damped, 0) / free,
+        "suppression": _suppression(damped, free),
+        "reached_suppression": _suppression(found, free),
+    }
 
 
 def _suppression(damped, free):
@@ -212,9 +208,9 @@ def _branch_table(data, frequencies):
     for number, n in np.unique(np.stack([branch[found], period[found]], axis=1), axis=0):
         cells = found & (branch == number) & (period == n)
         ends, events = branch_ends(data, number, frequencies, np.flatnonzero(cells.any(axis=1)))
-        rows.append((number, n, np.max(data["maximum_displacement"][1][cells]), ends, events))
-    names = ("subharmonic_branch", "subharmonic_period", "subharmonic_displacement")
-    columns = zip(*rows, strict=True) if rows else [()] * 5
+        rows.append((n, np.max(data["maximum_displacement"][1][cells]), ends, events))
+    names = ("subharmonic_period", "subharmonic_displacement")
+    columns = zip(*rows, strict=True) if rows else [()] * 4
     *scalars, ends, events = (np.array(column) for column in columns)
     return dict(zip(names, scalars, strict=True)) | {
         "subharmonic_frequency": ends.reshape(-1, 2),

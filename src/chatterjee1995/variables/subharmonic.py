@@ -13,11 +13,6 @@ free_subharmonic_event | edge | | | event that ends the subharmonic without the 
   : SUBHARMONIC_END
 damped_subharmonic | frequency | displacement | max |Z1| | largest displacement of any subharmonic
   with the damper
-damped_subharmonic_period | frequency | | n | period of damped_subharmonic in cycles, 0 if there
-  is none
-damped_subharmonic_contacts | frequency | | | contacts begun per cycle in damped_subharmonic
-reached_subharmonic | frequency | displacement | | largest displacement of the damped subharmonics
-  to which random starts lead
 subharmonic_ratio | frequency | | | damped_subharmonic divided by free_subharmonic, 0 if the
   damper removes it
 suppression | frequency | | | effect of the damper on the subharmonic, judged by all motions found
@@ -28,7 +23,6 @@ reached_suppression | frequency | | | effect of the damper on the subharmonic, j
 switched_motion | switched_motion | | | kind of motion that follows when the damper is switched on
 switched_share | frequency switched_motion | | | share of starts on the free subharmonic that lead
   to each motion when the damper is switched on
-subharmonic_branch | subharmonic | | | number of a branch of damped subharmonics
 subharmonic_period | subharmonic | | n | period of the branch in cycles
 subharmonic_displacement | subharmonic | displacement | max |Z1| | largest displacement of the
   primary mass on the branch
