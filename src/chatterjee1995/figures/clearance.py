@@ -5,7 +5,6 @@ from itertools import product
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from impact_damper import plot
 from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.plot.maps import edges_of, hatch, mesh
 from impact_damper.plot.style import (
@@ -23,6 +22,7 @@ from impact_damper.plot.style import (
     points,
     style,
 )
+from impact_damper.plot.sweeps import sweep as sweep_plot
 
 # Parameters that a dataset can sweep, with the scale of their axis.
 SWEPT = {
@@ -58,7 +58,7 @@ UNSETTLED = {"hatch": "////", "edgecolor": BLACK, "linewidth": 0}
 def draw_optimum(*, optimum):
     """Draw the largest displacement of the quiet motion against clearance, all in one plot."""
     drawn = figure("double", 4.4)
-    plot.sweep(optimum, drawn.subplots())
+    sweep_plot(optimum, drawn.subplots())
     legend(drawn, 3)
     return drawn
 

@@ -3,8 +3,9 @@
 import numpy as np
 
 from chatterjee1995.variables.policies import POLICIES
-from impact_damper import plot
 from impact_damper.data.datasets import flag
+from impact_damper.plot.basin_plane import basins as basins_plot
+from impact_damper.plot.motions import migration as migration_plot
 from impact_damper.plot.style import (
     CURVES,
     ROLES,
@@ -43,8 +44,8 @@ def draw_migration(*, migration):
     for runs, whole, part in zip(migration, panels[::2], panels[1::2], strict=True):
         run = runs.isel(trial=int(runs["example"]))
         period = forcing_period(run)
-        plot.migration(run, whole)
-        plot.migration(run, part, np.nanmax(run["off_time"]) + period * np.array(AROUND))
+        migration_plot(run, whole)
+        migration_plot(run, part, np.nanmax(run["off_time"]) + period * np.array(AROUND))
         above = whole.secondary_xaxis("top", (lambda t, p=period: t / p, lambda n, p=period: n * p))
         above.set_xlabel(r"Cycles of the forcing, $\Omega T / 2 \pi$")
         whole.set(xlabel="", ylabel="")
@@ -103,7 +104,7 @@ def draw_basins(*, basins):
     drawn = figure("double", 0.2 + (3.4 if columns == 2 else 4.6) * rows)
     panels = drawn.subplots(rows, columns, squeeze=False).ravel()
     for axes, data in zip(panels, basins, strict=False):
-        plot.basins(data, axes)
+        basins_plot(data, axes)
     for axes in panels[len(basins) :]:
         axes.remove()
     letter_panels(panels[: len(basins)])

@@ -2,11 +2,13 @@
 
 import numpy as np
 
-from impact_damper import plot
 from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
+from impact_damper.plot.branches import branch as branch_plot
 from impact_damper.plot.branches import next_to_stable, runs
 from impact_damper.plot.motions import phase_panel
+from impact_damper.plot.responses import response as response_plot
 from impact_damper.plot.stacked_shares import LOOKS
+from impact_damper.plot.stacked_shares import shares as shares_plot
 from impact_damper.plot.style import (
     ROLES,
     figure,
@@ -31,7 +33,7 @@ def draw_free(*, branches):
     drawn = figure("double", 3.4)
     panels = drawn.subplots(1, len(branches), squeeze=False)[0]
     for axes, free in zip(panels, branches, strict=True):
-        plot.response(free, axes)
+        response_plot(free, axes)
         value = free["followed_value"].values
         axes.set_xlim(value.min(), value.max())
     if len(panels) > 1:
@@ -46,7 +48,7 @@ def draw_harmonic_balance(*, harmonic_balance):
     drawn = figure("double", 3.2)
     panels = drawn.subplots(1, len(harmonic_balance), sharey=True, squeeze=False)[0]
     for axes, balance in zip(panels, harmonic_balance, strict=True):
-        plot.response(balance, axes)
+        response_plot(balance, axes)
         axes.set(
             title=f"$d_0 = {parameters_of(balance)['clearance']:.3g}$",
             xlim=balance["frequency"].values[[0, -1]],
@@ -86,7 +88,7 @@ def draw_response(*, response, harmonic_balance, subharmonic, branches):
             if has_damper(each) and _restitution(each) == kind
         ]
         same = [each for each in subharmonic if has_damper(each) and _restitution(each) == kind]
-        plot.response([*free, *damped, *map(_period_3, same)], axes)
+        response_plot([*free, *damped, *map(_period_3, same)], axes)
         axes.label_outer()
         if len(kinds) > 1:
             axes.set_title(f"$e = {kind:g}$")
@@ -126,7 +128,7 @@ def draw_branches(*, branches):
                 role = ROLES["free_stable" if stable else "free_unstable"]
                 dashes = {} if stable else {"linestyle": ":"}
                 axes.plot(value, size, **role | dashes | {"linewidth": 0.7, "label": None})
-        plot.branch(data, axes)
+        branch_plot(data, axes)
         axes.set_ylim(bottom=0)
         _magnify(axes, data)
     legend(drawn, 4)
@@ -144,7 +146,7 @@ def _magnify(axes, data):
         return
     middle = places[:, near[np.argmax(near.sum(axis=0))]].mean(axis=1)[:, None]
     inset = axes.inset_axes((*_emptiest_corner(axes), *INSET))
-    plot.branch(data, inset)
+    branch_plot(data, inset)
     (left, right), (bottom, top) = middle + half * [-1, 1]
     inset.set(xlim=(left, right), ylim=(bottom, top), xlabel="", ylabel="")
     axes.indicate_inset_zoom(inset)
@@ -172,7 +174,7 @@ def draw_shares(*, response):
     panels = drawn.subplots(rows, columns, squeeze=False, sharey=True)
     used = panels.flat[: len(response)]
     for axes, data in zip(used, response, strict=True):
-        plot.shares(data, axes)
+        shares_plot(data, axes)
         words = parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
         unseen = f"not seen: at most {100 * float(data['missed_share']):.2g} %"
         axes.set_title(f"{words}; {unseen}", loc="right", fontsize=8)

@@ -40,13 +40,6 @@ class Optimum(keys_of(DAMPER, needed=NEEDED, without=["clearance", COMMON]), Wit
     clearances: range_of(CLEARANCE)
     starts: starts_of("at each clearance, in place of `search.sweep_starts`") = None
 
-    def contradictions(self, path, config):
-        yield from super().contradictions(path, config)
-        runs = (self.starts or 0) * config.points.clearances
-        if runs > MOST_RUNS:
-            reason = f"with points.clearances makes {runs}: must be at most {MOST_RUNS} in all"
-            yield problem((*path, "starts"), self.starts, f"{reason} (a job keeps them in memory)")
-
     @stage(
         "impact_damper.orbits.clearance_sweep:clearance_sweep",
         "Largest displacement against clearance, and its optimum, for {name}",

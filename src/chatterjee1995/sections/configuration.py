@@ -3,12 +3,20 @@
 from pydantic import ValidationError, create_model
 
 from chatterjee1995.sections.methods import Comparison
-from chatterjee1995.sections.registry import KINDS, SECTIONS, section_of
-from chatterjee1995.sections.report import Captions, Figure
+from chatterjee1995.sections.registry import KINDS, SECTIONS, TABLES, section_of
 from chatterjee1995.sections.system import CONTACT_STIFFNESS, RADIUS, Oscillators, too_many
-from impact_damper.command.messages import problem
+from impact_damper.command.messages import dotted, missing, one_of, problem
 from impact_damper.command.section import Section, parts
-from impact_damper.command.values import count, entries, number, points_of, starts_of, text
+from impact_damper.command.values import (
+    choice,
+    count,
+    entries,
+    number,
+    points_of,
+    several,
+    starts_of,
+    text,
+)
 from impact_damper.command.yaml_files import ConfigurationError, problems_of
 from impact_damper.model.bounds import (
     FURTHER_RANGE,
@@ -22,8 +30,6 @@ from impact_damper.model.bounds import (
     WATCHED_RANGE,
 )
 
-ENTRIES = {"oscillators": Oscillators} | SECTIONS | {"figures": Figure}
-
 # Keys whose product is the number of runs of a job.
 COUNTS = (
     ("points.free", "search.starts"),
@@ -33,6 +39,10 @@ COUNTS = (
     ("points.scanned", "controller.releases"),
     ("points.map_frequencies", "points.map_values"),
 )
+# Names of drawings, which a figure of the kind `schematic` has in place of entries.
+SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
+
+TEXT = text("in Markdown or reStructuredText without links")
 SEED = count("seed of all random draws", **SEED_RANGE)
 RESULTS = text(
     "folder below the working directory, without spaces or leading dots",
@@ -107,6 +117,59 @@ class Controller(Section):
     lifetime: count("forcing cycles of the long runs", **LIFETIME_RANGE)
 
 
+class Captions(Section):
+    """Captions of tables, and the texts that all figures of a kind share, by their names."""
+
+    figures: entries(TEXT)
+    tables: entries(TEXT)
+
+    def contradictions(self, path, config):
+        for key, known in (("figures", KINDS), ("tables", TABLES)):
+            texts = getattr(self, key)
+            for name in sorted(known.keys() - texts.keys()):
+                yield missing((*path, key, name), "each kind of figure and each table has one")
+            for name in sorted(texts.keys() - known.keys()):
+                yield problem((*path, key, name), texts[name], one_of(name, known))
+
+
+class Figure(Section):
+    """Figures: the kind of drawing, the entries drawn, and the caption."""
+
+    kind: choice("kind of drawing", *KINDS)
+    data: several(
+        text("name of an entry"),
+        "entries to draw, at most one for each distinct line style",
+        least=1,
+        most=max(kind.most for kind in KINDS.values()),
+        distinct=True,
+    )
+    title: text("first sentence of the caption, without the full stop", least=1)
+    remark: text("rest of the caption, which may be empty")
+
+    def contradictions(self, path, config):
+        kind, section, data = KINDS[self.kind], section_of(self.kind), (*path, "data")
+        known = getattr(config, section) if section else SCHEMATICS
+        if len(self.data) > kind.most:
+            reason = f"must be {kind.most} at most (what a figure of the kind {kind.name} draws)"
+            yield problem(data, self.data, reason)
+        for place, name in enumerate(self.data):
+            if name not in known:
+                yield problem((*data, place), name, one_of(name, known))
+            elif section == "curves":
+                yield from _curve_not_drawable((*data, place), name, kind, config)
+
+
+def _curve_not_drawable(path, name, kind, config):
+    """Yield a line for each reason why a kind of figure cannot draw a curve."""
+    curve, stage = config.curves[name], kind.stages[0]
+    if stage not in curve.stages:
+        reason = f"must hold {stage} (what {dotted(path[:2])} draws)"
+        yield problem(("curves", name, "stages"), curve.stages, reason)
+    if kind.damper != curve.has_damper():
+        word = "with" if kind.damper else "without"
+        yield problem(path, name, f"must be a curve {word} a damper (the kind {kind.name})")
+
+
 class Settings(Section):
     """Settings that hold for all stages."""
 
@@ -126,6 +189,7 @@ class Settings(Section):
             yield from too_many(path, self, keys)
 
 
+ENTRIES = {"oscillators": Oscillators} | SECTIONS | {"figures": Figure}
 Configuration = create_model(
     "Configuration",
     __base__=Settings,

@@ -5,16 +5,8 @@ from chatterjee1995.sections.system import too_many
 from impact_damper.command import machine_entry
 
 # Names of the figures of a machine's page, the keys of `plot.machine_figures.figures.FIGURES`.
-PAGE = (
-    "drawing",
-    "response",
-    "transients",
-    "cliff",
-    "tolerances",
-    "forces",
-    "dampers",
-    "competitors",
-    "masses",
+PAGE = tuple(
+    "drawing response transients cliff tolerances forces dampers competitors masses".split()
 )
 
 

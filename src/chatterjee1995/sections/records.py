@@ -5,42 +5,28 @@ from typing import NamedTuple
 
 
 class Stage(NamedTuple):
-    """A step of the workflow that computes a dataset for each entry of a section.
-
-    Attributes
-    ----------
-    name, section : str
-    job : callable
-        Method of an entry: the parameters of its job, from the whole configuration. They are the
-        keywords of `function`, in forms that `workflow.job.made` reads.
-    function : str
-        Function that computes the dataset, as "module:function".
-    message : str
-        What a run prints for a job.
-    reads : dict
-        Keyword of the function -> stages whose datasets of the same entry it gets.
-    files : dict
-        Keyword of the function -> JSON file of the project that it gets.
-    together : bool
-        Whether one job computes all entries, because starting a job takes longer than its work.
-    priority : int
-        2 for jobs for which other jobs wait, 1 for the longest jobs, which should not start last.
-    paper : bool
-        Whether `snakemake` without a target computes it.
-    page : tuple of str
-        Names of the figures on the page of an entry; empty without pages.
-    """
+    """A step of the workflow that computes a dataset for each entry of a section."""
 
     name: str
     section: str
+    # Method of an entry: from the whole configuration the keywords of `function`, in forms that
+    # `workflow.job.made` reads.
     job: Callable
+    # Function that computes the dataset, as "module:function".
     function: str
+    # What a run prints for a job.
     message: str
+    # Keyword of the function -> stages whose datasets of the same entry it gets.
     reads: dict = {}
+    # Keyword of the function -> JSON file of the project that it gets.
     files: dict = {}
+    # Whether one job computes all entries, because its start takes longer than its work.
     together: bool = False
+    # 2 for jobs for which other jobs wait, 1 for the longest jobs, which should not start last.
     priority: int = 0
+    # Whether `snakemake` without a target computes it.
     paper: bool = True
+    # Names of the figures on the page of an entry, if it has one.
     page: tuple[str, ...] = ()
 
 
@@ -55,25 +41,17 @@ def stage(function, message, **options):
 
 
 class Table(NamedTuple):
-    """A table of a chapter, made by the function of the same name in a module.
+    """A table of a chapter, made by the function with its name from the datasets of stages.
 
-    The CSV file has all columns, the Markdown file the first nine.
-
-    Attributes
-    ----------
-    name, chapter : str
-    module : str
-        Full name of the module, or its name in `chatterjee1995.tables`.
-    stages : tuple of str
-        Stages whose datasets it summarises.
-    pictures : bool
-        Whether its Markdown shows figures, so that it needs their names.
+    The CSV file has all columns, the Markdown file those that the module lists in `SHOWN`.
     """
 
     name: str
     chapter: str
+    # Full name of the module, or its name in `chatterjee1995.tables`.
     module: str
     stages: tuple[str, ...]
+    # Whether its Markdown shows figures, so that it needs their names.
     pictures: bool = False
 
     @property
@@ -83,30 +61,20 @@ class Table(NamedTuple):
 
 
 class Kind(NamedTuple):
-    """A kind of figure, drawn by the function `draw_<name>` of a module.
-
-    Attributes
-    ----------
-    name, chapter : str
-    module : str
-        Full name of the module, or its name in `chatterjee1995.figures`.
-    stages : tuple of str
-        Stages whose datasets it draws. An entry of `curves` must have the first of them.
-    most : int
-        Largest number of entries in a figure.
-    damper : bool
-        If it draws entries of `curves`: whether they must have a damper. If they must, and it draws
-        `branches`, it also draws the branches of the same oscillators without a damper.
-    named : bool
-        Whether the caption names each entry.
-    """
+    """A kind of figure, drawn by the function `draw_<name>` from the datasets of stages."""
 
     name: str
     chapter: str
+    # Full name of the module, or its name in `chatterjee1995.figures`.
     module: str
+    # An entry of `curves` must have the first of these stages.
     stages: tuple[str, ...]
+    # Largest number of entries in a figure.
     most: int = 6
+    # Whether entries of `curves` must have a damper, or must have none. If they have one, a figure
+    # with `branches` also draws those of the same oscillators without a damper.
     damper: bool = True
+    # Whether the caption names each entry.
     named: bool = False
 
     @property

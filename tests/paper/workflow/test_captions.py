@@ -6,7 +6,7 @@ import pytest
 from helpers import configurations
 
 from chatterjee1995.sections import selection
-from chatterjee1995.sections.captions import caption, cases_in_words, in_words
+from chatterjee1995.sections.selection import caption, cases_in_words, in_words
 
 CONFIG = configurations.paper()
 

@@ -15,15 +15,13 @@ from helpers.broken import SMALL
 from helpers.running import ROOT
 
 from chatterjee1995.figures import schematics
-from chatterjee1995.sections.configuration import configuration, without_left_out
+from chatterjee1995.sections.configuration import SCHEMATICS, configuration, without_left_out
 from chatterjee1995.sections.reference import reference
-from chatterjee1995.sections.report import SCHEMATICS
 from impact_damper.command.yaml_files import ConfigurationError, check_file
 from impact_damper.model.bounds import CLEARANCE_RANGE, FREQUENCY_RANGE
 from impact_damper.model.parameters import Damper, Oscillator, parameters_in
 
 PAPER = configurations.read()
-STUDY = PAPER["studies"]["design_plane"]
 
 
 def problems(config):
@@ -88,14 +86,11 @@ def test_the_paper_is_accepted_and_so_are_valid_extremes(path, value):
         ("curves/figure_05a/stages", ["harmonic_balance"], "must hold response"),
         ("curves/figure_10/stages", ["response", "response"], "without repetition"),
         ("curves/free_h215/stages", ["subharmonic"], "must not hold subharmonic without a damper"),
-        ("curves/free_h215/stages", ["response"], "must have beside it an entry of curves with"),
         ("curves/free_h215/mass_ratio", 0.12, "clearance: missing; needed with mass_ratio (a damp"),
         ("search/starts", 1, "at least 2 with curves.figure_05a.stages subharmonic"),
         ("search/starts", 1000000, "makes 201000000: must be at most 1000000 in all"),
         ("rigid_limit/figure_10/cells/stiffnesses", 100000, "at most 1000000 in all"),
-        ("studies/design_plane/clearance", 2, "must be a range (an axis of the map of figures"),
         ("studies/design_plane/mass_ratio/points", 10**5, "chunks = 1: must be at least 5 with"),
-        ("studies/design_plane/frequency", STUDY["clearance"], "must be at most 3 (panels of"),
         ("chunks", 1000, "must be at most 943 (the cells of studies.design_plane)"),
         ("balance_map/over_restitution/restitution", 1, "left out (it changes from row to row)"),
         ("balance_map/over_restitution/values/last", 1.5, "must be from 0.05 to 1"),
@@ -221,7 +216,7 @@ def test_the_reference_is_up_to_date():
 @pytest.mark.parametrize(
     ("path", "value", "told"),
     [
-        ("damper/mass", "13 kg", "damper.mass = '13 kg': must be "),
+        ("damper/mass", "13 kg", "mass = '13 kg': must be "),
         ("band/last", 20.4, "band = 20.3 Hz to 20.4 Hz: must "),
         ("starts", 72, "starts = 72: must be from 73 "),
         ("tolerances/gap", "110 %", "tolerances.gap = '110 %': must be "),
@@ -230,4 +225,4 @@ def test_the_reference_is_up_to_date():
 )
 def test_a_machine_is_told_what_is_wrong_with_it(path, value, told):
     lines = problems(changed(f"machines/pump/{path}", value))
-    assert any(line.startswith(f"machines.pump.{told}") for line in lines), lines
+    assert any(line.startswith("machines.pump") and told in line for line in lines), lines
