@@ -3,14 +3,11 @@
 import math
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
 
 from impact_damper.model.machine import Machine, static_deflection
-from impact_damper.model.units import QUANTITIES, Scales
 
 HARD = Machine(mass=12, linear_stiffness=2e5, cubic_stiffness=4e9, damping_ratio=0.005, force=40)
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
@@ -25,14 +22,6 @@ MACHINES = {
     "on a shaker": Machine(**SPRING, base_acceleration="3 m/s^2"),
     "free": Machine(**SPRING, force=0),
 }
-positive = st.floats(1e-3, 1e3)
-
-
-@given(positive, positive, positive, st.sampled_from(sorted(QUANTITIES)), positive)
-def test_scales_lead_back(length, time, mass, quantity, value):
-    scales = Scales(length, time, mass)
-    there = scales.to_si(value, quantity)
-    assert scales.from_si(there, quantity) == pytest.approx(value, rel=1e-15, abs=0)
 
 
 @pytest.mark.parametrize("name", MACHINES)
@@ -79,17 +68,6 @@ def test_the_static_deflection_carries_the_force(force, linear, cubic):
     assert linear * x + cubic * x**3 == pytest.approx(force, rel=1e-12)
 
 
-def test_the_displacement_at_resonance_is_that_of_the_linear_machine():
-    expected = {
-        "linear": 40 / (0.01 * 2e5),
-        "on a base": 2e-4 / 0.01,
-        "on a shaker": 3 * 12 / 2e5 / 0.01,
-        "unbalanced": 0.002 / 12 / 0.01,
-    }
-    for name, size in expected.items():
-        assert MACHINES[name].resonant_displacement == pytest.approx(size, rel=1e-3)
-
-
 def test_damping_is_a_ratio_or_a_coefficient():
     ratio = HARD.damping_ratio
     same = replace(HARD, damping_ratio=None, damping=2 * ratio * math.sqrt(2e5 * 12))
@@ -113,63 +91,20 @@ def test_the_force_of_a_base_at_one_frequency_is_exact():
         assert scales.to_si(answer, "displacement") == pytest.approx(base * passed, rel=1e-13)
 
 
-def test_a_loose_mass_on_a_moving_base_sees_the_motion_in_space():
-    """Two masses on a base that moves, in a frame at rest, against the scaled equations.
-
-    The loose mass is in flight. Z2 is the distance between machine and loose mass.
-    """
-    machine, hertz = MACHINES["on a base"], 19.0
-    k, c, m, a = 2e5, machine.viscous_damping, 12.0, 2e-4
-    angular = 2 * math.pi * hertz
-
-    def rate(t, y):
-        base, speed = a * math.cos(angular * t), -a * angular * math.sin(angular * t)
-        return [y[1], (-k * (y[0] - base) - c * (y[1] - speed)) / m, y[3], 0.0]
-
-    end = 5 / hertz
-    tight = {"rtol": 1e-12, "atol": 1e-16, "method": "DOP853"}
-    in_space = solve_ivp(rate, (0, end), [1e-3, 0, 0, 0.05], **tight).y[:, -1]
-    oscillator, scales = machine.oscillator(hertz), machine.scales
-    w, length, speed = (
-        scales.from_si(x, q)
-        for x, q in ((hertz, "frequency"), (1, "displacement"), (1, "velocity"))
-    )
-    # because of the dashpot the force leads the base by this angle
-    lead = math.atan2(c * angular, k)
-
-    def scaled(t, z):
-        force = oscillator.forcing_amplitude(w) * math.cos(w * t + lead)
-        pull = force - oscillator.damping * z[1] - oscillator.linear_frequency**2 * z[0]
-        return [z[1], pull, z[3], pull]
-
-    start = np.array([1e-3 * length, 0, 1e-3 * length, -0.05 * speed])
-    z = solve_ivp(scaled, (0, scales.from_si(end, "time")), start, **tight).y[:, -1]
-    gap = in_space[0] - in_space[2]
-    assert scales.to_si(z[0], "displacement") == pytest.approx(in_space[0], rel=1e-8)
-    assert scales.to_si(z[2], "displacement") == pytest.approx(gap, rel=1e-8)
-
-
 @pytest.mark.parametrize(
     ("changes", "told"),
     [
         ({"mass": -1}, "mass = -1 kg: must be at least 1e-15 kg"),
-        ({"mass": "-1 kg"}, "mass = '-1 kg': must be at least"),
-        (
-            {"damping_ratio": 1.2},
-            "damping_ratio = 1.2: must be greater than 0 and at most 0.99 (at 1,",
-        ),
         (
             {"damping_ratio": 1},
             "damping_ratio = 1: must be greater than 0 and at most 0.99 (at 1, critical"
             " damping, nothing vibrates; 1 per cent is 0.01 or '1 %')",
         ),
-        ({"damping_ratio": 0}, "damping_ratio = 0: must be greater than 0"),
         (
             {"damping_ratio": None, "damping": 4000},
             "damping = 4000 N s/m: must be at most 3067.4 N s/m (0.99 of",
         ),
         ({"damping_ratio": None}, "damping: must be given, or damping_ratio"),
-        ({"damping": 3}, "damping: must be given, or damping_ratio"),
         ({"force": None}, "excitation = none of them: must be one of force, base_displ"),
         ({"unbalance": 1}, "excitation = force and unbalance: must be one of"),
         ({"linear_stiffness": 0}, "linear_stiffness = 0 N/m: must be greater than 0 N/m with"),
@@ -177,10 +112,6 @@ def test_a_loose_mass_on_a_moving_base_sees_the_motion_in_space():
             {"force": None, "base_acceleration": 1, "cubic_stiffness": 1},
             "cubic_stiffness = 1 N/m^3: must be 0 with base_acceleration (relative to the base, the"
             " loose mass would feel",
-        ),
-        (
-            {"force": None, "base_displacement": 1, "cubic_stiffness": 1},
-            "cubic_stiffness = 1 N/m^3: must be 0 with base_displacement",
         ),
         ({"mass": "12 m"}, "mass = '12 m': must be a number in kg, or text"),
     ],
@@ -194,13 +125,10 @@ def test_nonsense_is_refused_in_si_units(changes, told):
 @pytest.mark.parametrize(
     ("changes", "told"),
     [
-        ({"mass": 0}, "mass = 0 kg: must be greater than 0 kg"),
         ({"mass": 500}, "mass = 500 kg: must be at least 1.2e-5 kg and at most 120 kg"),
         ({"gap": None}, "gap: must be given, the full play, or clearance_each_side"),
         ({"clearance_each_side": 1}, "gap: must be given, the full play, or clearance_each_side"),
-        ({"gap": "3 kg"}, "gap = '3 kg': must be a number in m"),
         ({"gap": "0.1 µm"}, "gap = 1e-7 m: must be greater than 1.90476e-7 m (static play"),
-        ({"restitution": 1.1}, "restitution = 1.1: must be at least 0.05 and at most 1"),
         ({"contact_stiffness": None}, "contact_stiffness = None: must be a number in N/m"),
         ({"contact_stiffness": -2e7}, "contact_stiffness = -2e7 N/m: must be greater than 0"),
     ],

@@ -1,8 +1,6 @@
 """Extreme machines and dampers: every motion ends within its limit of forcing cycles.
 
-Mass ratios 1e-4 to 1, gaps from the penetration of the contact to 1000 static deflections on each
-side, restitution 0.05 to 1, contacts up to 1e6 times as stiff as the machine, damping ratios 1e-5
-to 0.5. One parameter is extreme at a time, or several together in a Latin hypercube.
+One parameter is extreme at a time, or several together in a Latin hypercube.
 """
 
 import math
@@ -19,15 +17,7 @@ from impact_damper.model.bounds import CLEARANCE_RANGE
 SHORT = idm.Settling(patience=100, limit=100, watched=2, further=0)
 OUTCOMES = [
     flag("outcome", name)
-    for name in (
-        "unresolved",
-        "settled",
-        "chaotic",
-        "non_colliding",
-        "escaped",
-        "at_rest",
-        "drifting",
-    )
+    for name in "unresolved settled chaotic non_colliding escaped at_rest drifting".split()
 ]
 MASS, STIFFNESS, FORCE = 12.0, 2e5, 40.0
 SPRINGS = {"linear": 0.0, "hardening": 4e9, "softening": -4e9}
@@ -46,8 +36,7 @@ USUAL = {
     "stiffness_ratio": 100.0,
     "damping_ratio": 0.005,
 }
-# If the contact vibrates more than FAST times as fast as the machine, a forcing cycle takes up to
-# half a second to compute.
+# With contacts more than FAST times as fast as the machine a forcing cycle takes half a second.
 FAST = 1e3
 ALONE = [{name: value} for name, both in ENDS.items() for value in both]
 
@@ -78,28 +67,21 @@ def extreme(spring, mass_ratio, gap, restitution, stiffness_ratio, damping_ratio
     return machine, damper
 
 
-def drawn(count, seed=18):
+def drawn(count):
     """Return extremes drawn together; a third of the values are ends of their range."""
-    rows = qmc.LatinHypercube(len(ENDS), rng=seed).random(count)
+    rows = qmc.LatinHypercube(len(ENDS), rng=18).random(count)
     levels = np.clip(1.5 * rows - 0.25, 0, 1)
-    values = {}
-    for (name, (first, last)), column in zip(ENDS.items(), levels.T, strict=True):
-        logarithmic = name != "gap" and name != "restitution"
-        values[name] = (
-            first * (last / first) ** column if logarithmic else first + (last - first) * column
-        )
-    return [dict(zip(values, row, strict=True)) for row in zip(*values.values(), strict=True)]
+    linear = np.array([name in ("gap", "restitution") for name in ENDS])
+    first, last = np.array(list(ENDS.values())).T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        values = np.where(linear, first + (last - first) * levels, first * (last / first) ** levels)
+    return [dict(zip(ENDS, row, strict=True)) for row in values]
 
 
 def named(given):
     if isinstance(given, str):
         return given
     return "-".join(f"{name}={value:.3g}" for name, value in given.items())
-
-
-def contact_speed(given):
-    """Return the natural frequency of the contact divided by the machine's natural frequency."""
-    return math.sqrt(given["stiffness_ratio"] * (1 + 1 / given["mass_ratio"]))
 
 
 def assert_ends(spring, given, ratio):
@@ -136,23 +118,8 @@ def test_a_machine_with_one_extreme_ends_in_an_outcome(spring, given):
 )
 def test_extremes_together_end_in_an_outcome(spring, given):
     """With a slow contact a run ends within its limit. With a fast one a run of one cycle ends."""
-    if contact_speed(given) < FAST:
+    speed = math.sqrt(given["stiffness_ratio"] * (1 + 1 / given["mass_ratio"]))
+    if speed < FAST:
         assert_ends(spring, given, 1.0)
     else:
         assert_a_period_ends(spring, given)
-
-
-@pytest.mark.parametrize("name", ["mass_ratio", "restitution", "stiffness_ratio"])
-@pytest.mark.parametrize("end", [0, 1])
-def test_a_search_at_an_extreme_has_outcomes(name, end):
-    machine, damper = extreme("hardening", **USUAL | {name: ENDS[name][end]})
-    found = idm.frequency_response(machine, damper, [24.0], starts=1, settling=SHORT)
-    assert np.isin(found["run_outcome"], OUTCOMES).all()
-
-
-@pytest.mark.parametrize("restitution", ENDS["restitution"])
-@pytest.mark.parametrize("gap", ENDS["gap"])
-def test_the_fastest_contact_keeps_its_time(restitution, gap):
-    """A light loose mass at stiff walls: up to 200 000 contacts in a forcing cycle."""
-    given = {"mass_ratio": 1e-4, "stiffness_ratio": 1e6, "gap": gap, "restitution": restitution}
-    assert_a_period_ends("linear", USUAL | given)

@@ -1,7 +1,4 @@
-"""Parameters: their meaning, and the errors for wrong values.
-
-Symbols are as in `system.parameters`. Numbers in brackets are equations of the paper.
-"""
+"""Parameters: their meaning, their places in the packed array, and errors for wrong values."""
 
 import math
 from functools import partial
@@ -10,25 +7,21 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from impact_damper.model import packed
 from impact_damper.model.bounds import check_count, check_number
 from impact_damper.model.packed import pack
-from impact_damper.model.parameters import Damper, Oscillator, describe, pick
+from impact_damper.model.parameters import Damper, Oscillator
 
 
 @pytest.mark.parametrize(
     "make, key, value, allowed",
     [
-        (Oscillator, "damping", 0.0, "at least 1e-9"),
-        (Oscillator, "damping", -0.2, "at least 1e-9"),
+        (Oscillator, "damping", 0.0, "at least 1e-9 and at most 10 (motions must settle)"),
         (Oscillator, "damping", 11.0, "at most 10"),
         (Oscillator, "damping", math.nan, "finite"),
-        (partial(Oscillator, 0.2), "linear_frequency", -1.0, "at least 0"),
         (partial(Damper, clearance=2.0), "mass_ratio", 0.0, "at least 1e-6"),
         (partial(Damper, 0.12), "clearance", math.inf, "finite"),
-        (partial(Damper, 0.12), "clearance", -1.0, "at least 1e-6"),
         (partial(Damper, 0.12, 2.0), "restitution", 0.0, "at least 0.05 and at most 1"),
-        (partial(Damper, 0.12, 2.0), "restitution", 1.01, "at most 1"),
-        (partial(Damper, 0.12, 2.0), "contact_stiffness", 0.0, "at least 1e-6"),
         (partial(pack, Oscillator(0.2), None), "frequency", 0.0, "at least 0.01"),
     ],
 )
@@ -62,11 +55,6 @@ def test_checks_return_plain_numbers():
         check_count("count", 2.0)
 
 
-def test_reason_is_given():
-    with pytest.raises(ValueError, match=r"\(motions must settle\)"):
-        Oscillator(0.0)
-
-
 @pytest.mark.parametrize("mass_ratio", [0.01, 0.25, 10.0])
 @pytest.mark.parametrize("restitution", [0.05, 0.3, 0.75, 0.9, 1.0])
 def test_damping_of_the_contact_gives_the_restitution(mass_ratio, restitution):
@@ -89,8 +77,24 @@ def test_pack_refuses_what_is_out_of_range_or_of_another_type():
         pack(Oscillator(0.1), 0.2, 1.0)
 
 
-def test_pick_takes_all_fields_of_a_dataclass_and_nothing_else():
-    oscillator, damper = Oscillator(0.1, 0.5), Damper(0.12, 2.0, 0.8, 1500.0)
-    values = describe(oscillator, damper) | {"frequency": 2.0}
-    assert Oscillator(**pick(Oscillator, values)) == oscillator
-    assert Damper(**pick(Damper, values)) == damper
+def test_packed_parameters_stand_in_their_named_places():
+    damper = Damper(0.12, 2.0, 0.6, 1500.0)
+    p = pack(Oscillator(0.04, 0.9), damper, 1.7)
+    expected = {
+        "FREQUENCY": 1.7,
+        "DAMPING": 0.04,
+        "STIFFNESS": 0.9**2,
+        "CLEARANCE": 2.0,
+        "CONTACT_STIFFNESS": 1500.0,
+        "INVERSE_MASS_RATIO": 1 / 0.12,
+        "DASHPOT": damper.dashpot,
+    }
+    assert {name: p[getattr(packed, name)] for name in expected} == expected
+    assert p.shape == (packed.COUNT,)
+    assert [getattr(packed, name) for name in packed.NAMES] == list(range(packed.COUNT))
+
+
+def test_without_a_damper_walls_are_out_of_reach_and_exert_no_force():
+    p = pack(Oscillator(0.04, 0.9), None, 1.7)
+    assert p[packed.CLEARANCE] == np.inf
+    assert not np.any(p[[packed.CONTACT_STIFFNESS, packed.INVERSE_MASS_RATIO, packed.DASHPOT]])

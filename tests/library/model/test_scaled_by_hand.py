@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import impact_damper as idm
-from impact_damper.data.datasets import flag
+from impact_damper.theory.design_rule import rule_clearance
 
 LENGTH, TIME, MASS = 2e-3, 1e-2, 3.0
 FORCE, STIFFNESS = MASS * LENGTH / TIME**2, MASS / TIME**2
@@ -27,7 +27,6 @@ SOFTENING = {
     "cubic_stiffness": -STIFFNESS / LENGTH**2,
     "damping": 0.05 * MASS / TIME,
 }
-SOFT = idm.Machine(**SOFTENING, force=0.02 * FORCE)
 LINEAR = idm.Machine(mass=MASS, linear_stiffness=STIFFNESS, damping_ratio=0.01, force=FORCE)
 # The dimensionless 1 in each unit of the datasets of the machine.
 UNITS = {
@@ -74,16 +73,6 @@ def assert_same_basins(found, by_hand):
     np.testing.assert_allclose(found["basin_velocity"], by_hand["basin_velocity"] * LENGTH / TIME)
 
 
-@pytest.mark.thorough
-def test_basins_of_a_machine():
-    window = {"displacement": f"{3e3 * LENGTH} mm", "velocity": 4.5 * LENGTH / TIME}
-    found = idm.basins(HARD, None, hertz(1.85), **window, cells=30)
-    by_hand = idm.basins(PAPER, None, 1.85, displacement=3.0, velocity=4.5, cells=30)
-    assert_same_basins(found, by_hand)
-    assert_scaled(found, by_hand, ["saddle_displacement"], rtol=1e-6)
-    assert found["attractor_speed"].attrs["units"] == "m/s"
-
-
 def test_basins_of_a_machine_with_a_damper():
     """The loose mass has one state, near a motion in which no chaos magnifies rounding errors."""
     kept = {"restitution": 0.75, "contact_stiffness": 2000 * STIFFNESS}
@@ -98,23 +87,6 @@ def test_basins_of_a_machine_with_a_damper():
     assert_same_basins(found, by_hand)
 
 
-def test_migration_of_a_softening_machine():
-    """The resonance branch of a softening spring extends to high frequencies."""
-    damper = SOFT.damper(
-        mass=0.1 * MASS,
-        clearance_each_side=0.4 * LENGTH,
-        restitution=0.8,
-        contact_stiffness=2000 * STIFFNESS,
-    )
-    found = idm.migrate(SOFT, damper, hertz(0.93), seed=1)
-    assert int(found["trial_outcome"]) == flag("trial_outcome", "reached")
-    free = idm.frequency_response(SOFT, None, [hertz(0.93)], starts=8)["maximum_displacement"]
-    least, most = np.nanmin(free), np.nanmax(free)
-    assert most > 2 * least
-    assert float(found["destination_displacement"][-1]) == pytest.approx(least, rel=1e-6)
-    assert float(found["displacement"][:100].max()) == pytest.approx(most, rel=1e-2)
-
-
 def test_the_radius_of_a_search_is_warned_of_in_si_units():
     expected = r"^radius = 1e-5 m: .* at frequency = 31 Hz, with displacement = 0\.00\d+ m and"
     with pytest.warns(UserWarning, match=expected):
@@ -124,30 +96,50 @@ def test_the_radius_of_a_search_is_warned_of_in_si_units():
 @pytest.mark.parametrize(
     ("call", "told"),
     [
+        (lambda d: idm.simulate(HARD, d, 0), "frequency = 0 Hz: must be at least"),
+        (lambda d: idm.simulate(HARD, d, "3 m"), "frequency = '3 m': must be a number in Hz"),
+        (lambda d: idm.simulate(HARD, d, 20, (1, 2, 3)), "state = (1, 2, 3): must be four"),
+        (lambda d: idm.simulate(HARD, d, 20, ("1 kg", 0, 0, 0)), "state[0] = '1 kg': must be"),
+        (lambda d: idm.simulate(HARD, idm.Damper(0.1, 1), 20), "damper = Damper(mass_r"),
+        (lambda d: idm.frequency_response(HARD, d, [20, "0 Hz"]), "frequencies[1] = '0 Hz': must"),
+        (lambda d: idm.frequency_response(HARD, d, [16, 15.5]), "frequencies = [16, 15.5]: must"),
         (
-            lambda: idm.migrate(HARD, DAMPER, 40.0),
-            "frequency = 40 Hz: without the damper there must be both a non-resonance and a res",
+            lambda d: idm.frequency_response(HARD, d, [20], radius="1 s"),
+            "radius = '1 s': must be a number in m",
         ),
-        (lambda: idm.migrate(LINEAR, DAMPER, 16.0), "frequency = 16 Hz: without the damper there"),
         (
-            lambda: idm.frequency_response(LINEAR, DAMPER, [16, 15.5]),
-            "frequencies = [16, 15.5]: must be increasing",
+            lambda d: idm.clearance_sweep(HARD, d, 20, ["1 nm", "2 mm"]),
+            "clearances[0] = '1 nm': must be at least",
         ),
         (
-            lambda: idm.basins(LINEAR, None, 16, displacement="-1 mm"),
+            lambda d: idm.basins(HARD, None, 16, displacement="-1 mm"),
             "displacement = '-1 mm': must be greater than 0 m and at most",
         ),
         (
-            lambda: idm.basins(HARD, DAMPER, 16, loose=["1 mm", "1 mm"]),
+            lambda d: idm.basins(HARD, d, 16, loose=["1 mm", "1 mm"]),
             "loose[1] = '1 mm': must be a number in m/s, or text",
         ),
+        (lambda d: idm.basins(HARD, d, 16, loose=0), "loose = 0: must be two numbers"),
         (
-            lambda: idm.basins(HARD, DAMPER, 16, loose=0),
-            "loose = 0: must be two numbers, displacement and velocity",
+            lambda d: idm.migrate(HARD, d, 40.0),
+            "frequency = 40 Hz: without the damper there must be both a non-resonance and a res",
+        ),
+        (
+            lambda d: rule_clearance(idm.Machine(**SOFTENING, force="8 N").oscillator(), 0.1),
+            "force = 8 N: the response has no peak, the motion goes over the barrier of the "
+            "softening spring (cubic_stiffness = -7.5e9 N/m^3)",
+        ),
+        (
+            lambda d: rule_clearance(idm.Machine(**SOFTENING, force=0).oscillator(), 0.1),
+            "force = 0 N, unbalance = 0 kg m: the rule for the clearance needs a forcing",
+        ),
+        (
+            lambda d: idm.orbit_branches(HARD, d, 20, (0, 0, 0, 0), span=(19, 21), parameter="gap"),
+            "parameter = 'gap': must be one of frequency, damping, cubic_stiffness",
         ),
     ],
 )
 def test_what_makes_no_sense_is_said_in_si_units(call, told):
     with pytest.raises((TypeError, ValueError)) as raised:
-        call()
+        call(DAMPER)
     assert str(raised.value).startswith(told)

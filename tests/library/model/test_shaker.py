@@ -1,7 +1,4 @@
-"""A machine on a shaker, whose base has one amplitude of acceleration at all frequencies.
-
-Symbols are as in `system.parameters`.
-"""
+"""A machine on a shaker, whose base has one amplitude of acceleration at all frequencies."""
 
 import math
 from dataclasses import replace
@@ -12,7 +9,6 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 import impact_damper as idm
-from impact_damper.design.task import Task
 
 MASS, STIFFNESS, RATIO, ACCELERATION = 12.0, 2e5, 0.02, 3.0
 MACHINE = idm.Machine(
@@ -110,30 +106,3 @@ def test_rule_for_the_clearance_in_closed_form():
     damper = MACHINE.damper(mass=0.05 * MASS, gap=0.01, restitution=0.7, contact_stiffness=1e7)
     found = idm.clearance_sweep(MACHINE, damper, NATURAL, [1e-3, 2e-3], method="harmonic_balance")
     assert found.peak_rule_clearance == pytest.approx(1e3 * expected, rel=1e-6)
-
-
-def test_a_design_looks_where_the_machine_resonates():
-    task = Task(
-        machine=MACHINE,
-        mass=LOOSE,
-        restitution=RESTITUTION,
-        contact_stiffness=WALL,
-        band=(18, 23),
-        frequencies=6,
-        candidates=4,
-        starts=16,
-        share=0.5,
-    )
-    response = ACCELERATION / (2 * math.pi * task.grid) ** 2
-    r = task.grid / NATURAL
-    response *= np.hypot(1, 2 * RATIO * r) / np.hypot(1 - r**2, 2 * RATIO * r)
-    assert_allclose(task.bare, 1e3 * response, rtol=1e-9)
-    # because the force falls as V/W^2, the peak lies below the natural frequency
-    lowest, highest = task.resonance
-    assert highest == pytest.approx(NATURAL) and 0.995 * NATURAL < lowest < NATURAL
-
-
-def test_an_acceleration_may_be_given_in_units_of_gravity():
-    given = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.01}
-    machine = idm.Machine(**given, base_acceleration="0.5 gravity")
-    assert machine.base_acceleration == pytest.approx(4.903325, rel=1e-12)
