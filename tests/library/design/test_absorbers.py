@@ -68,6 +68,13 @@ def test_den_hartogs_fixed_points():
     assert_allclose(first[crossed] / (40 / 2e5), math.sqrt(1 + 2 / 0.05), rtol=1e-3)
 
 
+def test_den_hartogs_tuning_and_brocks_damping():
+    """Tuning 1/(1 + m) and damping ratio z with z^2 = 3 m/(8 (1 + m)) for the mass ratio m."""
+    found, angular = den_hartog_absorber(LINEAR, 1.2), math.sqrt(2e5 / 12) / 1.1
+    damping = 2 * math.sqrt(3 * 0.1 / (8 * 1.1)) * 1.2 * angular
+    assert_allclose([found.stiffness, found.damping], [1.2 * angular**2, damping], rtol=1e-12)
+
+
 def test_in_a_band_an_end_is_as_high_as_another_place():
     absorber, linear = exact_absorber(LINEAR, 0.6, (20, 21.5)), linear_machine(LINEAR)
     limits = tuple(f / LINEAR.natural_frequency for f in (20, 21.5))

@@ -122,19 +122,6 @@ def test_a_range_of_restitutions_ascends_within_bounds(ends):
 
 
 @pytest.mark.thorough
-def test_den_hartogs_absorber_stands_beside_the_optimum(finished):
-    """Closed form: tuning f = 1/(1 + m) and damping ratio z, z^2 = 3 m/(8 (1 + m)).
-
-    m is the mass ratio, and the damping is 2 z times mass times angular frequency of the absorber.
-    """
-    ratio, angular = 0.1, np.sqrt(2e5 / 12) / 1.1
-    data, mass = finished[0], 1.2
-    damping = 2 * np.sqrt(3 * ratio / (8 * (1 + ratio))) * mass * angular
-    assert data["den_hartog_stiffness"] == pytest.approx(mass * angular**2)
-    assert data["den_hartog_damping"] == pytest.approx(damping)
-
-
-@pytest.mark.thorough
 def test_each_variable_has_its_meaning_unit_and_words(finished):
     data, _ = finished
     assert all({"long_name", "units"} <= data[name].attrs.keys() for name in data.variables)

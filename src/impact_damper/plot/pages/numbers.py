@@ -192,7 +192,6 @@ def _edges(data, found):
             )
         )
     return {
-        "edges": edges,
         "cliffs": [edge for edge in edges if edge.found],
         "not_ended": [edge for edge in edges if not edge.found],
     }
