@@ -88,7 +88,7 @@ def data(stage, names=None):
 
 
 def inputs(stage):
-    """Return the inputs of a stage's rule except its code: datasets, files, compiled kernels."""
+    """Return the inputs of the rule of a stage, except its code and with compiled kernels."""
     files = {key: local(ROOT / path) for key, path in stage.files.items()}
     files |= {key: partial(read_by, stage.name, key) for key in stage.reads}
     function = module_file(stage.function.split(":")[0])
