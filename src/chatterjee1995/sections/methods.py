@@ -87,7 +87,7 @@ class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON
             "periods": self.periods,
             "seed": config.seed,
         }
-        damper = {"damper": damper_values(self, config)}
+        damper = {"damper": {"Damper": damper_values(self, config)}}
         return self.system(config) | damper | values | config.settling.job()
 
 

@@ -84,6 +84,17 @@ class Effort:
         How long motions are run, and how accurately.
     workers : int
         Threads; the result does not depend on it.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is not a whole number or out of range.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> idm.Effort(starts=200).frequencies
+    41
     """
 
     frequencies: int = 41

@@ -59,7 +59,7 @@ class HertzContact:
     >>> import impact_damper as idm
     >>> steel = idm.HertzContact("20 mm", "210 GPa", 0.3)
     >>> f"{steel.pressure(500.0):.3g} Pa, {steel.stiffness(speed=0.3, mass=0.57):.3g} N/m"
-    '1.48e+09 Pa, 3.98e+07 N/m'
+    '1.48e+09 Pa, 8.6e+07 N/m'
     """
 
     radius: float = physical("displacement", above=0)

@@ -44,6 +44,15 @@ def conclusion(data) -> list[str]:
     ----------
     data : xarray.Dataset
         A result of `design_damper`.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
+    >>> found = idm.design_damper(
+    ...     machine, mass=1.2, band=(20.4, 20.7), restitution=0.6, contact=2e7
+    ... )  # doctest: +SKIP
+    >>> sentences = idm.plot.conclusion(found)  # doctest: +SKIP
     """
     found = dataset_in(data, lambda each: "design_gap" in each, "design_damper")
     try:
