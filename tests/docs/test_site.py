@@ -79,7 +79,7 @@ def test_every_link_and_picture_exists():
 def test_every_plot_of_a_tutorial_is_shown():
     """Each call of `idm.plot` leaves a picture on the page."""
     for path in sorted((SITE.parents[1] / "tutorials").glob("*.md")):
-        drawn = path.read_text().count("idm.plot.")
+        drawn = len(re.findall(r"idm\.plot\.(?!conclusion)", path.read_text()))
         shown = (SITE / "tutorials" / f"{path.stem}.html").read_text().count("<img")
         assert shown >= drawn, path.stem
 
