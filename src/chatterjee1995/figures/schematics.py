@@ -32,8 +32,6 @@ from impact_damper.plot.style import (
     style,
 )
 
-CAPTION = ""  # a schematic has no more than the title and the remark of the configuration
-
 
 def carriage(axes):
     """Draw the primary mass on its rail, with springs and dashpot on the left and the force."""

@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,7 @@ from impact_damper.data.whole_files import BrokenFileError, check_length, whole_
 from impact_damper.model.arguments import PHASES, STATE, STATE_UNITS
 from impact_damper.model.bounds import shown
 from impact_damper.model.families import facts_of
-from impact_damper.model.machine import Machine, describe_si
+from impact_damper.model.machine import describe_si
 from impact_damper.model.parameters import Damper, Oscillator, pick
 from impact_damper.model.units import QUANTITIES
 
@@ -258,18 +257,6 @@ def damper_of(data, **others) -> Damper:
     are not among its parameters.
     """
     return Damper(**pick(Damper, parameters_of(data)), **others)
-
-
-def system_of(data) -> tuple:
-    """Return the system and the damper, or None, that a dataset was computed for."""
-    if "machine" not in data.attrs:
-        return oscillator_of(data), damper_of(data) if has_damper(data) else None
-    made = json.loads(data.attrs["machine"])
-    machine = Machine(**{each.name: made.get(each.name, each.default) for each in fields(Machine)})
-    if "damper_mass" not in made:
-        return machine, None
-    contact = {name: made[name] for name in ("gap", "restitution", "contact_stiffness")}
-    return machine, machine.damper(mass=made["damper_mass"], **contact)
 
 
 def has_damper(data) -> bool:

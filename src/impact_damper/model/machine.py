@@ -12,7 +12,6 @@ from impact_damper.model.bounds import (
     RESTITUTION_RANGE,
     STIFFNESS_RANGE,
     names_arguments,
-    shown,
 )
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.text import with_unit
@@ -375,15 +374,6 @@ def static_deflection(force, linear, cubic) -> float:
         return (force / cubic) ** (1 / 3)
     length = math.sqrt(linear) / math.sqrt(3 * cubic)
     return 2 * length * math.sinh(math.asinh(1.5 * force / (linear * length)) / 3)
-
-
-def check_fit(machine, damper):
-    """Raise TypeError or ValueError unless the damper fits the machine."""
-    if not isinstance(machine, Machine):
-        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
-    if not isinstance(damper, MachineDamper):
-        raise TypeError(f"damper = {shown(damper)}: must be a MachineDamper, by machine.damper")
-    damper.check_for(machine)
 
 
 def describe_si(machine, damper=None) -> dict:
