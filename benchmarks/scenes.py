@@ -65,9 +65,8 @@ def make(name, p, state, periods, count, seed=1995):
     end = begin + periods * 2 * math.pi / p[FREQUENCY]
     if np.any(np.abs(starts[:, 2]) >= p[CLEARANCE]):
         raise ValueError(f"scene {name}: must begin in flight")
-    rows = np.tile(p, (count, 1))
-    exact = extended.run_many(rows, starts, np.full(count, begin), np.full((count, 1), end))
-    return BenchmarkScene(name, p, begin, end, periods, starts, exact.states.astype(float))
+    exact = [extended.run(p, each, begin, [end]).states[-1] for each in starts]
+    return BenchmarkScene(name, p, begin, end, periods, starts, np.array(exact, float))
 
 
 def from_configuration(count):

@@ -93,7 +93,7 @@ def reference_of(scene, stored):
             "reference: belongs to other parameters, another start or another number of cycles "
             "than the scene; compute it again (tests/references/extended/scenes.py)"
         )
-    times = np.array([contact[1] for contact in stored["contacts"]])
+    times = np.array(stored["contact_times"])
     return Reference(np.array(stored["state"]), times, stored["amplitude"])
 
 

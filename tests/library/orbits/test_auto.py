@@ -1,13 +1,11 @@
 """Folds and losses of symmetry of the oscillator without a damper, compared with AUTO-07p.
 
 AUTO-07p is a continuation program. It finds orbits by collocation over the whole period, this
-package by shooting. AUTO's numbers are stored in references/auto/folds.json, which
+package by shooting. AUTO's numbers are stored in references/auto/folds.csv, which
 references/auto/folds.py writes.
 """
 
-import json
-from pathlib import Path
-
+import pandas as pd
 import pytest
 from numpy.testing import assert_allclose
 from references.auto import folds
@@ -19,7 +17,7 @@ from impact_damper.orbits.shooting import find_orbit
 
 pytestmark = pytest.mark.thorough
 
-STORED = json.loads((Path(folds.__file__).parent / "folds.json").read_text())["points"]
+STORED = pd.read_csv(folds.HERE / "folds.csv", comment="#").to_dict("records")
 BRANCHES = {"response": (folds.RESPONSE, (0.6, 4.0)), "subharmonic": (folds.SUBHARMONIC, (1, 4))}
 
 

@@ -2,22 +2,23 @@
 
 The equations are in forced_cubic.f90, and AUTO's constants in constants.txt. The command
 
-    python tests/references/auto/folds.py > tests/references/auto/folds.json
+    python tests/references/auto/folds.py > tests/references/auto/folds.csv
 
 computes the stored numbers again. This module does not import the package under test.
 """
 
 import datetime
-import json
 import math
 import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline
 
@@ -75,20 +76,13 @@ def missing():
 
 
 def versions():
-    """Return the versions of AUTO, of its Debian package and of the compiler."""
-    asked = (
-        ["dpkg-query", "--show", "--showformat", "${Version}", "auto-07p"],
-        [COMPILER, "--version"],
-    )
+    """Return the versions of AUTO's Debian package and of the compiler."""
+    query = ["dpkg-query", "--show", "--showformat", "${Version}", "auto-07p"]
     package, compiler = (
         subprocess.run(command, capture_output=True, text=True, check=True).stdout
-        for command in asked
+        for command in (query, [COMPILER, "--version"])
     )
-    return {
-        "version": package.split("+")[0],
-        "package": f"auto-07p {package} (Debian)",
-        "compiler": compiler.splitlines()[0],
-    }
+    return f"auto-07p {package} (Debian), {compiler.splitlines()[0]}"
 
 
 def build(folder):
@@ -207,19 +201,10 @@ def main():
             for run, (*_, settings) in RUNS.items()
             for point in found_in(Path(name), damping, run, settings)
         ]
-    made = {
-        "source": "AUTO-07p (E. J. Doedel and others), run by tests/references/auto/folds.py "
-        "on the equations in tests/references/auto/forced_cubic.f90 with the constants in "
-        "tests/references/auto/constants.txt",
-        "equation": "Z1'' + h Z1' + Z1^3 = cos(W T)",
-        "date": datetime.date.today().isoformat(),
-        **versions(),
-        "maximum_displacement": "largest |Z1|, of a cubic through AUTO's mesh",
-        "settings": {run: settings for run, (*_, settings) in RUNS.items()},
-        "frequency_error": "largest difference between the settings of a run, of which the last is "
-        "kept; no less than EPSU and the last digit that AUTO writes, 1e-10",
-    }
-    print(json.dumps({"made": made, "points": found}, indent=1))
+    print("# AUTO-07p (E. J. Doedel and others), run by tests/references/auto/folds.py on")
+    print("# Z1'' + h Z1' + Z1^3 = cos(W T); maximum_displacement is the largest |Z1|.")
+    print(f"# {versions()}, {datetime.date.today().isoformat()}")
+    pd.DataFrame(found).to_csv(sys.stdout, index=False)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Motions in 80-bit arithmetic by a C program that shares no code with the package.
 
 The package's own integrators are called kernels. State and parameters are the same as theirs:
-(Z1, Z1', Z2, Z2') and the array from `system.packed.pack`. The program uses Taylor series of order
+(Z1, Z1', Z2, Z2') and the array from `model.packed.pack`. The program uses Taylor series of order
 32 with a local error of 1e-20, and isolates events (beginnings and ends of contacts) by the signs
 of Bernstein coefficients (see motion.c). The compiler `cc` compiles the program on first use, in
 about half a second.
@@ -19,11 +19,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.model.packed import COUNT, NAMES
+from impact_damper.model.packed import NAMES
 
-TOLERANCE = 1e-20
 PROGRAM = Path(__file__).with_name("motion.c")
-STATUS = {1: "the log of contacts is full", 2: "no memory", 3: "too many steps"}
+STATUS = {1: "a log is full", 2: "too many steps"}
 Real = np.longdouble
 
 
@@ -52,18 +51,11 @@ def _library():
         command = ["cc", "-O2", "-std=c11", "-shared", "-fPIC", "-o", library, PROGRAM, "-lm"]
         subprocess.run(command, check=True)
         loaded = ctypes.CDLL(str(library))
-    real, plain, whole, status = (
-        np.ctypeslib.ndpointer(kind, flags="C") for kind in (Real, float, np.int64, np.int32)
+    real, plain, whole = (
+        np.ctypeslib.ndpointer(kind, flags="C") for kind in (Real, float, np.int64)
     )
-    count = ctypes.c_long
-    loaded.motion.argtypes = [
-        plain, real, ctypes.c_longdouble, real, count, real, real, real,
-        real, count, real, count, real, real, whole,
-    ]  # fmt: skip
-    loaded.motions.restype = None
-    loaded.motions.argtypes = [
-        count, plain, real, real, real, count, real, real, real, whole, status
-    ]  # fmt: skip
+    count, number = ctypes.c_long, ctypes.c_longdouble
+    loaded.motion.argtypes = [plain, real, number, real, count, real, count, *[real] * 7, whole]
     return loaded
 
 
@@ -92,11 +84,6 @@ class Run(NamedTuple):
         Largest norm of the derivative of the last state with respect to the state at an instant of
         the run, at least 1. Instants are the first time, the requested times and the events (after
         the jump of the derivative). The norm is the largest sum of moduli in a row.
-    margin : long double
-        Smallest |height| / growth of the rows of `turnings`. An error of this size could change the
-        number of contacts.
-    steps : int
-        Number of steps.
     """
 
     states: np.ndarray
@@ -106,27 +93,15 @@ class Run(NamedTuple):
     turnings: np.ndarray
     flow: np.ndarray
     growth: Real
-    margin: Real
-    steps: int
+
+    @property
+    def margin(self):
+        """An error of this size could change the number of contacts."""
+        return np.min(np.abs(self.turnings[:, 2]) / self.turnings[:, 3], initial=np.inf)
 
 
-class Runs(NamedTuple):
-    """Many motions: last states (m, 4), and the attributes of `Run` with the same names, (m,)."""
-
-    states: np.ndarray
-    begun: np.ndarray
-    growth: np.ndarray
-    margin: np.ndarray
-
-
-def _fail(status, what):
-    """Raise RuntimeError if a status of the program is not 0."""
-    if status:
-        raise RuntimeError(f"{what}: {STATUS[status]}")
-
-
-def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, room=100_000):
-    """Return one motion from the time `start` through increasing `times`.
+def run(p, state, start, times, *, tolerance=1e-20, longest=math.inf, room=100_000):
+    """Return the `Run` from the time `start` through increasing `times`.
 
     Parameters
     ----------
@@ -139,51 +114,30 @@ def run(p, state, start, times, *, tolerance=TOLERANCE, longest=math.inf, room=1
     tolerance, longest : float
         Local error of a step, relative to the state if this is larger than 1; longest step.
     room : int
-        Largest number of contacts, and of extrema of Z2, that are logged.
-
-    Returns
-    -------
-    Run
+        Largest number of contacts, of extrema of Z2, and of instants.
 
     Raises
     ------
     RuntimeError
-        If the program cannot be compiled on this computer, or if the logs are too small.
+        If the program cannot be compiled on this computer, or if `room` is too small.
     """
     times = np.atleast_1d(np.asarray(times, Real))
-    states, extremes = np.empty((len(times), 4), Real), np.empty((len(times), 2), Real)
-    contacts, turnings = np.empty((room, 5), Real), np.empty((room, 4), Real)
-    flow, summary, counts = np.empty((4, 4), Real), np.empty(2, Real), np.empty(4, np.int64)
-    status = _library().motion(
-        np.array(p, float), np.array(state, Real), start, times, len(times),
-        np.array([tolerance, longest], Real), states, extremes, contacts, room, turnings, room,
-        flow, summary, counts,
-    )  # fmt: skip
-    logged, begun, turned, steps = counts
-    _fail(status or int(turned > room), "80-bit motion")
+    n, counts = len(times), np.empty(3, np.int64)
+    shapes = (n, 4), (n, 2), (room, 5), (room, 4), (room, 16), (4, 4), (1,)
+    made = [np.empty(shape, Real) for shape in shapes]
+    settings = np.array([tolerance, longest], Real)
+    given = np.array(p, float), np.array(state, Real), start, times, n, settings, room
+    status = _library().motion(*given, *made, counts)
+    if status:
+        raise RuntimeError(f"80-bit motion: {STATUS[status]}")
+    states, extremes, contacts, turnings, _, flow, (growth,) = made
+    begun, logged, turned = counts
     return Run(
-        states, extremes, contacts[:logged].copy(), int(begun), turnings[:turned].copy(),
-        flow, *summary, int(steps),
-    )  # fmt: skip
-
-
-def run_many(parameters, states, starts, times, *, tolerance=TOLERANCE, longest=math.inf):
-    """Return motions with parameters (m, COUNT), states (m, 4), starts (m,) and times (m, n).
-
-    Raises
-    ------
-    RuntimeError
-        As `run`; the message names the motion.
-    """
-    times = np.ascontiguousarray(times, Real)
-    m, n = times.shape
-    last, summaries = np.empty((m, 4), Real), np.empty((m, 2), Real)
-    begun, status = np.empty(m, np.int64), np.empty(m, np.int32)
-    _library().motions(
-        m, np.array(parameters, float).reshape(m, COUNT), np.array(states, Real).reshape(m, 4),
-        np.array(starts, Real).reshape(m), times, n, np.array([tolerance, longest], Real),
-        last, summaries, begun, status,
-    )  # fmt: skip
-    for index in np.flatnonzero(status):
-        _fail(status[index], f"80-bit motion {index}")
-    return Runs(last, begun, *summaries.T)
+        states,
+        extremes,
+        contacts[:logged].copy(),
+        int(begun),
+        turnings[:turned].copy(),
+        flow,
+        growth,
+    )

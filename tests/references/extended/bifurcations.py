@@ -5,7 +5,6 @@ by a change of sign, and a test function that is zero at the event. Newton's met
 difference quotients in 80 bits. Only the linear systems are solved in double precision.
 """
 
-import itertools
 import math
 
 import numpy as np
@@ -25,39 +24,20 @@ def _half(p, state, phase):
     return extended.run(p, state, begin, [begin + np.arccos(extended.Real(-1)) / frequency])
 
 
-def _determinant(matrix):
-    """Return the determinant of a 4 x 4 matrix in 80 bits, by Leibniz' formula."""
-    total = extended.Real(0)
-    for order in itertools.permutations(range(4)):
-        swaps = sum(order[i] > order[j] for i in range(4) for j in range(i + 1, 4))
-        total += (-1) ** swaps * np.prod([matrix[i, j] for i, j in enumerate(order)])
-    return total
-
-
-def _pairs(root):
-    """Return the product of r_i r_j - 1 over all pairs of eigenvalues of a 4 x 4 matrix.
-
-    It is zero at a Neimark-Sacker point, where a complex pair has the modulus 1. The product equals
-    det(C - 1), where C is the second compound matrix.
-    """
-    values = np.linalg.eigvals(root.astype(float))
-    first, second = np.triu_indices(4, 1)
-    return np.prod(values[first] * values[second] - 1).real
-
-
 def _test(kind, run, wall_phase, p):
     """Return the test function of an event; `wall_phase` is the phase at which a contact grazes.
 
-    `root` is the derivative of the map over half a cycle followed by a change of sign. The test
-    function of a grazing is the height of the extremum of Z2 beyond the wall.
+    Matrices are rounded to double precision. A complex pair of multipliers has the modulus 1 where
+    a product of two eigenvalues of `root` is 1.
     """
-    root = -run.flow
+    root = -run.flow.astype(float)
     if kind == "fold":
-        return _determinant(root - np.eye(4))
+        return np.linalg.det(root - np.eye(4))
     if kind == "symmetry_breaking":
-        return _determinant(root + np.eye(4))
+        return np.linalg.det(root + np.eye(4))
     if kind == "neimark_sacker":
-        return _pairs(root)
+        values, pairs = np.linalg.eigvals(root), np.triu_indices(4, 1)
+        return np.prod(np.prod(values[np.array(pairs)], axis=0) - 1).real
     times = run.turnings[:, 0] * p[FREQUENCY]
     near = np.argmin(np.abs((times - wall_phase + math.pi / 2) % math.pi - math.pi / 2))
     return run.turnings[near, 2]

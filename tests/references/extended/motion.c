@@ -12,22 +12,18 @@
    exactly zero, so that this root can be divided out and cannot hide the next root. */
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef long double real;
 
 enum { ORDER = 32, TERMS = ORDER + 1, MOST_ROOTS = ORDER };
-enum { DONE = 0, LOG_FULL = 1, NO_MEMORY = 2, TOO_MANY_STEPS = 3 };
+enum { DONE, LOG_FULL, TOO_MANY_STEPS };
 
 /* The members bear the names of the packed parameters, in their order. */
 typedef struct {
     real frequency, damping, stiffness, cubic, force, unbalance, shaker, clearance,
         contact_stiffness, inverse_mass_ratio, dashpot;
 } Parameters;
-
-/* Number of entries in an array of packed parameters. */
-enum { WIDTH = sizeof(Parameters) / sizeof(real) };
 
 /* One step: Taylor coefficients of Z1, of the distance z of Z2 from the wall, of Z1^2, and of
    the derivatives of Z1 and z by the four initial values. */
@@ -48,10 +44,10 @@ typedef struct {
     real y[4], origin, t;
     int side;
     Matrix since, *flows;
-    long instants, room;
-    real margin;
+    long instants;
     real *turnings;
-    long turning_count, turning_room;
+    long turning_count, room;
+    int status;
 } Run;
 
 static const Matrix IDENTITY = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
@@ -261,18 +257,15 @@ static real row_sum(const real *row)
     return fabsl(row[0]) + fabsl(row[1]) + fabsl(row[2]) + fabsl(row[3]);
 }
 
-static int new_instant(Run *run)
+static void new_instant(Run *run)
 {
     if (run->instants == run->room) {
-        run->room = 2 * run->room + 64;
-        Matrix *larger = realloc(run->flows, run->room * sizeof(Matrix));
-        if (!larger) return NO_MEMORY;
-        run->flows = larger;
+        run->status = LOG_FULL;
+        return;
     }
     for (long i = 0; i < run->instants; i++)
         run->flows[i] = product(&run->since, &run->flows[i]);
     run->since = run->flows[run->instants++] = IDENTITY;
-    return DONE;
 }
 
 static Matrix step_derivative(const Series *s, real length)
@@ -322,12 +315,12 @@ static void note_turning(Run *run, real t, real z, const real *row)
     int side = run->origin + z < 0 ? -1 : 1;
     real height = side * z + (side * run->origin - run->p->clearance);
     real growth = growth_of_gap(run, row);
-    run->margin = fminl(run->margin, fabsl(height) / growth);
-    if (run->turning_count < run->turning_room) {
-        real entry[4] = {t, side, height, growth};
-        memcpy(run->turnings + 4 * run->turning_count, entry, sizeof entry);
+    if (run->turning_count == run->room) {
+        run->status = LOG_FULL;
+        return;
     }
-    run->turning_count++;
+    real entry[4] = {t, side, height, growth};
+    memcpy(run->turnings + 4 * run->turning_count++, entry, sizeof entry);
 }
 
 static void look_for_turnings(Run *run, const Series *s, real length)
@@ -366,41 +359,44 @@ static int start_side(const Run *run, const real *y)
     return 0;
 }
 
-/* One run from `start` through the increasing `times`.
+/* Append a contact with `wall` that begins now. */
+static void begin_contact(Run *run, int wall, real *contacts, long *logged)
+{
+    if (*logged == run->room) {
+        run->status = LOG_FULL;
+        return;
+    }
+    real row[5] = {wall, run->t, NAN, run->y[3], NAN};
+    memcpy(contacts + 5 * (*logged)++, row, sizeof row);
+}
+
+/* One run from `start` through the n increasing `times`.
 
    settings: allowed local error (relative to the state if this is larger than 1), longest step.
-   contacts: rows of wall, beginning, end, Z2' at both (NaN while the contact lasts); if the start
-   is in contact, this contact is the first row. turnings: rows of time, wall, height beyond the
-   wall, growth of an error of Z2 until then. states, extremes: for each time Z1, Z1', Z2, Z2', and
-   the smallest and largest Z1 since the time before. flow: derivative of the last state with
-   respect to the first. summary: growth, margin (see class Run in __init__.py). counts: contacts in
-   the log, contacts begun, turnings, steps. */
+   Class Run in __init__.py explains states, extremes, contacts, turnings, flow and growth. flows has
+   space for `room` matrices, the logs for `room` rows. counts: contacts begun, rows
+   of contacts, rows of turnings. */
 int motion(const double *packed, const real *first, real start, const real *times, long n,
-           const real *settings, real *states, real *extremes, real *contacts,
-           long contact_room, real *turnings, long turning_room, real *flow, real *summary,
-           long *counts)
+           const real *settings, long room, real *states, real *extremes, real *contacts,
+           real *turnings, real *flows, real *flow, real *growth, long *counts)
 {
     Parameters p;
-    for (int i = 0; i < WIDTH; i++) ((real *)&p)[i] = packed[i];
-    Run run = {.p = &p, .t = start, .since = IDENTITY, .margin = INFINITY,
-               .turnings = turnings, .turning_room = turning_room};
+    for (size_t i = 0; i < sizeof p / sizeof(real); i++) ((real *)&p)[i] = packed[i];
+    Run run = {.p = &p, .t = start, .since = IDENTITY,
+               .flows = (Matrix *)flows, .turnings = turnings, .room = room};
     Series s;
     long logged = 0, begun = 0, steps = 0;
-    int status = new_instant(&run);
+    new_instant(&run);
     memcpy(run.y, first, sizeof run.y);
     run.side = start_side(&run, first);
     if (isfinite(p.clearance) && (run.side || fabsl(first[2]) == p.clearance)) {
         run.origin = copysignl(p.clearance, first[2]);
         run.y[2] -= run.origin;
     }
-    if (run.side && contact_room > 0) {
-        real row[5] = {run.side, run.t, NAN, run.y[3], NAN};
-        memcpy(contacts, row, sizeof row);
-        logged = 1;
-    }
-    for (long i = 0; i < n && status == DONE; i++) {
-        if (extremes) extremes[2 * i] = INFINITY, extremes[2 * i + 1] = -INFINITY;
-        while (run.t < times[i] && status == DONE) {
+    if (run.side) begin_contact(&run, run.side, contacts, &logged);
+    for (long i = 0; i < n && run.status == DONE; i++) {
+        extremes[2 * i] = INFINITY, extremes[2 * i + 1] = -INFINITY;
+        while (run.t < times[i] && run.status == DONE) {
             int wall;
             expand(&run, &s);
             real now = fmaxl(fmaxl(1, fabsl(run.y[0])), fmaxl(fabsl(run.y[1]), fabsl(run.y[3])));
@@ -408,9 +404,8 @@ int motion(const double *packed, const real *first, real start, const real *time
             real longest = fminl(settings[1], reach(s.x, allowed));
             if (run.side) longest = fminl(longest, reach(s.z, allowed));
             real length = first_event(&run, &s, fminl(longest, left), &wall);
-            int event = wall != run.side;
             if (isfinite(p.clearance)) look_for_turnings(&run, &s, length);
-            if (extremes) look_for_extremes(&s, length, extremes + 2 * i);
+            look_for_extremes(&s, length, extremes + 2 * i);
             Matrix step = step_derivative(&s, length);
             run.since = product(&step, &run.since);
             real slope[TERMS];
@@ -418,18 +413,15 @@ int motion(const double *packed, const real *first, real start, const real *time
             differentiate(s.x, slope), run.y[1] = value(slope, length);
             differentiate(s.z, slope), run.y[3] = value(slope, length);
             run.t = length == left ? times[i] : run.t + length;
-            if (++steps > 10000000) status = TOO_MANY_STEPS;
-            if (!event) continue;
+            if (++steps > 10000000) run.status = TOO_MANY_STEPS;
+            if (wall == run.side) continue;
             saltation(&run, wall ? -1 : 1);
-            if (status == DONE) status = new_instant(&run);
+            new_instant(&run);
             if (wall) {
                 begun++;
                 run.origin = wall * p.clearance;
-                if (logged < contact_room) {
-                    real row[5] = {wall, run.t, NAN, run.y[3], NAN};
-                    memcpy(contacts + 5 * logged++, row, sizeof row);
-                } else if (contact_room) status = LOG_FULL;
-            } else if (contact_room) {
+                begin_contact(&run, wall, contacts, &logged);
+            } else {
                 contacts[5 * logged - 3] = run.t;
                 contacts[5 * logged - 1] = run.y[3];
             }
@@ -439,36 +431,15 @@ int motion(const double *packed, const real *first, real start, const real *time
         real *y = states + 4 * i;
         memcpy(y, run.y, sizeof run.y);
         y[2] += run.origin;
-        if (i + 1 < n && status == DONE) status = new_instant(&run);
+        if (i + 1 < n) new_instant(&run);
     }
     if (isfinite(p.clearance)) note_turning(&run, run.t, run.y[2], run.since.m[2]);
-    summary[0] = 1;
+    *growth = 1;
     for (long i = 0; i < run.instants; i++) {
         Matrix whole = product(&run.since, &run.flows[i]);
         if (i == 0) memcpy(flow, whole.m, sizeof whole.m);
-        for (int k = 0; k < 4; k++) summary[0] = fmaxl(summary[0], row_sum(whole.m[k]));
+        for (int k = 0; k < 4; k++) *growth = fmaxl(*growth, row_sum(whole.m[k]));
     }
-    summary[1] = run.margin;
-    counts[0] = logged, counts[1] = begun, counts[2] = run.turning_count, counts[3] = steps;
-    free(run.flows);
-    return status;
-}
-
-/* Many runs without logs, each through its own n times; only the last state of each is kept. */
-void motions(long m, const double *packed, const real *first, const real *starts,
-             const real *times, long n, const real *settings, real *last, real *summaries,
-             long *contacts, int *status)
-{
-    real *states = malloc(4 * n * sizeof(real));
-    for (long i = 0; i < m; i++) {
-        real flow[16];
-        long counts[4] = {0};
-        status[i] = states
-            ? motion(packed + WIDTH * i, first + 4 * i, starts[i], times + n * i, n, settings,
-                     states, NULL, NULL, 0, NULL, 0, flow, summaries + 2 * i, counts)
-            : NO_MEMORY;
-        contacts[i] = counts[1];
-        if (status[i] != NO_MEMORY) memcpy(last + 4 * i, states + 4 * (n - 1), 4 * sizeof(real));
-    }
-    free(states);
+    counts[0] = begun, counts[1] = logged, counts[2] = run.turning_count;
+    return run.status;
 }

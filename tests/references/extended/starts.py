@@ -1,8 +1,4 @@
-"""Random starts and parameters for the comparison of the kernels with the 80-bit reference.
-
-The kernels are the package's compiled integrators. A start is an initial state. The array of packed
-parameters has the layout of `system.packed`, with COUNT entries.
-"""
+"""Random systems and initial states for the comparison of the kernels with 80-bit arithmetic."""
 
 import math
 from typing import NamedTuple
@@ -12,7 +8,6 @@ import numpy as np
 from impact_damper.model.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
-    COUNT,
     FREQUENCY,
     INVERSE_MASS_RATIO,
     pack,
@@ -108,32 +103,32 @@ def _graze(random, p, state, start, end):
 def draw(kind, count, seed):
     """Return starts of one kind, alternately with elastic and inelastic contact.
 
-    Z1, Z1', Z2' are uniform in (-2, 2), (-3, 3), (-4, 4), and Z2 is uniform over the gap. The first
-    time is uniform over a forcing cycle. Three kinds have other states:
-
-    - "grazing": an extremum of Z2 lies 1e-13 to 1e-2 inside or beyond a wall;
-    - "in contact": Z2 lies beyond a wall, by the penetration that stops a speed of 0.01 to 30;
-    - "on a wall": Z2 is exactly the clearance, with Z2' = 0 or a speed of 1e-8 to 4, outward or
-      inward.
+    Z1, Z1', Z2' are uniform in (-2, 2), (-3, 3), (-4, 4), and Z2 over the gap. Three kinds differ:
+    "grazing": an extremum of Z2 lies 1e-13 to 1e-2 inside or beyond a wall. "in contact": Z2 lies
+    beyond a wall, by the penetration that stops a speed of 0.01 to 30. "on a wall": Z2 is exactly
+    the clearance, with Z2' = 0 or a speed of 1e-8 to 4, outward or inward.
     """
     random = np.random.default_rng([seed, list(KINDS).index(kind)])
-    parameters, states = np.empty((count, COUNT)), np.empty((count, 4))
-    starts, times = np.empty(count), np.empty((count, PERIODS))
-    for i in range(count):
-        p = parameters[i] = _parameters(random, USUAL | KINDS[kind], elastic=i % 2 == 0)
-        period = 2 * math.pi / p[FREQUENCY]
-        starts[i] = random.uniform(0, period)
-        times[i] = starts[i] + period * np.arange(1, PERIODS + 1)
-        y = states[i] = random.uniform(-1, 1, 4) * (2, 3, p[CLEARANCE], 4)
-        wall = random.choice((-1, 1))
-        if kind == "grazing":
-            _graze(random, p, y, starts[i], times[i, -1])
-            states[i] = y
-        elif kind == "in contact":
-            speed = 10 ** random.uniform(-2, 1.5)
-            natural = math.sqrt(p[CONTACT_STIFFNESS] * (1 + p[INVERSE_MASS_RATIO]))
-            states[i, 2] = wall * (p[CLEARANCE] + speed / natural)
-        elif kind == "on a wall":
-            speed = random.choice((0.0, 1.0), p=(0.1, 0.9)) * 10 ** random.uniform(-8, 0.6)
-            states[i, 2:] = wall * p[CLEARANCE], random.choice((-1, 1)) * speed
-    return Starts(parameters, states, starts, times)
+    return Starts(
+        *map(np.array, zip(*(_start(random, kind, i) for i in range(count)), strict=True))
+    )
+
+
+def _start(random, kind, index):
+    """Return one row of `Starts`."""
+    p = _parameters(random, USUAL | KINDS[kind], elastic=index % 2 == 0)
+    period = 2 * math.pi / p[FREQUENCY]
+    start = random.uniform(0, period)
+    times = start + period * np.arange(1, PERIODS + 1)
+    y = random.uniform(-1, 1, 4) * (2, 3, p[CLEARANCE], 4)
+    wall = random.choice((-1, 1))
+    if kind == "grazing":
+        _graze(random, p, y, start, times[-1])
+    elif kind == "in contact":
+        speed = 10 ** random.uniform(-2, 1.5)
+        natural = math.sqrt(p[CONTACT_STIFFNESS] * (1 + p[INVERSE_MASS_RATIO]))
+        y[2] = wall * (p[CLEARANCE] + speed / natural)
+    elif kind == "on a wall":
+        speed = random.choice((0.0, 1.0), p=(0.1, 0.9)) * 10 ** random.uniform(-8, 0.6)
+        y[2:] = wall * p[CLEARANCE], random.choice((-1, 1)) * speed
+    return p, y, start, times
