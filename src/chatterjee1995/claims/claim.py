@@ -56,9 +56,10 @@ class Bound(NamedTuple):
         least, most = parts[: parts.index(name)], parts[parts.index(name) + 1 :]
         return cls(name, *map(float, least or [-math.inf]), *map(float, most or [math.inf]))
 
-    def holds(self, value) -> bool:
-        """Return whether a value is within the bound; False for NaN."""
-        return self.least <= value <= self.most
+    def holds(self, values) -> bool | None:
+        """Return whether the number is within the bound; None if it is NaN."""
+        value = values[self.name]
+        return None if math.isnan(value) else self.least <= value <= self.most
 
     def __str__(self):
         if math.isinf(self.least):
@@ -77,16 +78,15 @@ class Claim:
     number : str
         "1" to "19", or "S1" to "S6".
     evidence : callable
-        Takes all datasets, keyed by stage and name, and returns the values of `numbers`, NaN if the
-        data do not determine them, and other values for the finding. May raise `Missing`.
+        Takes all datasets, keyed by stage and name, and returns the numbers of the bounds, NaN if
+        the data do not determine them, and other values for the finding. May raise `Missing`.
     claim, source, reading : str
         The statement, shortened; section and figure of the paper; our meaning of vague words.
     finding : str
         Template of the sentences that say what the data show, true for every verdict.
-    numbers : dict of str
-        What each number measures.
-    required, full_agreement : sequence of str
-        Bounds without which the claim is refuted, or reproduced with a difference only.
+    required, full_agreement : dict of str
+        Bounds without which the claim is refuted, or reproduced with a difference only, each with
+        the meaning of its number. A second bound of the same number has None.
     figures : sequence of str
         Names of the figures that show the claim, the most important one first.
     verdicts : dict of str
@@ -99,57 +99,50 @@ class Claim:
     source: str
     reading: str
     finding: str
-    numbers: Mapping[str, str]
-    required: Sequence[str]
-    full_agreement: Sequence[str] = ()
+    required: Mapping[str, str | None]
+    full_agreement: Mapping[str, str | None] = field(default_factory=dict)
     figures: Sequence[str] = ()
     verdicts: Mapping[str, str] = field(default_factory=dict)
 
     @property
-    def bounds(self) -> list:
-        """Pairs of a bound and whether it is required, first the required ones."""
-        return [(Bound.read(text), True) for text in self.required] + [
-            (Bound.read(text), False) for text in self.full_agreement
-        ]
+    def meanings(self) -> dict:
+        """What each number with a bound measures."""
+        texts = {**self.required, **self.full_agreement}
+        return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
         """Return the verdict for the values of the numbers.
 
         An unknown number leaves the claim open, unless another number refutes it.
         """
-        unknown = any(math.isnan(values[bound.name]) for bound, _ in self.bounds)
-        failed = [
-            required
-            for bound, required in self.bounds
-            if not math.isnan(values[bound.name]) and not bound.holds(values[bound.name])
-        ]
-        if any(failed):
+        required, wished = (
+            [Bound.read(text).holds(values) for text in bounds]
+            for bounds in (self.required, self.full_agreement)
+        )
+        if False in required:
             return NOT_REPRODUCED
-        if unknown:
+        if None in required + wished:
             return NOT_DECIDABLE
-        return DIFFERENT if failed else REPRODUCED
+        return DIFFERENT if False in wished else REPRODUCED
 
     def criterion(self) -> str:
         """Return all bounds as text."""
         parts = []
-        for lead, chosen in (("Required", True), ("For full agreement", False)):
-            texts = [
-                f"{self.numbers[bound.name]}, {bound}"
-                for bound, required in self.bounds
-                if required == chosen
-            ]
-            if texts:
-                parts.append(f"{lead}: {'; '.join(texts)}.")
+        for lead, texts in (
+            ("Required", self.required),
+            ("For full agreement", self.full_agreement),
+        ):
+            bounds = map(Bound.read, texts)
+            words = "; ".join(f"{self.meanings[bound.name]}, {bound}" for bound in bounds)
+            parts += [f"{lead}: {words}."] if words else []
         return " ".join(parts)
 
     def sentences(self, values) -> str:
         """Return what the data show; if the claim is not decidable, which numbers are unknown."""
         if self.verdict(values) != NOT_DECIDABLE:
             return " ".join(SENTENCES.from_string(self.finding).render(values).split())
-        unknown = [
-            self.numbers[bound.name] for bound, _ in self.bounds if math.isnan(values[bound.name])
-        ]
-        return f"The data do not determine: {'; '.join(dict.fromkeys(unknown))}."
+        unknown = [words for name, words in self.meanings.items() if math.isnan(values[name])]
+        return f"The data do not determine: {'; '.join(unknown)}."
 
     def judge(self, datasets) -> dict:
         """Return the row of the claim in the table of claims."""
@@ -157,7 +150,7 @@ class Claim:
             values = self.evidence(datasets)
             verdict, finding = self.verdict(values), self.sentences(values)
             evidence = "; ".join(
-                f"{text}: {number(values[name], 4)}" for name, text in self.numbers.items()
+                f"{words}: {number(values[name], 4)}" for name, words in self.meanings.items()
             )
         except Missing as missing:
             verdict, finding, evidence = NOT_DECIDABLE, f"{missing}.", ""

@@ -180,47 +180,21 @@ def smallest_quiet(branches, free, frequency):
     return orbits
 
 
-def counterparts(design, branches) -> pd.DataFrame:
-    """Pair solutions of (7) with contact with the nearest exact orbit at the same frequency.
+def high_counterparts(design, branches, free) -> pd.DataFrame:
+    """Return `crossings` of the exact orbits nearest to the stable violent solutions of (7).
 
-    Only orbits that one harmonic can approximate are considered: symmetric orbits of period 1 with
-    two contacts, stable or not.
-
-    Returns
-    -------
-    pandas.DataFrame
-        One row for each solution with such an orbit: the columns of `crossings` for the orbit; `a`,
-        the amplitude of the solution; `balance_stable`, whether the solution is stable; `least`,
-        whether |a| is the smallest at this frequency; `difference`, the relative difference between
-        `a` and the first harmonic of the orbit.
+    Only symmetric orbits of period 1 with two contacts count, stable or not, since one harmonic can
+    approximate no others. The nearest orbit is the one whose first harmonic differs least.
     """
     part = pieces(branches)
-    alike = part[
-        (part.period == 1)
-        & (part.asymmetry < SYMMETRIC)
-        & (part.fewest == part.contacts)
-        & (part.contacts == 2)
-    ]
-    impacting = design.kind == flag("kind", "impacting")
-    size = np.abs(design.amplitude).where(impacting)
-    solutions = pd.DataFrame(
-        {
-            "frequency": np.broadcast_to(design.frequency.values[:, None], size.shape).ravel(),
-            "a": design.amplitude.values.ravel(),
-            "balance_stable": (design.stability == flag("stability", "stable")).values.ravel(),
-            "least": (size == size.min("solution")).values.ravel(),
-        }
-    )[impacting.values.ravel()]
-    pairs = solutions.reset_index().merge(crossings(alike, design.frequency), on="frequency")
-    pairs["difference"] = np.abs(pairs.amplitude.map(np.real) / pairs.a - 1)
-    return pairs.loc[pairs.groupby("index").difference.idxmin()]
-
-
-def high_counterparts(design, branches, free):
-    """Return the rows of `counterparts` for stable solutions whose |a| is high."""
-    pairs = counterparts(design, branches)
-    limit = HALF * resonance(free, pairs.frequency)
-    return pairs[pairs.balance_stable & (np.abs(pairs.a) > limit)]
+    part = part[(part.period == 1) & (part.asymmetry < SYMMETRIC)]
+    part = part[(part.fewest == 2) & (part.contacts == 2)]
+    violent = HALF * resonance(free, design.frequency)[:, None]
+    amplitude = reading.stable_impacting(design).rename("a")
+    solutions = amplitude.where(np.abs(amplitude) > violent).to_series().dropna().reset_index()
+    pairs = solutions.reset_index().merge(crossings(part, design.frequency), on="frequency")
+    difference = np.abs(pairs.amplitude.map(np.real) / pairs.a - 1)
+    return pairs.loc[difference.groupby(pairs["index"]).idxmin()]
 
 
 def subharmonic(free):

@@ -15,7 +15,6 @@ from helpers.made_up import (
     parameters,
     policies,
     quiet_size,
-    release_scan,
     subharmonic,
     sweep,
     world,
@@ -147,7 +146,8 @@ def test_a_fourth_component_of_the_state_is_counted(data):
 
 def test_peaks_of_exact_orbits_are_read_from_their_folds(data):
     scale("branches", "free_h150", event_value=1.02)(data)
-    assert BY_NUMBER["S5"].evidence(data)["end_150"] == pytest.approx(1.02 * PEAKS[0.15])
+    peak = BY_NUMBER["S5"].evidence(data)["peaks"][1]
+    assert peak["end"] == pytest.approx(1.02 * PEAKS[0.15])
 
 
 def test_the_width_that_agrees_least_counts():
@@ -187,32 +187,26 @@ def test_regions_of_contact_number_overlap(overlap, expected, data):
     assert BY_NUMBER["6"].verdict(values) == expected
 
 
-@pytest.mark.parametrize("factor", [0.99, 1.01])
-def test_step_that_raises_the_optimum_is_named(factor, data):
-    """From e = 1 to 0.9 the optimum changes by `factor`, and at lower e it falls."""
+def test_step_that_raises_the_optimum(data):
+    """From e = 1 to 0.9 the optimum rises by 1 %, and at lower e it falls."""
     middle = sweep(0.215, 0.18, 0.9)
     hard = data["optimum"]["0.215_0.18_1.0"]
-    stretch = factor * float(hard.optimum_clearance / middle.optimum_clearance)
+    stretch = 1.01 * float(hard.optimum_clearance / middle.optimum_clearance)
     data["optimum"]["middle"] = middle.assign_coords(clearance=stretch * middle.clearance).assign(
         optimum_clearance=stretch * middle.optimum_clearance
     )
     values = BY_NUMBER["11"].evidence(data)
-    assert values["step"] == pytest.approx(factor)
-    assert (values["step_mass_ratio"], values["step_from"], values["step_to"]) == (0.18, 1, 0.9)
-    assert values["rising"] == (factor > 1)
+    assert values["step"] == pytest.approx(1.01) and values["clearance"] < 1
 
 
-@pytest.mark.parametrize(("width", "narrow"), [(0.0009, True), (0.0011, False)])
-def test_narrow_branches_are_reported_by_themselves(width, narrow, data):
-    """A branch of period 3 below the band has 1.2 times the free amplitude, over `width` in W."""
-    third = branch(np.array([1.7, 1.7 + width]), 0.96, period=3)
+def test_subharmonic_outside_of_the_band(data):
+    """A branch of period 3 below the band has 1.2 times the free amplitude."""
+    third = branch(np.array([1.7, 1.701]), 0.96, period=3)
     high = branch(np.array([1.0, 1.84]), np.array([1.0, 1.9]), contacts=4.0)
     data["branches"]["figure_05b"] = damped(high, third, mass_ratio=0.25)
     values = BY_NUMBER["10"].evidence(data)
-    assert values["light_anywhere"] == pytest.approx(width)
-    told, other = ("narrow_ratio", "light_ratio") if narrow else ("light_ratio", "narrow_ratio")
-    assert values[told] == pytest.approx(1.2) and np.isnan(values[other])
-    assert values["narrow_width"] == pytest.approx(width if narrow else 0)
+    assert values["light_anywhere"] == pytest.approx(0.001) and values["light"] == 0
+    assert values["light_ratio"] == pytest.approx(1.2)
 
 
 @pytest.mark.parametrize(("fall", "expected"), [(1.06, REPRODUCED), (1.04, NOT_REPRODUCED)])
@@ -223,28 +217,15 @@ def test_fall_of_the_subharmonic_at_lower_damping(fall, expected, data):
     data["subharmonic"]["figure_05a"] = subharmonic("figure_05a", damped=remaining)
     values = BY_NUMBER["18"].evidence(data)
     assert values["relative"] == pytest.approx(fall)
-    assert values["starts"] == 0 and values["starts_high"] == 0.5
     assert BY_NUMBER["18"].verdict(values) == expected
 
 
 def test_release_phase_decides_in_the_nearest_range_of_all_scans(data):
     values = BY_NUMBER["13"].evidence(data)
     assert (values["quiet_first"], values["quiet_last"]) == (1.65, 1.8)
-    assert (values["unsettled_first"], values["unsettled_last"]) == (1.5, 1.8)
-    assert values["quiet_most"] == pytest.approx(0.8)
     for name in ("wide", "close"):
         renamed("release_scan", name, clearance=1.0)(data)
     assert np.isnan(BY_NUMBER["13"].evidence(data)["quiet_first"])
-
-
-@pytest.mark.parametrize(("share", "decides"), [(0.009, False), (0.011, True), (0.991, False)])
-def test_phase_of_a_motion_of_longer_period_decides(share, decides, data):
-    scan = release_scan([1.8, 1.9], [share, 0.0])
-    longer = scan.damped_kind.copy(data=np.full_like(scan.damped_kind.values, 3))
-    data["release_scan"] = {"wide": scan.assign(damped_kind=longer)}
-    values = BY_NUMBER["13"].evidence(data)
-    told = [values[f"longer_{end}"] for end in ("first", "last", "least", "most")]
-    np.testing.assert_allclose(told, [1.8, 1.8, share, share] if decides else np.full(4, np.nan))
 
 
 @pytest.mark.parametrize(
@@ -264,12 +245,12 @@ def test_runs_that_could_arrive_by_the_better_way(within, by_hold, expected, dat
 
 def test_policies_count_for_their_damper_and_frequency(data):
     case = data["migration"]["figure_15"]
-    data["release_policies"] = {"paper": policies(case, 1.7)}
-    values = BY_NUMBER["13"].evidence(data)
-    assert (values["by_hold"], values["by_phase"]) == pytest.approx((0.2, 0.3))
-    assert "30 % of the runs arrive" in BY_NUMBER["13"].judge(data)["finding"]
-    data["release_policies"] = {"paper": policies(case, 1.8)}
-    assert np.isnan(BY_NUMBER["13"].evidence(data)["by_phase"])
+    for frequency, expected in ((1.7, 0.2), (1.8, np.nan)):
+        data["release_policies"] = {"paper": policies(case, frequency)}
+        (found,) = (
+            each for each in BY_NUMBER["14"].evidence(data)["cases"] if each["frequency"] == 1.7
+        )
+        assert found["hold"] == pytest.approx(expected, nan_ok=True)
 
 
 @pytest.mark.parametrize(("third", "expected"), [(11, REPRODUCED), (9, NOT_REPRODUCED)])
@@ -282,7 +263,6 @@ def test_early_releases_reach_period_3(third, expected, data):
     data["migration"]["figure_16"] = case
     values = BY_NUMBER["19"].evidence(data)
     assert values["early"] == pytest.approx(third / 1000)
-    assert values["of_others"] == pytest.approx(third / 500)
     assert BY_NUMBER["19"].verdict(values) == expected
 
 
