@@ -108,7 +108,7 @@ def without(status, work=0.0):
 
 def of_coefficients(balance, coefficients, work):
     """Return the `Model` of the harmonic-balance solution with given Fourier coefficients."""
-    state = state_of(Solution(balance, coefficients, "", 0, 0.0))
+    state = state_of(Solution(balance, coefficients, "", 0))
     rows = balance.contacts(coefficients)
     phases = rows[:, 1] if balance.damper is not None else np.empty(0)
     largest = fourier.largest(coefficients[0], balance.harmonics)
@@ -196,7 +196,7 @@ def many_harmonics(oscillator, damper, frequency, state, highest):
 
 def newton_work(balance):
     """Return the number of operations of one step of Newton's method with many harmonics."""
-    n, top = int(np.sum(balance.kept)), balance.highest
+    n, top = balance.unknowns, balance.highest
     transforms = 2 * _transform(16 * top) + 3 * _transform((SPRING_POWER + 1) * top)
     return 2 / 3 * n**3 + 12 * n**2 + transforms
 

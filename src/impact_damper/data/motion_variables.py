@@ -131,7 +131,6 @@ kind | frequency solution | | | whether the loose mass touches the walls
 growth_rate | frequency solution | rate | | largest real part of the eigenvalues of the slow flow
 stability | frequency solution | | | stability by the slow flow
   : STABILITY
-solution_count | frequency | | | number of solutions of the harmonic balance
 balance_status | frequency | | | how the solution of the harmonic balance ended
   : solved 0, unresolved 1
 free_amplitude | frequency free_solution | displacement | a | amplitude of Z1 without the damper
@@ -139,10 +138,8 @@ free_phase | frequency free_solution | angle | theta_1 | phase of Z1 to the forc
   damper
 free_stability | frequency free_solution | | | stability by the slow flow without the damper
   : STABILITY
-free_count | frequency | | | number of solutions of the harmonic balance without the damper
 rigid_amplitude | frequency root | displacement | a | amplitude of Z1 for rigid walls, negative if
   Z1 is in antiphase to Z2
-rigid_phase | frequency root | angle | theta_1 | phase of Z1 to the forcing for rigid walls
 rigid_wall | frequency root | | | whether rigid walls push the loose mass, or would have to pull
   it
   : absent 0, pushes 1, pulls 2
@@ -155,14 +152,7 @@ band_status | | | | whether there is a suppression band at the peak frequency
   : found 0, no_single_motion 1, no_reduction 2, no_peak 3
 edge | edge | | | lower or upper end of a range
 edge_frequency | edge | frequency | | edge of the suppression band
-edge_reduction | edge | | | 1 - |a|/(amplitude without the damper) at the edge of the suppression
-  band
-edge_event | edge | | | event that ends the suppression band
-  : not_found 0, resonance_branch_ends 1, other_motion_appears 2, other_motion_stabilises 3,
-  : quiet_motion_folds 4, quiet_motion_destabilises 5, no_reduction 6
 band_width | | frequency | Delta Omega_s | width of the suppression band
-break_even_frequency | | frequency | | frequency at which |a| equals the smallest amplitude
-  without the damper: above the peak, or for a softening spring below
 # optimum clearance
 quiet_displacement | clearance | displacement | max |Z1| | largest displacement in the quiet
   motion

@@ -1,6 +1,6 @@
 """Values and extrema of real Fourier series, and the intervals in which a series exceeds a level.
 
-A series is the sum of c_k exp(i k s) over k in `harmonics`, an ascending array of non-negative
+A series is the sum of c_k exp(i k s) over k in `harmonics`, an ascending array of positive
 integers, and over -k; `coefficients` are the c_k, and c_-k is the conjugate of c_k.
 """
 
@@ -24,7 +24,7 @@ def samples(coefficients, harmonics, count) -> np.ndarray:
 
 def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
     """Return the derivative of the given order of a series at angles; order 0 is the value."""
-    weights = np.where(harmonics == 0, 1, 2) * (1j * harmonics) ** order * coefficients
+    weights = 2 * (1j * harmonics) ** order * coefficients
     return (np.exp(1j * np.multiply.outer(angle, harmonics)) @ weights).real
 
 
@@ -66,7 +66,7 @@ def _beyond(coefficients, harmonics, level, wall):
     q = wall * samples(coefficients, harmonics, count) - level
     cells = _cells(penetration, coefficients, harmonics, ends, np.append(q, q[0]))
     if not len(cells):
-        return np.array([[wall, 0.0, 2 * np.pi]]) if q[0] > 0 else np.empty((0, 3))
+        return np.empty((0, 3))
     roots = np.array([brentq(penetration, *cell, xtol=1e-15, rtol=1e-15) for cell in cells])
     entering = penetration(cells[:, 0]) <= 0
     begin, end = roots[entering], roots[~entering]

@@ -4,8 +4,6 @@ Numbers in brackets are equations of the paper: (7) is the balance with elastic 
 limit for rigid walls.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 import xarray as xr
 
@@ -19,8 +17,7 @@ from impact_damper.theory.single_harmonic import check_elastic, impacting_soluti
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
 # Solutions at neighbouring frequencies can belong to one branch only if their distance is below
-# JUMP times the size of the largest solution. Between neighbouring points of the usual grids a
-# branch moves by less than this.
+# JUMP times the size of the largest solution.
 JUMP = 0.25
 
 
@@ -29,8 +26,7 @@ def branches_over(rows) -> list[np.ndarray]:
 
     Two solutions at neighbouring values of the parameter belong to the same branch if each is the
     nearest solution to the other, and the distance between them is below JUMP times the size of the
-    largest solution. Any other solution begins a new branch. Two branches that meet at a fold are
-    told apart if each moves less from value to value than the distance between them.
+    largest solution. Any other solution begins a new branch.
     """
     sizes = [np.max(np.abs(row)) for row in rows if len(row)]
     reach = JUMP * max(sizes, default=1.0)
@@ -76,10 +72,8 @@ def harmonic_balance(system, damper, frequencies):
 
         The suppression band is the range of frequencies around the peak Wp of the free response in
         which (7) has exactly one stable solution, smaller than the free resonance branch; with a
-        hardening spring this branch ends at the upper fold. For each `edge` (lower, upper) of the
-        band its frequency and the event that ends it there; the width; the reduction at Wp and at
-        the edges; and `break_even_frequency`, beyond which the quiet motion is not smaller than the
-        smallest free motion. NaN and a flag where an edge is not found.
+        hardening spring this branch ends at the upper fold. The frequency of each `edge` (lower,
+        upper) of the band, NaN if it is not found; the width of the band; and the reduction at Wp.
 
     Raises
     ------
@@ -128,10 +122,7 @@ def harmonic_balance_response(system, damper, frequencies):
 
 
 def _table(columns, rows, fill=np.nan):
-    """Return rows of unequal length as one array, each entry in the column of its branch.
-
-    `columns` holds for each row the numbers of the branches. Empty entries are `fill`.
-    """
+    """Return rows of unequal length as one array, each entry in the column of its branch."""
     width = max((1 + row.max() for row in columns if len(row)), default=1)
     table = np.full((len(rows), width), fill)
     for target, place, row in zip(table, columns, rows, strict=True):
@@ -156,7 +147,6 @@ def _free_table(oscillator, frequencies):
         "free_amplitude": _table(columns, [each.amplitude for each in free]),
         "free_phase": _table(columns, [each.phase for each in free]),
         "free_stability": _table(columns, signs, flag("free_stability", "absent")),
-        "free_count": [len(each.phase) for each in free],
     }
 
 
@@ -193,17 +183,12 @@ def _solution_table(oscillator, damper, frequencies):
             columns, [stability(row) for row in growth], flag("stability", "absent")
         ),
         "kind": _table(columns, kinds, flag("kind", "absent")),
-        "solution_count": [len(row) for row in amplitude],
         "balance_status": status,
     }
 
 
 def _solution_branches(amplitude, relative, phase, kinds):
-    """Return for each frequency the branches of the solutions with a damper.
-
-    The first branches are those with impacts. The branches of motions in which the loose mass
-    rests follow.
-    """
+    """Return for each frequency the branches of the solutions, those with impacts first."""
     resting = flag("kind", "resting")
     found, begun = [np.empty(len(row), int) for row in kinds], 0
     for chosen in ([row != resting for row in kinds], [row == resting for row in kinds]):
@@ -236,7 +221,6 @@ def _rigid_table(oscillator, damper, frequencies):
     )
     return {
         "rigid_amplitude": _table(columns, [each.amplitude for each in rigid]),
-        "rigid_phase": _table(columns, [each.phase for each in rigid]),
         "rigid_wall": _table(columns, walls, flag("rigid_wall", "absent")),
     }
 
@@ -249,6 +233,7 @@ SEARCHED = (0.2, 2.0)
 SEARCH_STEP = 0.005
 EDGE_TOLERANCE = 1e-10
 EDGES = ["lower", "upper"]
+SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "reduction")
 
 
 def suppression_band(system, damper):
@@ -261,107 +246,56 @@ def suppression_band(system, damper):
     oscillator, damper = model.oscillator, model.damper
     check_elastic(damper)
     title = "Suppression band by harmonic balance"
+    data = dict.fromkeys(SIZES, np.nan) | {
+        "band_status": flag("band_status", "no_peak"),
+        "edge_frequency": [np.nan] * 2,
+    }
     try:
         peak = peak_frequency(oscillator)
         resonance(oscillator, peak)
     except ValueError:
-        return dataset(_no_band(), {"edge": EDGES}, model.describe(), title, model)
+        return dataset(data, {"edge": EDGES}, model.describe(), title, model)
     highest = oscillator.forcing_amplitude(peak) / (oscillator.damping * peak)
 
-    def look(frequency):
-        return _look(oscillator, damper, frequency)
+    def status(frequency):
+        return _look(oscillator, damper, frequency)[0]
 
-    middle = look(peak)
-    status, frequency, event, reduction = middle.status(), [np.nan] * 2, [0, 0], [np.nan] * 2
-    break_even = None
-    if status == "found":
-        for k, limit in enumerate(SEARCHED):
-            edge = _edge(lambda w: look(w).status() == "found", peak, limit)
-            if edge is not None:
-                inner, outer = look(edge[0]), look(edge[1])
-                frequency[k], event[k] = edge[0], flag("edge_event", _event(inner, outer))
-                reduction[k] = 1 - inner.stable[0] / inner.resonance
-        if middle.beats_free():
-            limit = SEARCHED[0 if oscillator.hardening < 0 else 1]
-            break_even = _edge(lambda w: look(w).beats_free(), peak, limit)
-    quiet = middle.stable[0] if len(middle.stable) else np.nan
-    return dataset(
-        {
-            "band_status": flag("band_status", status),
-            "edge_frequency": frequency,
-            "edge_event": event,
-            "edge_reduction": reduction,
-            "band_width": frequency[1] - frequency[0],
-            "peak_frequency": peak,
-            "peak_amplitude": highest,
-            "quiet_amplitude": quiet,
-            "reduction": 1 - quiet / highest,
-            "break_even_frequency": np.nan if break_even is None else break_even[0],
-        },
-        {"edge": EDGES},
-        model.describe(),
-        title,
-        model,
-    )
-
-
-def _no_band():
-    """Return the variables of `suppression_band` if the free response has no peak."""
-    return {
-        "band_status": flag("band_status", "no_peak"),
-        "edge_frequency": [np.nan] * 2,
-        "edge_event": [flag("edge_event", "not_found")] * 2,
-        "edge_reduction": [np.nan] * 2,
-    } | dict.fromkeys(
-        (
-            "band_width",
-            "peak_frequency",
-            "peak_amplitude",
-            "quiet_amplitude",
-            "reduction",
-            "break_even_frequency",
-        ),
-        np.nan,
-    )
-
-
-class _Look(NamedTuple):
-    """The solutions of (7) and the free motions at one frequency.
-
-    count: Number of solutions of (7).
-    stable: |a| of the stable solutions, ascending.
-    resonance: Amplitude of the free resonance branch; NaN beyond its end.
-    least_free: Smallest amplitude of a free motion.
-    """
-
-    count: int
-    stable: np.ndarray
-    resonance: float
-    least_free: float
-
-    def status(self):
-        if len(self.stable) != 1:
-            return "no_single_motion"
-        return "found" if self.stable[0] < self.resonance else "no_reduction"
-
-    def beats_free(self):
-        return len(self.stable) > 0 and self.stable[0] < self.least_free
+    found, stable = _look(oscillator, damper, peak)
+    if found == "found":
+        edges = [_edge(lambda w: status(w) == "found", peak, limit) for limit in SEARCHED]
+        data["edge_frequency"] = edges
+        data["band_width"] = edges[1] - edges[0]
+    quiet = stable[0] if len(stable) else np.nan
+    data |= {
+        "band_status": flag("band_status", found),
+        "peak_frequency": peak,
+        "peak_amplitude": highest,
+        "quiet_amplitude": quiet,
+        "reduction": 1 - quiet / highest,
+    }
+    return dataset(data, {"edge": EDGES}, model.describe(), title, model)
 
 
 def _look(oscillator, damper, frequency):
+    """Return the flag `band_status` at one frequency, and |a| of the stable solutions, ascending.
+
+    Beyond the end of the free resonance branch there is no reduction.
+    """
     solutions = impacting_solutions(oscillator, damper, frequency)
     growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
-    free, branch = free_solutions(oscillator, frequency), resonance(oscillator, frequency)
     stable = np.sort(np.abs(solutions.amplitude[stability(growth) == flag("stability", "stable")]))
-    amplitude = np.nan if branch.phase is None else branch.amplitude
-    return _Look(len(growth), stable, amplitude, free.amplitude[0])
+    free = resonance(oscillator, frequency)
+    if len(stable) != 1:
+        return "no_single_motion", stable
+    reduced = free.phase is not None and stable[0] < free.amplitude
+    return "found" if reduced else "no_reduction", stable
 
 
 def _edge(inside, peak, limit):
-    """Return two frequencies on both sides of an edge of the band, the inner one first, or None.
+    """Return the last frequency inside the band, between `peak` and `limit` times `peak`, or NaN.
 
-    They differ by EDGE_TOLERANCE at most. The search goes from `peak` to `limit` times `peak`.
-    `inside` is a function that returns whether a frequency belongs to the band.
+    `inside` is a function that returns whether a frequency belongs to the band. The edge lies
+    within EDGE_TOLERANCE.
     """
     step = np.sign(limit - 1) * SEARCH_STEP * peak
     inner = peak
@@ -370,20 +304,8 @@ def _edge(inside, peak, limit):
             break
         inner = outer
     else:
-        return None
+        return np.nan
     while abs(outer - inner) > EDGE_TOLERANCE:
         middle = (inner + outer) / 2
         inner, outer = (middle, outer) if inside(middle) else (inner, middle)
-    return inner, outer
-
-
-def _event(inner, outer):
-    """Return the flag `edge_event`, from the solutions on both sides of an edge of the band."""
-    if np.isnan(outer.resonance):
-        return "resonance_branch_ends"
-    same = inner.count == outer.count
-    if len(outer.stable) > 1:
-        return "other_motion_stabilises" if same else "other_motion_appears"
-    if len(outer.stable) == 0:
-        return "quiet_motion_destabilises" if same else "quiet_motion_folds"
-    return "no_reduction"
+    return inner

@@ -1,8 +1,8 @@
 """Hill's method: Floquet exponents of a motion from the Fourier series of its linearisation.
 
 For a disturbance exp(lambda T) p(T) with periodic p the linearised equations become a quadratic
-eigenvalue problem. Each exponent has copies at distances of i s; the copies in the middle strip are
-accurate (Lazarus and Thomas, C. R. Mecanique 338, 510, 2010).
+eigenvalue problem. Each exponent has copies at distances of 2 i W; the copies in the middle strip
+are accurate (Lazarus and Thomas, C. R. Mecanique 338, 510, 2010).
 """
 
 from typing import NamedTuple
@@ -17,18 +17,17 @@ from impact_damper.theory.many_harmonics import factorised
 # nearest to zero are computed: COPIES of them for each exponent.
 DENSE = 100
 COPIES = 3
-# An imaginary part that differs from s/2 by less than EDGE s/2 is set to s/2. Such an exponent
-# belongs to a negative real multiplier. It has a copy at both edges of the strip, of which one
-# counts.
+# An imaginary part that differs from W by less than EDGE W is set to W. Such an exponent belongs to
+# a negative real multiplier. It has a copy at both edges of the strip, of which one counts.
 EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
     """Floquet exponents of a harmonic-balance solution.
 
-    values: Per unit time T, by ascending real part; NaN unless the status is "found". Without a
-        damper the shape is (2,).
-    status: "found"; "not_separated" if the strip |Im lambda| < s/2 holds another number of
+    values: Per unit time T, by ascending real part, shape (2,) or with a damper (4,); NaN unless
+        the status is "found".
+    status: "found"; "not_separated" if the strip |Im lambda| < W holds another number of
         eigenvalues; "not_converged" if the iteration for the eigenvalues near zero failed.
     """
 
@@ -50,9 +49,9 @@ def exponents(solution) -> Exponents:
         copies = _near_zero(*(balance.operator(orbit, contacts, power) for power in range(3)))
     except ArpackNoConvergence:
         return Exponents(unknown, "not_converged")
-    half_spacing = balance.frequency / balance.period / (1 if balance.symmetric else 2)
-    height = copies.imag / half_spacing
-    inside = np.where(height > 1 - EDGE, copies.real + 1j * half_spacing, copies)
+    # The copies are 2 W apart, because the linearised equations have half the period.
+    height = copies.imag / balance.frequency
+    inside = np.where(height > 1 - EDGE, copies.real + 1j * balance.frequency, copies)
     inside = inside[(height > -1 + EDGE) & (height < 1 + EDGE)]
     if len(inside) != dimension:
         return Exponents(unknown, "not_separated")
@@ -62,9 +61,8 @@ def exponents(solution) -> Exponents:
 def _near_zero(stiffness, damping, inertia):
     """Return the eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0 nearest zero.
 
-    With at most DENSE unknowns all eigenvalues are returned. The eigenvalues nearest zero are the
-    reciprocals of the largest eigenvalues of the inverse problem, written as a first-order system.
-    To apply this inverse, only `stiffness` needs to be factorised.
+    They are the reciprocals of the largest eigenvalues of the inverse problem, written as a
+    first-order system. To apply this inverse, only `stiffness` needs to be factorised.
     """
     size = len(stiffness)
     factors = factorised(stiffness)

@@ -20,79 +20,59 @@ from impact_damper.theory.free_oscillator import main_solutions
 
 @dataclass(frozen=True)
 class Balance:
-    """The equations of harmonic balance for one oscillator, damper and forcing frequency.
+    """The equations of a symmetric motion with the period of the forcing.
 
-    oscillator: Oscillator.
     damper: Damper or None.
     frequency: W, dimensionless.
-    highest: N, the highest retained harmonic of the base frequency.
-    period: n, period of the motion in forcing cycles; the base frequency is nu = W/n.
-    symmetric: If True, only odd harmonics are retained, for motions with Z(T + half a period) =
-        -Z(T); then n and N must be odd. If False, all harmonics from 0 to N are retained.
+    highest: N, odd, the highest retained harmonic. The motion has odd harmonics only, because
+        Z(T + half a period) = -Z(T).
     """
 
     oscillator: object
     damper: object
     frequency: float
     highest: int
-    period: int = 1
-    symmetric: bool = True
 
     def __post_init__(self):
         pack(self.oscillator, self.damper, self.frequency)
-        check_count("period", self.period, most=1000)
-        bounds = HARMONIC_RANGE | {"least": self.period, "why": "the harmonic of the forcing"}
-        check_count("highest", self.highest, **bounds)
-        if self.symmetric and (self.period % 2 == 0 or self.highest % 2 == 0):
-            raise ValueError(
-                f"period = {self.period}, highest = {self.highest}: must be odd for a symmetric "
-                "motion, which has odd harmonics only"
-            )
+        check_count("highest", self.highest, **HARMONIC_RANGE)
+        if self.highest % 2 == 0:
+            raise ValueError(f"highest = {self.highest}: must be odd (the motion is symmetric)")
 
     @property
     def harmonics(self) -> np.ndarray:
-        """Retained harmonics k of the base frequency, shape (m,)."""
-        return np.arange(1, self.highest + 1, 2) if self.symmetric else np.arange(self.highest + 1)
+        """Retained harmonics k, shape (m,)."""
+        return np.arange(1, self.highest + 1, 2)
 
     @property
     def rates(self) -> np.ndarray:
-        """Factors i k nu by which differentiation multiplies the coefficients, shape (m,)."""
-        return 1j * self.harmonics * (self.frequency / self.period)
+        """Factors i k W by which differentiation multiplies the coefficients, shape (m,)."""
+        return 1j * self.harmonics * self.frequency
 
     @property
-    def kept(self) -> np.ndarray:
-        """Mask of the real unknowns, without the imaginary part of the mean, which is zero."""
-        one = np.concatenate([self.harmonics >= 0, self.harmonics > 0])
-        return np.concatenate([one] * (1 if self.damper is None else 2))
+    def unknowns(self) -> int:
+        """Number of real unknowns."""
+        return len(self.harmonics) * (2 if self.damper is None else 4)
 
     def to_real(self, coefficients) -> np.ndarray:
-        """Return the real unknowns of complex coefficients, shape (1 or 2, m).
-
-        Their order is Re Z1, Im Z1, Re Z2, Im Z2.
-        """
-        return np.hstack([coefficients.real, coefficients.imag]).ravel()[self.kept]
+        """Return the real unknowns Re Z1, Im Z1, Re Z2, Im Z2 of coefficients (1 or 2, m)."""
+        return np.hstack([coefficients.real, coefficients.imag]).ravel()
 
     def to_complex(self, unknowns) -> np.ndarray:
         """Return the complex coefficients, shape (1 or 2, m), of real unknowns from `to_real`."""
-        whole = np.zeros(len(self.kept))
-        whole[self.kept] = unknowns
-        real, imaginary = np.moveaxis(whole.reshape(-1, 2, len(self.harmonics)), 1, 0)
-        return real + 1j * imaginary
+        parts = unknowns.reshape(-1, 2, len(self.harmonics))
+        return parts[:, 0] + 1j * parts[:, 1]
 
     def contacts(self, coefficients) -> np.ndarray:
-        """Return the contacts in a period as rows of `fourier.intervals`, in the angle nu T.
-
-        The array has the shape (count, 3), with count 0 without a damper.
-        """
+        """Return the contacts in a period as rows of `fourier.intervals`, in the angle W T."""
         if self.damper is None:
             return np.empty((0, 3))
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)
 
     def residual(self, coefficients, rows) -> np.ndarray:
-        """Return left side minus right side of the equations of motion in each harmonic.
+        """Return left minus right side of (3), (4), (20), (21) in each harmonic, shape (1 or 2, m).
 
-        The equations are (3) and (4), with a dashpot (20) and (21). The result has the shape (1 or
-        2, m). The forcing A cos(W T) has the coefficient A/2. `rows` are the `contacts` of the
+        The forcing A cos(W T) has the coefficient A/2. `rows` are the `contacts` of the
         coefficients.
         """
         k, rate, own = self.harmonics, self.rates, self.oscillator
@@ -101,7 +81,7 @@ class Balance:
         bent = np.fft.rfft(own.nonlinear_force(fourier.samples(first, k, count)))[k] / count
         spring = rate**2 + own.damping * rate + own.linear_frequency**2
         forcing = 0.5 * own.forcing_amplitude(self.frequency)
-        balance = spring * first + bent - forcing * (k == self.period)
+        balance = spring * first + bent - forcing * (k == 1)
         if self.damper is None:
             return balance[None]
         by_value, by_conjugate = _convolution(self._contact_indicator(rows), k)
@@ -117,7 +97,7 @@ class Balance:
 
     @property
     def stiffness(self) -> np.ndarray:
-        """Dynamic stiffness r1 + i k nu c of the contact spring and dashpot, shape (m,)."""
+        """Dynamic stiffness r1 + i k W c of the contact spring and dashpot, shape (m,)."""
         return self.damper.contact_stiffness + self.rates * self.damper.dashpot
 
     def operator(self, coefficients, rows, power=0) -> np.ndarray:
@@ -137,15 +117,14 @@ class Balance:
             slope = own.nonlinear_slope(fourier.samples(coefficients[0], k, count))
             first += _real(*_convolution(np.fft.rfft(slope) / count, k))
         if self.damper is None:
-            return first[np.ix_(self.kept, self.kept)]
+            return first
         free = _real(unit * inertia, 0 * unit)
         push = np.zeros_like(free)
         if power < 2:
             factor = self.stiffness if power == 0 else np.full(len(k), self.damper.dashpot)
             by_contact = _convolution(self._contact_indicator(rows), k)
             push = _real(*(factor[:, None] * part for part in by_contact))
-        whole = np.block([[first, push], [-free, free + push / self.damper.mass_ratio]])
-        return whole[np.ix_(self.kept, self.kept)]
+        return np.block([[first, push], [-free, free + push / self.damper.mass_ratio]])
 
     def _contact_indicator(self, rows):
         """Return the Fourier coefficients 0 ... 2N of M, which is 1 in contact and 0 elsewhere."""
@@ -155,15 +134,12 @@ class Balance:
 def _convolution(coefficients, harmonics):
     """Return matrices A, B: A z + B conj(z) are the retained coefficients of a product g z.
 
-    `coefficients` are g_0 ... g_2N or more. The column of B for the mean of z is zero, because the
-    mean is its own conjugate and must count once.
+    `coefficients` are g_0 ... g_2N or more.
     """
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
     column = harmonics[:, None]
-    by_conjugate = two_sided[zero + column + harmonics]
-    by_conjugate[:, harmonics == 0] = 0
-    return two_sided[zero + column - harmonics], by_conjugate
+    return two_sided[zero + column - harmonics], two_sided[zero + column + harmonics]
 
 
 def _real(by_value, by_conjugate):
@@ -184,30 +160,24 @@ LEAST_DAMPING = 1e-4
 class Solution(NamedTuple):
     """Last iterate of Newton's method, which is a solution if the status is "converged".
 
-    balance: Balance.
-    coefficients: Fourier coefficients c_k, k >= 0, of Z1 and Z2 (see `fourier`). Without a damper
-        the coefficients of Z1 only, shape (1, m).
+    coefficients: Fourier coefficients c_k (see `fourier`) of Z1 and Z2, or of Z1 without a damper.
     status: "converged"; "stalled" if even the shortest admitted step fails the test of `solve`; or
         "iteration_limit" if the number of steps was reached.
     iterations: Number of steps of Newton's method.
-    residual: Largest modulus of an entry of the residual, in the real form of `Balance.to_real`.
     """
 
     balance: Balance
     coefficients: np.ndarray
     status: str
     iterations: int
-    residual: float
 
 
-def solve(balance, start, iterations=ITERATIONS) -> Solution:
+def solve(balance, start) -> Solution:
     """Solve the equations of a balance by the damped Newton's method.
 
     A step is halved until the following step, computed with the same Jacobian, is shorter. This is
     the natural monotonicity test of Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
     3.3. The residual would be a poor measure of progress, because the stiff contact dominates it.
-    The method has converged when a step changes no coefficient by more than TOLERANCE times the
-    largest coefficient.
     """
     count = len(balance.harmonics)
     now = np.zeros((len(start), count), complex)
@@ -215,7 +185,7 @@ def solve(balance, start, iterations=ITERATIONS) -> Solution:
     rows = balance.contacts(now)
     defect = balance.to_real(balance.residual(now, rows))
     status, taken = "iteration_limit", 0
-    while taken < iterations and status == "iteration_limit":
+    while taken < ITERATIONS and status == "iteration_limit":
         factors = factorised(balance.operator(now, rows))
         step = -lu_solve(factors, defect, check_finite=False)
         small = np.max(np.abs(step)) <= TOLERANCE * np.max(np.abs(now))
@@ -233,14 +203,14 @@ def solve(balance, start, iterations=ITERATIONS) -> Solution:
             damping /= 2
         else:
             status = "stalled"
-    return Solution(balance, now, status, taken, float(np.max(np.abs(defect))))
+    return Solution(balance, now, status, taken)
 
 
 def factorised(matrix):
     """Return the LU factors of a matrix for `scipy.linalg.lu_solve`.
 
-    The factors are computed in another thread, because the computation takes seconds with a
-    thousand harmonics. In the main thread it would delay the reaction to Ctrl-C.
+    They are computed in another thread, because this takes seconds with a thousand harmonics. In
+    the main thread it would delay the reaction to Ctrl-C.
     """
     pool = ThreadPoolExecutor(1)
     try:
@@ -273,10 +243,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
 
 
 def refine(balances, start) -> list:
-    """Return a `Solution` of each balance.
-
-    The first guess for a balance is the last solution before it that converged.
-    """
+    """Return a `Solution` of each balance; the first guess is the last one that converged."""
     solutions = []
     for balance in balances:
         solutions.append(solve(balance, start))

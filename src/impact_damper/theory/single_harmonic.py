@@ -31,18 +31,14 @@ class Solutions(NamedTuple):
 class RigidSolutions(NamedTuple):
     """Solutions for rigid walls (r1 to infinity, b = d0), arrays of shape (count,).
 
-    tangent: D = tan(t1/2), a root of (14).
     amplitude, phase: a and t1 as in `Solutions`.
     pulling: True where a > d0. There the contact force would be tensile, so (7) has no such
         solution.
-    residual: Residual of (13a), left side minus right side.
     """
 
-    tangent: np.ndarray
     amplitude: np.ndarray
     phase: np.ndarray
     pulling: np.ndarray
-    residual: np.ndarray
 
 
 def contact_amplitude(relative_amplitude, clearance) -> tuple:
@@ -67,7 +63,7 @@ def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
     frequency = check_frequency(frequency)
     force = oscillator.forcing_amplitude(frequency)
     if force == 0:
-        return RigidSolutions(*np.empty((3, 0)), np.empty(0, bool), np.empty(0))
+        return RigidSolutions(*np.empty((2, 0)), np.empty(0, bool))
     inertia = damper.mass_ratio * frequency**2
     detuning = oscillator.linear_frequency**2 - frequency**2
     drag = oscillator.damping * frequency
@@ -78,13 +74,7 @@ def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
         [push - 1, odd, 3 * push - 1, cubic + 2 * odd, 3 * push + 1, odd, push + 1]
     )
     amplitude = -2 * force * tangent / (drag * (1 + tangent**2))
-    phase = 2 * np.arctan(tangent)
-    residual = (
-        amplitude * (detuning + oscillator.hardening * amplitude**2)
-        + inertia * (damper.clearance - amplitude)
-        - force * np.cos(phase)
-    )
-    return RigidSolutions(tangent, amplitude, phase, amplitude > damper.clearance, residual)
+    return RigidSolutions(amplitude, 2 * np.arctan(tangent), amplitude > damper.clearance)
 
 
 def impacting_solutions(oscillator, damper, frequency) -> Solutions:

@@ -1,7 +1,7 @@
-"""Slow flow (17) and its Jacobian in the complex amplitudes A = a exp(i t1), C = b exp(i t2).
+"""Stability of harmonic-balance solutions by the slow flow (17) in the complex amplitudes.
 
-Unlike the polar equations of the paper these are regular at a = 0, the design point, and have the
-same eigenvalues elsewhere.
+With A = a exp(i t1) and C = b exp(i t2), unlike the polar equations of the paper, the slow flow is
+regular at a = 0, the design point. Elsewhere its eigenvalues are the same.
 """
 
 import numpy as np
@@ -13,31 +13,10 @@ from impact_damper.theory.single_harmonic import contact_amplitude
 MARGIN = 1e-9
 
 
-def slow_flow(state, oscillator, damper, frequency) -> np.ndarray:
-    """Return the time derivatives of the slow amplitudes, equation (17)."""
-    frequency = check_frequency(frequency)
-    state = np.asarray(state, float)
-    primary = state[..., 0] + 1j * state[..., 1]
-    drag = oscillator.damping * frequency * primary
-    spring = oscillator.linear_frequency**2 + oscillator.hardening * np.abs(primary) ** 2
-    spring = spring * primary
-    force = oscillator.forcing_amplitude(frequency)
-    first = drag + 1j * (force - spring + frequency**2 * primary)
-    if damper is None:
-        rates = [first]
-    else:
-        loose = state[..., 2] + 1j * state[..., 3]
-        push = _push(loose, damper)[0] * loose
-        total = (1 + 1 / damper.mass_ratio) * push
-        rates = [first - 1j * push, drag + 1j * (force - spring + frequency**2 * loose - total)]
-    parts = [part for rate in rates for part in (rate.real, rate.imag)]
-    return -np.stack(parts, axis=-1) / (2 * frequency)
-
-
 def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
-    """Return the Jacobian of `slow_flow` with respect to the state.
+    """Return the Jacobian of the slow flow, appendix A in complex amplitudes, shape (..., k, k).
 
-    This is appendix A in complex amplitudes. The arguments are as in `slow_flow`.
+    `state` has the shape (..., k): Re A, Im A, and with a damper Re C, Im C.
     """
     frequency = check_frequency(frequency)
     state = np.asarray(state, float)
@@ -48,7 +27,7 @@ def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
     own = _block(drag + 1j * (frequency**2 - spring), twisted)
     if damper is None:
         return -own / (2 * frequency)
-    _, along, across = _push(state[..., 2] + 1j * state[..., 3], damper)
+    along, across = _push_slopes(state[..., 2] + 1j * state[..., 3], damper)
     total = 1 + 1 / damper.mass_ratio
     upper = np.concatenate([own, _block(-1j * along, -1j * across)], axis=-1)
     lower = np.concatenate(
@@ -87,21 +66,17 @@ def stability(growth) -> np.ndarray:
     return -np.sign(np.where(np.abs(growth) <= MARGIN, 0.0, growth)).astype(int)
 
 
-def _push(loose, damper):
-    """Return r1 B(b)/b, and the derivatives of r1 (B/b) C with respect to C and conj(C).
+def _push_slopes(loose, damper):
+    """Return the derivatives of r1 (B/b) C with respect to C and conj(C), where b = |C|.
 
-    B is the first harmonic of the contact force divided by r1, equation (6e), and b = |C|.
+    B is the first harmonic of the contact force divided by r1, equation (6e).
     """
     size = np.abs(loose)
     contact, slope = contact_amplitude(size, damper.clearance)
     size = np.maximum(size, damper.clearance)
     ratio = contact / size
     stiffness = damper.contact_stiffness
-    return (
-        stiffness * ratio,
-        stiffness * (slope + ratio) / 2,
-        stiffness * (slope - ratio) / 2 * (loose / size) ** 2,
-    )
+    return stiffness * (slope + ratio) / 2, stiffness * (slope - ratio) / 2 * (loose / size) ** 2
 
 
 def _block(by_value, by_conjugate):

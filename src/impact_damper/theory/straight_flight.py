@@ -27,9 +27,8 @@ APART = 1e-20j
 class Flight(NamedTuple):
     """The quiet motion near its optimum, with lengths in units of f/W^2 and time as phase W T.
 
-    `docs/explanation/straight_flight.md` derives the equations: with x = W^2 Z1/f, the amplitude A
-    of the forced response, impulses 4 q/pi at the phase s, and walls farther out by the depth of a
-    contact.
+    `docs/explanation/straight_flight.md` derives the equations: x = W^2 Z1/f responds to the
+    forcing with the amplitude A, and to impulses 4 q/pi at the phase s.
 
     mass_ratio, restitution: rm and e, dimensionless.
     contact: k, phase that an elastic contact lasts, divided by pi; 0 for rigid walls.
@@ -158,11 +157,8 @@ def flight_of(oscillator, damper, frequency) -> Flight:
 def least_displacement_ratio(flight) -> float:
     """Return rm W^2 d0 at which max |Z1| is smallest, dimensionless.
 
-    For rigid walls without damping and stiffness the result is (1 + rm) q - rm cos(s). Two cases of
-    Lambda = (1 + 1/rm) (1 - e)/(1 + e) differ. For Lambda <= 0.369 the optimum is a kink, at which
-    |x| at the impact equals the largest |x| between impacts; for e = 1 it has q = 1.1382 and s = 0.
-    For larger Lambda the largest |x| occurs between impacts and has a smooth minimum, where
-    Lambda cos(s + tan(s)) = sin(s) and q = pi sin(s)/(2 Lambda).
+    The optimum is a kink, at which |x| at the impact equals the largest |x| between impacts, or
+    with low restitution a smooth minimum of the latter.
     """
     impulses = np.linspace(0, flight.largest_impulse, GRID + 2)[1:-1]
     best = int(np.argmin(flight.largest_displacement(impulses)))
@@ -176,13 +172,10 @@ def least_displacement_ratio(flight) -> float:
 def least_harmonic_ratio(flight) -> float:
     """Return rm W^2 d0 at which the first harmonic of Z1 is smallest, dimensionless.
 
-    The result is a closed form. The first harmonic of Z1 is the response to the first harmonic of
-    the forcing and the impulses, which is 1 - c q exp(-i p) with c = 8/pi^2 and the lag p of the
-    impact behind the forcing. Let sin(u) = q L/A and n = u - p. The modulus is smallest where
+    The first harmonic of Z1 is the response to the first harmonic of the forcing and the impulses,
+    which is 1 - c q exp(-i p) with c = 8/pi^2 and the lag p of the impact behind the forcing. Let
+    sin(u) = q L/A and n = u - p. The modulus is smallest where
     tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
-
-    For e = 1 without damping q = pi^2/8, and for rigid walls rm W^2 d0 = (1 + rm) pi^2/8 - rm.
-    For small rm this tends to pi^2/8, the value for a primary mass at rest.
     """
     factor = 8 / np.pi**2
     loss = flight.loss
@@ -194,10 +187,7 @@ def least_harmonic_ratio(flight) -> float:
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return the optima of rm W^2 d0 by both criteria for elastic contact.
-
-    The closed forms are of first order in k and g and neglect the stiffness l.
-    """
+    """Return both optima of rm W^2 d0 for elastic contact, to first order in k and g, for l = 0."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
@@ -206,15 +196,3 @@ def elastic_ratios(flight) -> tuple[float, float]:
     displacement = whole * IMPULSE * (kink - contact) - flight.mass_ratio
     harmonic = whole * (1 - contact) * np.pi**2 / 8 - flight.mass_ratio
     return displacement, harmonic
-
-
-def light_mass_optimum(mass_ratio, restitution, damping_ratio) -> float:
-    """Return d0 of the smallest response at the resonance of a linear oscillator, to first order.
-
-    It is divided by the static deflection. The impacts then take place in the middle position of
-    the primary mass, whose speed there is q = (2/pi) (1 - e)/(1 + e) times d0; 8 rm/pi^2 is the
-    first harmonic of the impulses. The mass ratio and the damping ratio are small. O. V. Gendelman,
-    J. Sound Vib. 331(21), 4599-4608, 2012; E. Gourc et al., J. Vib. Acoust. 137(3), 031008, 2015.
-    """
-    loss = 2 / np.pi * (1 - restitution) / (1 + restitution)
-    return 1 / (2 * damping_ratio * loss + 8 * mass_ratio / np.pi**2)

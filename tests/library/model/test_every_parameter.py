@@ -45,7 +45,7 @@ from impact_damper.theory.single_harmonic import (
     resting_solutions,
     rigid_solutions,
 )
-from impact_damper.theory.slow_flow import jacobian, slow_flow
+from impact_damper.theory.slow_flow import jacobian
 from impact_damper.theory.straight_flight import flight_of
 
 ROOT = Path(__file__).parents[3]
@@ -124,7 +124,6 @@ PLACES = {
         lambda oscillator: resting_solutions(oscillator, WIDE, W).amplitude,
         lambda oscillator: np.hstack(rigid_solutions(oscillator, ELASTIC, W)),
     ],
-    "theory/slow_flow.py": [lambda oscillator: slow_flow(STATE, oscillator, DAMPER, W)],
     "tests/references/equation.py": [
         lambda oscillator: equation.flight(packed(oscillator), *STATE[:2], 0.6)
     ],

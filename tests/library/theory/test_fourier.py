@@ -10,14 +10,13 @@ ONE = np.array([1])
 
 
 def test_value_and_samples_agree():
-    harmonics, angle = np.arange(4), 2 * np.pi * np.arange(12) / 12
-    coefficients = np.array([0.3, 1 - 2j, 0.5j, 0.1])
+    harmonics, angle = np.arange(1, 4), 2 * np.pi * np.arange(12) / 12
+    coefficients = np.array([1 - 2j, 0.5j, 0.1])
     direct = sum(
-        2 * (c * np.exp(1j * k * angle)).real
-        for k, c in zip(harmonics[1:], coefficients[1:], strict=True)
+        2 * (c * np.exp(1j * k * angle)).real for k, c in zip(harmonics, coefficients, strict=True)
     )
-    assert fourier.samples(coefficients, harmonics, 12) == pytest.approx(direct + 0.3)
-    assert fourier.value(coefficients, harmonics, angle) == pytest.approx(direct + 0.3)
+    assert fourier.samples(coefficients, harmonics, 12) == pytest.approx(direct)
+    assert fourier.value(coefficients, harmonics, angle) == pytest.approx(direct)
 
 
 def test_intervals_of_a_cosine():
@@ -36,11 +35,8 @@ def test_no_grazing_is_missed(excess):
     assert found == pytest.approx(np.array(expected), abs=1e-7)
 
 
-def test_a_series_within_or_beyond_the_walls():
-    harmonics = np.array([0, 1])
-    assert len(fourier.intervals(np.array([0.1, 0.1]), harmonics, 1.0)) == 0
-    beyond = fourier.intervals(np.array([-3.0, 0.1]), harmonics, 1.0)
-    assert beyond == pytest.approx(np.array([[-1, 0, 2 * np.pi]]))
+def test_a_series_within_the_walls():
+    assert len(fourier.intervals(np.array([0.1]), ONE, 1.0)) == 0
 
 
 def test_indicator_is_the_integral():

@@ -1,40 +1,176 @@
-"""The oscillator without a damper against the equations, discriminants and searches.
+"""The oscillator without a damper, with springs of any sign and any forcing: limits and searches.
 
-Symbols are as in `system.parameters`.
+Symbols are as in `model.parameters`.
 """
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from scipy.optimize import brentq
+from references.equation import KNOWN, SPRINGS
+from scipy.optimize import minimize_scalar
 
-from impact_damper.model.parameters import Oscillator
-from impact_damper.theory.design_rule import peak_frequency
-from impact_damper.theory.free_oscillator import free_folds, free_solutions
+from impact_damper.data.datasets import flag
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.theory.design_rule import peak_frequency, rule_clearance
+from impact_damper.theory.free_oscillator import (
+    free_folds,
+    free_solutions,
+    main_solutions,
+    maximum_response,
+    resonance,
+)
+from impact_damper.theory.harmonic_balance import suppression_band
+from impact_damper.theory.optimum_clearance import rule_ratios
+from impact_damper.theory.single_harmonic import (
+    impacting_solutions,
+    resting_solutions,
+    rigid_solutions,
+)
+
+LINEAR, SOFTENING = SPRINGS["linear"], SPRINGS["softening"]
 
 
-@pytest.mark.parametrize("linear", [0.0, 1.0, 1.5])
-@pytest.mark.parametrize("damping", [0.107, 0.15, 0.215])
-def test_folds_are_zeros_of_the_discriminant(damping, linear):
-    oscillator = Oscillator(damping, linear)
-
-    def discriminant(frequency):
-        k = linear**2 - frequency**2
-        a, b, c, d = 9 / 16, 1.5 * k, k**2 + (damping * frequency) ** 2, -1.0
-        return 18 * a * b * c * d - 4 * b**3 * d + (b * c) ** 2 - 4 * a * c**3 - 27 * (a * d) ** 2
-
-    grid = np.linspace(0.3, 4, 20001)
-    values = np.array([discriminant(w) for w in grid])
-    crossed = np.flatnonzero(values[:-1] * values[1:] < 0)
-    expected = [brentq(discriminant, grid[k], grid[k + 1], xtol=1e-14) for k in crossed]
-    assert_allclose([fold.frequency for fold in free_folds(oscillator)], expected, rtol=1e-9)
+@pytest.fixture(params=KNOWN)
+def oscillator(request):
+    return SPRINGS[request.param]
 
 
-@pytest.mark.parametrize("damping, frequency", [(0.215, 2.007), (0.15, 2.403), (0.107, 2.845)])
-def test_peak_frequency(damping, frequency):
-    """At the peak frequency the free motion has the amplitude 1/(h W) and lags by pi/2."""
-    peak = peak_frequency(Oscillator(damping))
-    assert_allclose(peak, frequency, atol=5e-4)
-    largest = free_solutions(Oscillator(damping), peak)
-    assert_allclose(largest.amplitude[-1], 1 / (damping * peak), rtol=1e-9)
-    assert_allclose(largest.phase[-1], -np.pi / 2, atol=1e-6)
+def balance(a, phase, oscillator, frequency):
+    """Return the residual of the first harmonic of equation (3) without contact."""
+    spring = oscillator.linear_frequency**2 - frequency**2 + 0.75 * oscillator.cubic * a**2
+    force = oscillator.force + oscillator.unbalance * frequency**2
+    force += oscillator.shaker / frequency**2
+    return a * (spring + 1j * oscillator.damping * frequency) - force * np.exp(-1j * phase)
+
+
+def defect(a, oscillator, frequency):
+    """Return the squared amplitude of spring, inertia and damping minus the squared force."""
+    inside = balance(a, 0.0, oscillator, frequency)
+    force = balance(0.0, 0.0, oscillator, frequency)
+    return np.abs(inside - force) ** 2 - np.abs(force) ** 2
+
+
+def test_peak_of_a_linear_oscillator_in_closed_form():
+    square = 1.3**2 - 0.1**2 / 2
+    peak = maximum_response(LINEAR)
+    assert_allclose(peak.frequency, np.sqrt(square), rtol=1e-12)
+    assert_allclose(peak.amplitude, 0.7 / (0.1 * np.sqrt(1.3**2 - 0.1**2 / 4)), rtol=1e-12)
+    assert_allclose(peak_frequency(LINEAR), 1.3, rtol=1e-12)
+    assert_allclose(rule_clearance(LINEAR, 0.2), 0.7 / (0.2 * 1.3**2), rtol=1e-12)
+    assert free_folds(LINEAR) == []
+
+
+def test_peak_on_a_shaker_in_closed_form():
+    """x = V/(W^2 |wl^2 - W^2 + i h W|): the slope of 1/x^2 is a quadratic in W^2."""
+    least = 2 * 1.2**2 - 0.3**2
+    square = (3 * least + np.sqrt(9 * least**2 - 32 * 1.2**4)) / 8
+    peak = maximum_response(Oscillator(0.3, 1.2, cubic=0.0, force=0.0, shaker=0.5))
+    assert_allclose(peak.frequency, np.sqrt(square), rtol=1e-12)
+    with pytest.raises(ValueError, match="shaker = 0.5 it falls"):
+        maximum_response(Oscillator(0.8, 1.2, cubic=0.0, force=0.0, shaker=0.5))
+
+
+def test_all_free_solutions_are_found(oscillator):
+    amplitudes = np.concatenate([[0], np.geomspace(1e-4, 100, 200001)])
+    for frequency in np.linspace(0.3, 2.5, 23):
+        a, phase = free_solutions(oscillator, frequency)
+        assert_allclose(balance(a, phase, oscillator, frequency), 0, atol=1e-9)
+        values = defect(amplitudes, oscillator, frequency)
+        assert len(a) == np.sum(values[:-1] * values[1:] < 0)
+
+
+@pytest.mark.thorough
+def test_folds_are_where_solutions_appear(oscillator):
+    """The number of solutions changes at folds, and there one solution is double."""
+
+    def count(frequency):
+        return len(free_solutions(oscillator, frequency).amplitude)
+
+    grid = np.linspace(0.02, 4, 1991)
+    counts = [count(frequency) for frequency in grid]
+    found = []
+    for k in np.flatnonzero(np.diff(counts)):
+        low, high = grid[k], grid[k + 1]
+        while high - low > 1e-11:
+            middle = (low + high) / 2
+            low, high = (middle, high) if count(middle) == counts[k] else (low, middle)
+        found.append(low)
+    folds = free_folds(oscillator)
+    seen = sorted(fold.frequency for fold in folds if grid[0] < fold.frequency < grid[-1])
+    assert_allclose(seen, found, atol=1e-9)
+    for fold in folds:
+        slope = minimize_scalar(
+            lambda a, w=fold.frequency: abs(defect(a, oscillator, w)),
+            bounds=(0.99 * fold.amplitude, 1.01 * fold.amplitude),
+            method="bounded",
+            options={"xatol": 1e-12},
+        )
+        assert slope.fun < 1e-9
+        assert_allclose(slope.x, fold.amplitude, rtol=1e-5)
+
+
+def test_the_resonance_of_a_softening_spring_ends_below_its_peak():
+    peak, folds = maximum_response(SOFTENING), free_folds(SOFTENING)
+    end = [fold for fold in folds if fold.amplitude < peak.amplitude][-1]
+    assert end.frequency < peak.frequency < 1
+    below, above = (resonance(SOFTENING, end.frequency * x) for x in (1 - 1e-6, 1 + 1e-6))
+    assert below.phase is None and below.amplitude == end.amplitude
+    assert_allclose(above.amplitude, end.amplitude, rtol=1e-2)
+    assert resonance(SOFTENING, peak.frequency).amplitude > 0.99 * peak.amplitude
+
+
+@pytest.mark.thorough
+def test_maximum_response_against_a_search(oscillator):
+    maximum = maximum_response(oscillator)
+    near = minimize_scalar(
+        lambda w: -main_solutions(oscillator, w).amplitude[-1],
+        bounds=(maximum.frequency * (1 - 1e-3), maximum.frequency * (1 + 1e-3)),
+        method="bounded",
+        options={"xatol": 1e-10},
+    )
+    assert_allclose(-near.fun, maximum.amplitude, rtol=1e-6)
+    # towards W = 0 the response on a shaker grows without end
+    grid = np.linspace(0.6 * maximum.frequency if oscillator.shaker else 0.01, 6, 1000)
+    assert all(main_solutions(oscillator, w).amplitude[-1] <= maximum.amplitude for w in grid)
+
+
+def test_at_the_peak_frequency_the_motion_lags_by_a_quarter_period(oscillator):
+    """With the clearance of rule (19) the balance with rigid walls then has the amplitude 0."""
+    peak = peak_frequency(oscillator)
+    a, phase = main_solutions(oscillator, peak)
+    assert_allclose(phase[-1], -np.pi / 2, atol=1e-5)
+    force = oscillator.forcing_amplitude(peak)
+    assert_allclose(a[-1], force / (oscillator.damping * peak), rtol=1e-8)
+    damper = Damper(0.2, rule_clearance(oscillator, 0.2))
+    assert np.min(np.abs(rigid_solutions(oscillator, damper, peak).amplitude)) < 1e-9
+
+
+@pytest.mark.parametrize(
+    "oscillator, message",
+    [
+        (Oscillator(0.05, 1.0, cubic=-0.5, force=0.5), "force = 0.5: .* over the barrier"),
+        (Oscillator(0.1, 0.5, cubic=2.0, unbalance=1.0), "unbalance = 1: .* without end"),
+        (Oscillator(0.1, 0.0, cubic=0.0), "linear_frequency = 0, cubic = 0.* nothing restores"),
+        (Oscillator(0.1, 0.0, cubic=-1.0), "force = 1: .* over the barrier"),
+    ],
+)
+def test_a_response_without_a_peak_says_so(oscillator, message):
+    with pytest.raises(ValueError, match=message):
+        peak_frequency(oscillator)
+    with pytest.raises(ValueError, match="the response has no peak"):
+        maximum_response(oscillator)
+    band = suppression_band(oscillator, Damper(0.1, 1.0))
+    assert band.band_status == flag("band_status", "no_peak")
+    assert np.isnan(band.edge_frequency).all() and np.isnan(band.band_width)
+
+
+def test_without_force_there_is_rest():
+    free, damper = Oscillator(0.1, 1.0, force=0.0), Damper(0.1, 1.0)
+    assert free_solutions(free, 1.2).amplitude.tolist() == [0]
+    assert len(impacting_solutions(free, damper, 1.2).phase) == 0
+    assert len(rigid_solutions(free, damper, 1.2).phase) == 0
+    assert resting_solutions(free, damper, 1.2).amplitude.tolist() == [0]
+    with pytest.raises(ValueError, match="needs a forcing"):
+        rule_clearance(free, 0.1)
+    with pytest.raises(ValueError, match="needs a forcing"):
+        rule_ratios(free, damper, 1.2)

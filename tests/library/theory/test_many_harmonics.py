@@ -1,127 +1,140 @@
-"""Harmonic balance against equations (7), sampled forces, differences, and exact orbits.
-
-Z2 is the displacement of the primary mass relative to the loose mass, W the forcing frequency, and
-T the time. Numbers in brackets are equations of the paper.
-"""
+"""Many harmonics and Hill's method against sampled forces, differences, SciPy, and exact orbits."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from helpers.known_orbits import DESIGN, INELASTIC, PAPER
+from references import equation
+from references.equation import KNOWN, SPRINGS
+from scipy.integrate import solve_ivp
 
 from impact_damper.model.packed import pack
-from impact_damper.model.parameters import Oscillator
-from impact_damper.motions import strobe_map
-from impact_damper.theory import fourier, single_harmonic
+from impact_damper.model.parameters import Damper
+from impact_damper.orbits.shooting import find_orbit
+from impact_damper.theory import fourier, hill, many_harmonics, single_harmonic
 from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
-
-BALANCES = {
-    "free": Balance(Oscillator(0.3, 0.7), None, 1.3, 5),
-    "elastic": Balance(PAPER, DESIGN, 2.0, 9),
-    "inelastic": Balance(PAPER, INELASTIC, 2.0, 9),
-    "asymmetric": Balance(PAPER, INELASTIC, 2.0, 6, period=2, symmetric=False),
-}
-
-
-@pytest.fixture(params=list(BALANCES))
-def balance(request):
-    return BALANCES[request.param]
 
 
 def arbitrary(balance, seed=1):
     """Return coefficients of random series, with a Z2 that touches both walls."""
     generator = np.random.default_rng(seed)
-    count = len(balance.harmonics)
-    shape = (1 if balance.damper is None else 2, count)
+    shape = 2, len(balance.harmonics)
     series = generator.standard_normal(shape) + 1j * generator.standard_normal(shape)
     series /= 4.0 * (1 + balance.harmonics) ** 2
-    if balance.damper is not None:
-        series[1, balance.harmonics == balance.period] = 0.6 * balance.damper.clearance
-    return balance.to_complex(balance.to_real(series))
+    series[1, 0] = 0.6 * balance.damper.clearance
+    return series
 
 
-@pytest.mark.parametrize("name", ["elastic", "inelastic", "asymmetric"])
-def test_residual_is_that_of_the_sampled_equations(name):
+@pytest.mark.parametrize("damper", [DESIGN, INELASTIC])
+def test_residual_is_that_of_the_sampled_equations(damper):
     """The forces as the paper writes them, (22) to (24), at many samples."""
-    balance = BALANCES[name]
-    series, k, damper = arbitrary(balance), balance.harmonics, balance.damper
+    balance = Balance(PAPER, damper, 2.0, 9)
+    series, k = arbitrary(balance), balance.harmonics
     count = 2**17
-    nu = balance.frequency / balance.period
     angle = 2 * np.pi * np.arange(count) / count
     (x, v, a), (z, w, b) = (
-        [fourier.samples(each * (1j * k * nu) ** n, k, count) for n in range(3)] for each in series
+        [fourier.samples(each * (1j * k * 2.0) ** n, k, count) for n in range(3)] for each in series
     )
     touching = np.abs(z) > damper.clearance
     force = damper.contact_stiffness * (z - np.sign(z) * damper.clearance) + damper.dashpot * w
     force = np.where(touching, force, 0)
-    own = balance.oscillator
-    first = a + own.damping * v + own.linear_frequency**2 * x + x**3 + force
-    first -= np.cos(balance.period * angle)
+    first = a + PAPER.damping * v + x**3 + force - np.cos(angle)
     second = b - a + force / damper.mass_ratio
     sampled = np.fft.rfft([first, second])[:, k] / count
     found = balance.residual(series, balance.contacts(series))
     assert found == pytest.approx(sampled, abs=1e-4 * np.max(np.abs(found)))
 
 
-def test_one_term_is_equations_7():
-    first = single_harmonic.impacting_solutions(PAPER, DESIGN, 2.0)
-    balance = Balance(PAPER, DESIGN, 2.0, 1)
-    for amplitude, relative, phase in zip(*first, strict=True):
-        series = np.array([[amplitude], [relative]]) * np.exp(1j * phase) / 2
-        left = balance.residual(series, balance.contacts(series))
-        assert np.max(np.abs(left)) < 1e-11
-        assert solve(balance, series).coefficients == pytest.approx(series, abs=1e-12)
+@pytest.mark.parametrize("restitution", [1.0, 0.8])
+@pytest.mark.parametrize("oscillator", SPRINGS.values(), ids=SPRINGS)
+def test_balance_with_contacts_in_other_springs(oscillator, restitution):
+    """The Jacobian against differences of the residual, and a single harmonic against (7)."""
+    damper = Damper(0.2, 1.0, restitution, 300.0)
+    many = Balance(oscillator, damper, 1.7, 7)
+    series = arbitrary(many)
+    unknowns = many.to_real(series)
+
+    def residual(x):
+        trial = many.to_complex(x)
+        return many.to_real(many.residual(trial, many.contacts(trial)))
+
+    differences = [
+        (residual(unknowns + d) - residual(unknowns - d)) / 2e-6
+        for d in 1e-6 * np.eye(len(unknowns))
+    ]
+    matrix = many.operator(series, many.contacts(series))
+    assert matrix == pytest.approx(np.transpose(differences), abs=1e-6 * np.max(np.abs(matrix)))
+    if restitution == 1 and oscillator in KNOWN.values():
+        one = Balance(oscillator, damper, 1.7, 1)
+        found = single_harmonic.impacting_solutions(oscillator, damper, 1.7)
+        for a, b, phase in zip(*found, strict=True):
+            term = np.array([[a], [b]]) * np.exp(1j * phase) / 2
+            assert solve(one, term).coefficients == pytest.approx(term, abs=1e-10)
+
+
+@pytest.mark.parametrize(
+    "name, frequency",
+    [("softening", 0.9), ("linear", 1.2), ("shaken", 1.2), ("unbalance", 1.1), ("hard", 2.5)],
+)
+def test_a_free_motion_is_the_one_that_scipy_integrates(name, frequency):
+    """A free period-1 motion over one period by DOP853, and its multipliers by differences."""
+    oscillator = SPRINGS[name]
+    balances = [Balance(oscillator, None, frequency, n) for n in (1, 3, 7, 15, 31)]
+    solution = refine(balances, single_term(oscillator, None, frequency))[-1]
+    assert solution.status == "converged"
+    p = pack(oscillator, None, frequency)
+    begin, period = 0.5 * np.pi / frequency, 2 * np.pi / frequency
+
+    def end(state):
+        span, both = (begin, begin + period), np.tile(state, 2)
+        run = solve_ivp(equation.rates(p), span, both, "DOP853", rtol=1e-12, atol=1e-13)
+        return run.y[:2, -1]
+
+    state = state_of(solution)[:2]
+    assert end(state) == pytest.approx(state, abs=1e-8)
+    columns = [(end(state + d) - end(state - d)) / 2e-4 for d in 1e-4 * np.eye(2)]
+    expected = np.linalg.eigvals(np.transpose(columns))
+    found = hill.exponents(solution).multipliers(period)
+    assert np.max(np.abs(found[:, None] - expected).min(axis=1)) < 1e-5
 
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC])
-def test_approaches_the_exact_orbit(damper):
+def test_approaches_the_exact_orbit_and_its_multipliers(damper):
     balances = [Balance(PAPER, damper, 2.0, n) for n in (1, 3, 7, 15, 31, 63, 127, 255)]
     solutions = refine(balances, single_term(PAPER, damper, 2.0))
     assert all(each.status == "converged" for each in solutions)
     state = state_of(solutions[-1])
-    orbit = state.copy()
-    found, _, _ = strobe_map.polish(pack(PAPER, damper, 2.0), orbit, 1, 0.1, 1e-13)
-    assert found
-    assert state == pytest.approx(orbit, abs=5e-3 if damper is INELASTIC else 5e-4)
+    exact = find_orbit(pack(PAPER, damper, 2.0), state)
+    assert state == pytest.approx(exact.strobe_states[0], abs=5e-3 if damper is INELASTIC else 5e-4)
+    found = hill.exponents(solutions[-1])
+    assert found.status == "found"
+    away = np.abs(found.multipliers(np.pi)[:, None] - exact.multipliers[: exact.active])
+    assert np.max(away.min(axis=1)) < 1e-3
 
 
-def test_subharmonic_of_the_free_oscillator():
-    """A motion with odd harmonics of W/3 repeats after three forcing cycles and not after one."""
-    start = np.array([[1.2 * np.exp(0.3j), 0.0]])
-    for phase in np.arange(0, 2 * np.pi, 0.25):
-        start = np.array([[0.45 * np.exp(1j * phase), 0.1]])
-        found = solve(Balance(PAPER, None, 1.9, 45, period=3), start)
-        if found.status == "converged" and abs(found.coefficients[0, 0]) > 0.1:
-            break
-    balance = found.balance
-    angle = np.pi / 2 / 3
-    state = np.array(
-        [fourier.value(found.coefficients[0], balance.harmonics, angle, n) * (1.9 / 3) ** n
-         for n in (0, 1)]
-    )  # fmt: skip
-    p = pack(PAPER, None, 1.9)
-    end, _, _ = strobe_map.period_map(p, np.tile(state, 2), 3, 1e-13)
-    assert end[:2] == pytest.approx(state, abs=1e-10)
-    once, _, _ = strobe_map.period_map(p, np.tile(state, 2), 1, 1e-13)
-    assert np.max(np.abs(once[:2] - state)) > 0.1
+def test_eigenvalues_near_zero_are_those_of_the_whole_problem(monkeypatch):
+    """The iteration for eigenvalues near zero, used for large problems, against all eigenvalues."""
+    solution = solve(Balance(PAPER, INELASTIC, 2.0, 15), single_term(PAPER, INELASTIC, 2.0))
+    whole = hill.exponents(solution).values
+    monkeypatch.setattr(hill, "DENSE", 0)
+    assert hill.exponents(solution).values == pytest.approx(whole, abs=1e-10)
 
 
-def test_failures_say_so():
+def test_failures_say_so(monkeypatch):
     first = single_term(PAPER, DESIGN, 2.0)
-    assert solve(Balance(PAPER, DESIGN, 2.0, 15), first, iterations=2).status == "iteration_limit"
     lost = solve(Balance(PAPER, replace(DESIGN, contact_stiffness=1e8), 2.0, 63), first)
     assert lost.status in ("stalled", "iteration_limit")
+    monkeypatch.setattr(many_harmonics, "ITERATIONS", 2)
+    assert solve(Balance(PAPER, DESIGN, 2.0, 15), first).status == "iteration_limit"
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"highest": 4}, "must be odd"),
-        ({"period": 2}, "must be odd"),
+        ({"highest": 4}, "highest = 4: must be odd"),
         ({"highest": 0}, "highest = 0"),
-        ({"period": 3, "highest": 1}, "highest = 1"),
         ({"frequency": -1.0}, "frequency"),
     ],
 )

@@ -26,14 +26,6 @@ def test_near_double_roots_are_told_from_a_near_miss(gap):
     assert len(polynomial_roots([1 + gap**2, -2, 1])) == 0
 
 
-def test_triple_root_is_found():
-    assert_allclose(polynomial_roots(coefficients([1.0, 1.0, 1.0])), 1, rtol=1e-5)
-
-
-def test_no_real_root():
-    assert len(polynomial_roots([1, 0, 1])) == 0
-
-
 def test_zeros_of_a_function_that_oscillates_ever_faster():
     """sin(1/x) has its zeros at 1/(k pi)."""
     found = smooth_roots(lambda x: np.sin(1 / x), lambda x: 1 + 1 / x, 0.05, 1.0)
