@@ -54,9 +54,9 @@ def differences(function, state, step=1e-6):
 
 @pytest.mark.parametrize("name", KNOWN)
 def test_jacobian_is_that_of_equations_17(name):
-    oscillator, generator = SPRINGS[name], np.random.default_rng(11)
+    given, generator = (SPRINGS[name], DAMPER, FREQUENCY), np.random.default_rng(11)
     for polar in generator.uniform([0.1, -3, 1.55, -3], [2.5, 3, 1.9, 3], (20, 4)):
-        state, given = cartesian(polar), (oscillator, DAMPER, FREQUENCY)
+        state = cartesian(polar)
         expected = differences(lambda x: cartesian_flow(x, *given), state, 1e-4)
         assert_allclose(jacobian(state, *given), expected, rtol=1e-4, atol=1e-3)
 
