@@ -11,10 +11,8 @@ from impact_damper.data.datasets import flag, is_settled, parameters_of
 from impact_damper.data.shares import wilson
 from impact_damper.data.variables import VARIABLES
 
-# Harmonics listed for each accuracy, and errors whose decrease is listed (N: highest harmonic).
-ACCURACIES = {0.01: "1 %", 1e-6: "1e-6", 1e-3: "1e-3"}
-MEASURES = {"retained": "harmonics up to N", "omitted": "harmonics beyond N"}
-MEASURES |= {"multiplier": "multipliers"}
+# Errors of the amplitude for which the table lists the harmonics needed.
+ACCURACIES = {0.01: "1 %", 1e-3: "1e-3", 1e-6: "1e-6"}
 # What is asked about each cell of a map, and the variable that holds the answer as a flag.
 QUESTIONS = {
     "quiet motion": "quiet_verdict",
@@ -94,62 +92,33 @@ def harmonic_convergence(datasets) -> pd.DataFrame:
 
 def _convergence(data):
     """Return the row of a motion in the table of convergence."""
-    highest = data["highest_harmonic"].values
-    error = data["series_error"]
-    needed = {
-        f"harmonics for an error of {words}": _needed(
-            highest, error.sel(error_measure="maximum").values, accuracy
-        )
-        for accuracy, words in ACCURACIES.items()
-    }
-    first, second, third = needed.items()
-    cold = data["cold_status"]
-    lost = cold.values > flag("cold_status", "same_motion")
+    highest, cold = data["highest_harmonic"].values, data["cold_status"]
+    error = data["series_error"].sel(error_measure="maximum").values
+    decay = data.sel(error_measure="maximum")
+    lost = highest[cold.values > flag("cold_status", "same_motion")]
+
+    def ended(meaning):
+        return int(np.sum(cold == flag("cold_status", meaning)))
+
     return (
         {"displacement max |Z1|": float(data["exact_maximum"])}
-        | dict([first, second])
+        | {
+            f"harmonics for an error of {words}": _needed(highest, error, accuracy)
+            for accuracy, words in ACCURACIES.items()
+        }
         | {
             "decrease with harmonics N": "exp(-rate N)" if data["decay_kind"] == 1 else "N^-power",
-            **_decay(data, "maximum", "power or rate"),
+            "power or rate, observed": float(decay["decay_observed"]),
+            "power or rate, predicted": float(decay["decay_predicted"]),
             "cold starts": int(np.sum(cold.values >= 0)),
-            "cold starts that find the motion": _ended(cold, "same_motion"),
-            "cold starts that find another motion": _ended(cold, "another_motion"),
-            "cold starts that stall": _ended(cold, "stalled"),
-            "cold starts not done": _ended(cold, "iteration_limit"),
-            "first lost at N": int(highest[lost][0]) if lost.any() else np.nan,
-        }
-        | dict([third])
-        | {
-            "highest N": highest[-1],
+            "cold starts that find the motion": ended("same_motion"),
+            "cold starts that find another motion": ended("another_motion"),
+            "cold starts that stall": ended("stalled"),
+            "first lost at N": int(lost[0]) if len(lost) else np.nan,
             "failed": int(np.sum(data["series_status"] != flag("series_status", "converged"))),
-            "Hill failed": int(np.sum(data["hill_status"] != flag("hill_status", "found"))),
-            "error of multipliers": float(error.sel(error_measure="multiplier")[-1]),
-            "fitted from N": float(data["asymptotic_harmonic"]),
         }
-        | {
-            head: value
-            for measure, words in MEASURES.items()
-            for head, value in _decay(data, measure, words).items()
-        }
-        | parameter_columns(
-            data, "damping", "frequency", "mass_ratio", "clearance", "restitution",
-            "contact_stiffness",
-        )
-    )  # fmt: skip
-
-
-def _decay(data, measure, words):
-    """Return the columns with the power or rate of the decrease of an error."""
-    one = data.sel(error_measure=measure)
-    return {
-        f"{words}, observed": float(one["decay_observed"]),
-        f"{words}, predicted": float(one["decay_predicted"]),
-    }
-
-
-def _ended(cold, meaning):
-    """Return the number of cold starts that ended in one way."""
-    return int(np.sum(cold == flag("cold_status", meaning)))
+        | parameter_columns(data, "damping", "frequency", "mass_ratio", "clearance", "restitution")
+    )
 
 
 def _needed(highest, error, accuracy):

@@ -24,7 +24,6 @@ def orbits(datasets) -> pd.DataFrame:
             part = data.isel(point=np.flatnonzero(data["orbit_branch"].values == branch))
             value = part["followed_value"].values
             stable = part["orbit_stability"].values == flag("orbit_stability", "stable")
-            grazing = part["orbit_status"].values == flag("orbit_status", "near_grazing")
             ends = _ends_of(data, branch)
             rows.append(
                 {
@@ -38,7 +37,6 @@ def orbits(datasets) -> pd.DataFrame:
                     "one end": ends[0],
                     "other end": ends[1],
                     "orbits": len(value),
-                    "near grazing": int(grazing.sum()),
                     "events": int((data["event_branch"].values == branch).sum()),
                     "not located": int(data["branch_events_lost"][branch]),
                     "largest residual, absolute": float(part["orbit_residual"].max()),

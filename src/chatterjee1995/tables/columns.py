@@ -18,9 +18,3 @@ def parameter_columns(data, *names) -> dict:
     """Return the values of those named parameters that a dataset has."""
     parameters = parameters_of(data)
     return {HEADS[name]: parameters[name] for name in names if name in parameters}
-
-
-def bounded(head, value) -> dict:
-    """Return columns with a share or quantile and the ends of its 95 % interval."""
-    names = {"share": head, "lower": f"{head}, at least", "upper": f"{head}, at most"}
-    return {name: float(value.sel(bound=bound)) for bound, name in names.items()}

@@ -24,46 +24,31 @@ def contact_model(datasets) -> pd.DataFrame:
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
             cells = data.sel(exit_rule=rule)
-            head = {"case": name, "exit rule": EXITS[str(rule)]}
-            head |= dict.fromkeys(
-                ("restitution e, given", "restitution e, realised", "fraction of energy lost"),
-                np.nan,
-            )
             values = cells.contact_verdict.values
-            rows.append(
-                head
-                | {
-                    "map cells": values.size,
-                    "cells within 1 % of e": _count("contact_verdict", values, "close"),
-                    "cells within 1 % to 5 %": _count("contact_verdict", values, "fair"),
-                    "cells beyond 5 %": _count("contact_verdict", values, "off"),
-                    "cells that fall back": _count("contact_verdict", values, "falls_back"),
-                    "cells without release": _count("contact_verdict", values, "no_release"),
-                }
-            )
+            counts = {
+                "map cells": values.size,
+                "cells within 1 % of e": _count("contact_verdict", values, "close"),
+                "cells within 1 % to 5 %": _count("contact_verdict", values, "fair"),
+                "cells beyond 5 %": _count("contact_verdict", values, "off"),
+                "cells that fall back": _count("contact_verdict", values, "falls_back"),
+                "cells without release": _count("contact_verdict", values, "no_release"),
+            }
             for i in range(data.sizes["used"]):
-                one = cells.isel(used=i)
-                rows.append(head | _unloaded(one, pulls=rule == "zero_penetration"))
+                head = {"case": name, "exit rule": EXITS[str(rule)]}
+                rows.append(head | _unloaded(cells.isel(used=i)) | counts)
     return pd.DataFrame(rows)
 
 
-def _unloaded(data, pulls):
-    """Return the columns of a contact without load; with `pulls` also on the pull of the wall."""
+def _unloaded(data):
+    """Return the columns of a contact without load; a wall that cannot pull has no pull."""
     realised = float(data.unloaded_restitution)
-    row = {
+    return {
         "restitution e, given": float(data.used),
         "restitution e, realised": realised,
         "fraction of energy lost": 1 - realised**2,
-        "damping ratio": float(data.unloaded_damping),
         "time in contact": float(data.unloaded_duration),
+        "share of contact with pull": float(data.unloaded_pull_time),
     }
-    if pulls:
-        row |= {
-            "share of contact with pull": float(data.unloaded_pull_time),
-            "impulse of pull over push": float(data.unloaded_pull_impulse),
-            "largest pull over push": float(data.unloaded_pull_peak),
-        }
-    return row
 
 
 def rigid_limit(datasets) -> pd.DataFrame:
@@ -74,8 +59,7 @@ def rigid_limit(datasets) -> pd.DataFrame:
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=reading.parameter(data, "frequency"), method="nearest")
-        verdict, error = data.rigid_verdict.values, np.abs(data.rigid_error.values)
-        needed, *others = _needed(own).items()
+        verdict = data.rigid_verdict.values
         rows.append(
             {"case": name}
             | parameter_columns(data, "mass_ratio", "restitution")
@@ -84,26 +68,14 @@ def rigid_limit(datasets) -> pd.DataFrame:
                 "relative error of rigid walls": float(data.own_error),
                 "relative error, corrected": float(data.own_mended_error),
                 "exponent n, error ~ r1^-n": float(own.rigid_order),
+                "exponent, corrected": float(own.mended_order),
             }
-            | dict([needed])
+            | _needed(own)
             | {
                 f"map cells in which {words}": _count("rigid_verdict", verdict, meaning)
                 for meaning, words in VERDICTS.items()
             }
-            | dict(others)
-            | _errors(error, data.threshold.values)
-            | {
-                "map cells": error.size,
-                "exponent, corrected": float(own.mended_order),
-                "error of the multiplier": float(data.own_decay_error),
-            }
-            | {
-                f"compliant orbit {meaning.replace('_', ' ')}": _count(
-                    "compliant_status", data.compliant_status.values, meaning
-                )
-                for meaning in VARIABLES["compliant_status"].flags
-                if meaning != "found"
-            }
+            | {"map cells": verdict.size}
             | parameter_columns(data, "damping", "clearance", "frequency", "contact_stiffness")
         )
     return pd.DataFrame(rows)
@@ -126,14 +98,4 @@ def _needed(own):
         value = float(own.needed_stiffness[k])
         why = reading.meaning("needed_status", int(own.needed_status[k]))
         columns[f"stiffness r1 for {100 * level:g} %"] = why if np.isnan(value) else value
-    return columns
-
-
-def _errors(error, thresholds):
-    """Return the numbers of map cells with an error between two thresholds."""
-    edges = [0.0, *thresholds, np.inf]
-    columns = {}
-    for low, high in zip(edges[:-1], edges[1:], strict=True):
-        ends = f"{100 * low:g} % to {100 * high:g} %" if high < np.inf else f"over {100 * low:g} %"
-        columns[f"map cells with an error {ends}"] = int(np.sum((error >= low) & (error < high)))
     return columns

@@ -30,35 +30,20 @@ def test_a_row_states_what_to_build_what_it_does_and_how_sure_it_is():
 
 
 @pytest.mark.parametrize(
-    ("choice", "advice"),
+    ("changed", "head", "words"),
     [
-        ("needs_tolerance", "build it, with a closer tolerance of the gap"),
-        ("least_worst", "do not build it"),
+        ({"choice": "needs_tolerance"}, "advice", "build it, with a closer tolerance of the gap"),
+        ({"choice": "least_worst"}, "advice", "do not build it"),
+        ({"choice": "needs_tolerance"}, "gap, full play [mm]", "7, held from 6 or less to 8.5"),
+        ({"promise": "nominal_kept"}, "promise, tested with new starts", "kept at nominal values"),
+        ({"promise": "broken"}, "promise, tested with new starts", "BROKEN"),
+        ({"promise": "none_made"}, "promise, tested with new starts", "none made"),
+        (
+            {"reached_displacement": [1, np.inf, 1, 1, 1]},
+            "largest displacement with damper [mm]",
+            "escapes",
+        ),
     ],
 )
-def test_the_advice_follows_the_choice(choice, advice):
-    assert row(choice=choice)["advice"] == advice
-
-
-def test_a_gap_to_be_held_more_closely_has_its_range():
-    found = row(choice="needs_tolerance")["gap, full play [mm]"]
-    assert found == "7, held from 6 or less to 8.5"
-
-
-@pytest.mark.parametrize(
-    ("promise", "words"),
-    [("nominal_kept", "kept at nominal values"), ("broken", "BROKEN"), ("none_made", "none made")],
-)
-def test_the_promise_is_told(promise, words):
-    assert row(promise=promise)["promise, tested with new starts"] == words
-
-
-def test_a_motion_that_escapes_has_no_size():
-    assert (
-        row(reached_displacement=[1, np.inf, 1, 1, 1])["largest displacement with damper [mm]"]
-        == "escapes"
-    )
-
-
-def test_no_machines_make_no_rows():
-    assert machines({}).empty
+def test_the_words_follow_the_flags(changed, head, words):
+    assert row(**changed)[head] == words

@@ -125,7 +125,6 @@ def test_each_policy_has_a_row(data):
         "fixed phase 1.50 after K = 5",
     ]
     assert list(rows["share within 350 cycles (95 % interval)"])[0] == "0.1 (0.05 to 0.15)"
-    assert list(rows["median time [cycles], at most"]) == pytest.approx([15, 25, 35])
     assert set(rows["damper"]) == {"rm = 0.12, d0 = 2.08333, e = 1"}
 
 
