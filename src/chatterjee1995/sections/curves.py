@@ -125,7 +125,7 @@ class Collision(WithDamper):
     frequency: FREQUENCY
 
     @stage(
-        "impact_damper.motions.response:collisions",
+        "chatterjee1995.stages.collisions:collisions",
         "Starts that lead to collisions",
         together=True,
     )

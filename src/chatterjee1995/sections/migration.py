@@ -34,7 +34,7 @@ class Migration(WithDamper):
     )
 
     @stage(
-        "impact_damper.motions.migration:trials",
+        "chatterjee1995.stages.releases:migration",
         "Migration control, the case {name}",
         priority=1,
     )
@@ -53,7 +53,7 @@ class ReleaseScan(WithDamper):
     )
 
     @stage(
-        "chatterjee1995.stages.release_scan:release_scan",
+        "chatterjee1995.stages.releases:release_scan",
         "Motions after the damper is switched off, over frequency, the scan {name}",
     )
     def release_scan(self, config) -> dict:

@@ -213,16 +213,13 @@ def contacts_of(oscillator, damper, frequency, state, periods):
     p = pack(oscillator, damper, frequency)
     begin = strobe_map.strobe_time(p)
     times = np.array([begin + periods * 2 * np.pi / p[FREQUENCY]])
-    log, states = np.empty((LARGEST_LOG, 5)), np.empty((1, 4))
     tolerance = strobe_map.POLISH_TOLERANCE
-    count = traces.trace(p, np.array(state), begin, times, tolerance, states, log)
-    if count > LARGEST_LOG:
+    _, log = traces.trace(p, state, begin, times, tolerance)
+    if len(log) > LARGEST_LOG:
         raise ValueError(f"periods = {periods}: more than {LARGEST_LOG} contacts in this time")
     # The same integration is repeated to store the states at which contacts begin.
-    times = np.append(log[:count, 1], times)
-    states = np.empty((len(times), 4))
-    traces.trace(p, np.array(state), begin, times, tolerance, states, log)
-    side, start, end, approach, departure = log[:count].T
+    states = traces.states_at(p, state, begin, np.append(log[:, 1], times), tolerance)
+    side, start, end, approach, departure = log.T
     load = side * [acceleration(p, y, t) for y, t in zip(states[:-1], start, strict=True)]
     whole = np.isfinite(end) & (start > begin)
     return {

@@ -24,7 +24,7 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import Damper, describe
 from impact_damper.model.units import UNITLESS
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
-from impact_damper.motions.traces import trace
+from impact_damper.motions.traces import states_at
 from impact_damper.orbits.quiet_orbits import compliant_orbit
 from impact_damper.theory.optimum_clearance import CRITERIA, RULES, rule_ratios
 from impact_damper.theory.straight_flight import flight_of
@@ -221,6 +221,5 @@ def first_harmonic(p, y) -> complex:
     """
     start = strobe_time(p)
     times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[FREQUENCY] * SAMPLES)
-    states, log = np.empty((SAMPLES + 1, 4)), np.empty((0, 5))
-    trace(p, y.copy(), start, times, POLISH_TOLERANCE, states, log)
+    states = states_at(p, y, start, times, POLISH_TOLERANCE)
     return 2 * np.mean(states[:-1, 0] * np.exp(-1j * p[FREQUENCY] * times[:-1]))

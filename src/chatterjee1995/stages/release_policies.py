@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from chatterjee1995.stages.releases import PAPER_CYCLES
 from chatterjee1995.variables.policies import POLICIES
 from impact_damper.data.datasets import dataset
 from impact_damper.data.shares import BOUNDS, QUANTILE, wilson
@@ -23,7 +24,6 @@ from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.attractors import PHASES, release_set
 from impact_damper.motions.legs import HOLD, PHASE, SETTLED, STATE, hold
-from impact_damper.motions.migration import PAPER_CYCLES
 from impact_damper.motions.strobe_map import strobe_time
 
 # Fixed numbers of cycles that are tried, each about 1.6 times the one before.

@@ -165,15 +165,13 @@ def switched_on(oscillator, p, state, loose, generator):
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_map.strobe_time(p)
     times = begin + np.sort(generator.random(len(loose))) * 3 * period
-    states, log = np.empty((len(loose), 4)), np.empty((0, 5))
-    free = pack(oscillator, None, p[FREQUENCY])
-    traces.trace(free, state.copy(), begin, times, strobe_map.POLISH_TOLERANCE, states, log)
+    free, tolerance = pack(oscillator, None, p[FREQUENCY]), strobe_map.POLISH_TOLERANCE
+    states = traces.states_at(free, state, begin, times, tolerance)
     states[:, 2:] = loose[:, 2:]
     states[::2, 3] = 0.0
-    for time, y in zip(times, states, strict=True):
-        until = np.array([np.ceil(time / period) * period])
-        traces.trace(p, y, time, until, strobe_map.POLISH_TOLERANCE, np.empty((1, 4)), log)
-    return states
+    ends = np.ceil(times / period) * period
+    each = zip(states, times, ends, strict=True)
+    return np.concatenate([traces.states_at(p, y, time, [end], tolerance) for y, time, end in each])
 
 
 def _subharmonic_table(data, free):

@@ -48,6 +48,7 @@ def warm_up_paper(orders=()) -> None:
     from chatterjee1995.methods.integrators.taylor import ORDERS, taylor
     from chatterjee1995.methods.orbit_models import rigid
     from chatterjee1995.methods.passages import draw_passages, without_walls
+    from chatterjee1995.stages.collisions import first_collision
     from chatterjee1995.stages.release_policies import release_policies
     from impact_damper.command.warm_up import DAMPER, FREQUENCY, OSCILLATOR
     from impact_damper.model.packed import pack
@@ -61,6 +62,7 @@ def warm_up_paper(orders=()) -> None:
     start, begin = np.array([0.082, 0.169, 0.381, -1.088]), strobe_time(p)
     for each in (ORDERS, *map(tuple, orders)):
         taylor(p, start, begin, 1, 1e-3, each)
+    first_collision(p, start, 1, 1e-3)
     rigid(p, 0.75, start, begin, 1, 1e-3)
     for each in integrators("accuracy").values():
         for locate in each.located:

@@ -22,15 +22,13 @@ def warm_up_orbits() -> None:
     The kernels that `warm_up_settling` also calls come first, and the kernels that call kernels of
     `warm_up_settling` come last, so that the two processes rarely compile the same kernel.
     """
-    from impact_damper.motions import ensemble, records, strobe_map, traces
+    from impact_damper.motions import records, strobe_map, traces
 
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
     strobe_map.polish(on, np.zeros(4), 1, 1e-3, 1e-9)
     strobe_map.repeats_sooner(on, np.zeros(4), 1, 1e-9)
     strobe_map.flow_map(on, np.zeros(4), strobe_map.strobe_time(on), 1, False, 1e-9)
-    states, log = np.zeros((1, 4)), np.empty((0, 5))
-    traces.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9, states, log)
-    ensemble.collide(on[None], states, 1, 1e-9)
+    traces.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9)
     records.envelope(on[None], np.zeros(1), np.zeros(4), 1e-9)
 
     from impact_damper.orbits.paths import follow_path
@@ -51,8 +49,7 @@ def warm_up_orbits() -> None:
     from impact_damper.motions import following, legs
 
     following.extrapolate(np.zeros(4), np.zeros(4), 1.0)
-    path, out = np.zeros((4, 5)), np.zeros(1, records.MOTION)
-    legs.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2, path, out)
+    legs.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2)
 
 
 def warm_up_settling() -> None:

@@ -321,13 +321,9 @@ release_destination | damped release | | | free motion to which the release lead
   : FREE_MOTION
 release_share | damped free_motion bound | | | share of releases that lead to each free motion
 # lifetime of the violent transient
-life | run | | | cycles until the violent transient ends, if it ends before the time horizon
 landed_on | run | | | motion on which the run settles
   : DAMPED_MOTION
-age | age | | | cycles since the damper was switched on
-survival | age bound | | | share of runs whose transient is longer than age
 escape_rate | bound | | | rate at which transients end, per run and cycle
-horizon | | | | cycles after which a run is cut off
     """,
     BRANCH_END=BRANCH_END,
     CURVE=CURVE,

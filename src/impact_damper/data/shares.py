@@ -1,4 +1,4 @@
-"""Binomial shares, survival curves and escape rates with 95 % confidence intervals."""
+"""Binomial shares and escape rates with 95 % confidence intervals."""
 
 import math
 
@@ -50,17 +50,6 @@ def failures_allowed(share, total) -> int:
     """
     lower = wilson_intervals(np.arange(total, -1, -1), total)[:, 0]
     return int(np.sum(lower >= share)) - 1
-
-
-def survival(lives, horizon, times):
-    """Return the shares of runs whose lives exceed each of `times`, with 95 % intervals, (n, 3).
-
-    All runs that last are cut off at the horizon; their lives are any values above it. Since no run
-    is cut off earlier, the Kaplan-Meier estimate is the binomial share.
-    """
-    if np.max(times) > horizon:
-        raise ValueError(f"times: must be at most the horizon {horizon}, {np.max(times)} given")
-    return np.array([wilson(np.sum(lives > time), len(lives)) for time in times])
 
 
 def escape_rate(lives, horizon, lead=LEAD):

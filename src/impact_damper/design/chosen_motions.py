@@ -112,8 +112,7 @@ def _measured(task, case, size, state, periods):
     begin = strobe_time(p)
     count = periods * SAMPLES
     times = begin + 2 * np.pi / p[FREQUENCY] * np.arange(count + 1) / SAMPLES
-    states, tolerance = np.empty((count + 1, 4)), task.effort.settling.tolerance
-    traces.trace(p, state.copy(), begin, times, tolerance, states, np.empty((0, 5)))
+    states = traces.states_at(p, state, begin, times, task.effort.settling.tolerance)
     course = task.millimetres(states[:-1, 0])
     peaks = np.abs(course).reshape(periods, SAMPLES).max(axis=1)
     costs = measured_costs(p, state.copy(), begin, periods)

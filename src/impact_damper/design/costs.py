@@ -31,7 +31,7 @@ from impact_damper.model.packed import (
     INVERSE_MASS_RATIO,
 )
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
-from impact_damper.motions.traces import trace
+from impact_damper.motions.traces import states_at, trace
 
 # Nodes of a panel, scaled to [-1, 1]; matrix that maps values at the nodes to coefficients of
 # Chebyshev polynomials; weights of the rule of Clenshaw and Curtis.
@@ -44,9 +44,8 @@ FINE = chebyshev.chebvander(np.linspace(-1, 1, 33), len(NODES) - 1) @ COEFFICIEN
 MISSED = 0.01
 # The fastest oscillation of the motion turns by at most this angle (radian) in a panel.
 LONGEST_ANGLE = 2.0
-# States in a forcing cycle from which the largest displacement is estimated, and contacts for which
-# the log has room at first.
-SAMPLES, FIRST_LOG = 32, 256
+# States in a forcing cycle from which the largest displacement is estimated.
+SAMPLES = 32
 # If the first state is in a contact, the next flight is sought within PATIENCE forcing cycles.
 PATIENCE = 2
 
@@ -98,7 +97,7 @@ def pressure_costs(machine, damper, contact, speed) -> tuple[float, str]:
 def sampled(p, state, begin, end) -> Panels:
     """Run a motion from a state at the time `begin` and return its panels."""
     rough = np.linspace(begin, end, int(SAMPLES * (end - begin) * p[FREQUENCY] / (2 * np.pi)) + 2)
-    states, log = logged(p, state, begin, rough)
+    states, log = trace(p, state, begin, rough, POLISH_TOLERANCE)
     # The edges are alternately beginnings and ends of contacts, so every second interval is a
     # flight.
     ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
@@ -115,7 +114,7 @@ def sampled(p, state, begin, end) -> Panels:
     lengths = (np.diff(edges) / np.maximum(counts, 1))[interval]
     begins = edges[interval] + place * lengths
     times = begins[:, None] + lengths[:, None] * (NODES + 1) / 2
-    states, _ = logged(p, state, begin, times.ravel(), len(log))
+    states = states_at(p, state, begin, times.ravel(), POLISH_TOLERANCE)
     return Panels(
         log,
         lengths,
@@ -124,20 +123,6 @@ def sampled(p, state, begin, end) -> Panels:
         np.where(interval % 2, interval // 2, -1),
         walls[interval],
     )
-
-
-def logged(p, state, begin, times, room=FIRST_LOG):
-    """Return the states of a motion at given times, shape (n, 4), and the log of its contacts.
-
-    With more contacts than `room`, the motion is integrated again with a longer log.
-    """
-    states = np.empty((len(times), 4))
-    while True:
-        log = np.empty((room, 5))
-        count = trace(p, np.array(state), begin, times, POLISH_TOLERANCE, states, log)
-        if count <= room:
-            return states, log[:count]
-        room = count
 
 
 def integrals(panels, values):
@@ -167,12 +152,13 @@ def _in_flight(p, y, begin):
     """
     if side_of(p, y) == 0:
         return begin, y
-    _, log = logged(p, y, begin, np.array([begin + PATIENCE * 2 * np.pi / p[FREQUENCY]]))
+    end = begin + PATIENCE * 2 * np.pi / p[FREQUENCY]
+    _, log = trace(p, y, begin, [end], POLISH_TOLERANCE)
     if not np.isfinite(log[0, 2]):
         return begin, y
     following = log[1, 1] if len(log) > 1 else log[0, 2] + np.pi / p[FREQUENCY]
     middle = (log[0, 2] + following) / 2
-    states, _ = logged(p, y, begin, np.array([middle]))
+    states = states_at(p, y, begin, [middle], POLISH_TOLERANCE)
     return middle, states[-1]
 
 

@@ -264,11 +264,7 @@ def orbit_passages(p, record, phase):
     begin = strobe_time(p)
     first = begin + (phase / p[FREQUENCY] - begin) % period
     times = first + period * np.arange(record["period"])
-    states = np.empty((len(times), 4))
-    traces.trace(
-        p, record["state"].copy(), begin, times, POLISH_TOLERANCE, states, np.empty((0, 5))
-    )
-    return states[:, :2]
+    return traces.states_at(p, record["state"], begin, times, POLISH_TOLERANCE)[:, :2]
 
 
 class ReleaseSet(NamedTuple):

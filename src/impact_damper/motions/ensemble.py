@@ -27,7 +27,7 @@ from impact_damper.model.bounds import check_count
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
-from impact_damper.motions.records import MOTION, first_collisions, measure
+from impact_damper.motions.records import MOTION, measure
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.motions.undecided import name_undecided
 from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
@@ -181,22 +181,6 @@ def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
         enter(pool, m, p, y, 0, tolerance)
         send(pool, m, begin, first, False)
-
-
-def collide(parameters, states, limit, tolerance):
-    """Return the number of forcing cycles from T = 0 to each motion's first contact, shape (m,).
-
-    The number is infinite without a contact within `limit` cycles, and 0 for a state at or beyond a
-    wall. The motions run in another thread, so that Ctrl-C takes effect at once.
-    """
-    waits, stop = np.empty(len(states)), np.zeros(1, bool)
-
-    def work(part):
-        first_collisions(parameters[part], states[part], limit, tolerance, waits[part], stop)
-
-    work(slice(0, 0))
-    run_chunks(work, len(states), 1, None, stop, size=max(len(states), 1))
-    return waits
 
 
 def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):

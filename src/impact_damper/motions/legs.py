@@ -1,9 +1,7 @@
 """Legs of a run of migration control: the motions between two switchings of the damper.
 
 A leg begins when the damper is switched, at any phase of the forcing, with Z1 and Z1' continuous.
-It ends at the first strobe at which the motion is near a stable orbit, when a rule releases the
-damper, or after a given time. The state is not moved onto the orbit, so that a run is one
-continuous motion.
+The state is never moved onto an orbit, so a run is one continuous motion.
 """
 
 import math
@@ -15,14 +13,10 @@ from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import assign, side_of, workspace
 from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
-from impact_damper.motions.records import ESCAPED, NEVER, UNRESOLVED, measure
+from impact_damper.motions.records import ESCAPED, MOTION, NEVER, UNRESOLVED, measure
 from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
-from impact_damper.motions.traces import trace
 from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
 
-# An orbit captures a run after the last strobe at which the run differs from the orbit by more than
-# CAPTURE in Z1 or Z1'.
-CAPTURE = 0.1
 # Forcing cycles in one call of a compiled function. Ctrl-C waits for the end of a call.
 STROBES_AT_ONCE = 50_000
 # Rules of release, the first number of `rule` in `hold`.
@@ -33,28 +27,17 @@ class Stopped(Exception):
     """Raised in a thread whose run another thread has ended."""
 
 
-def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
-    """Run a motion from any phase of the forcing until it is near a stable orbit.
+def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
+    """Run a motion until it is near a stable orbit, at most `limit` strobes beyond the first one.
 
-    Parameters
-    ----------
-    y : array, shape (4,)
-        State at the beginning, replaced by the last state.
-    ahead : float
-        Forcing cycles from the beginning to the first strobe.
-    strobe : float
-        Number of the first strobe of this leg, counted from the first strobe of the first leg.
-    limit : int
-        Number of the last strobe, counted from 0.
-    path : array, shape (limit + 2, 5)
-        Receives a row for the beginning and for each strobe: time in forcing cycles, then the
-        state.
-    out : records.MOTION
-        Receives outcome, period and periods_run, and the state on the orbit if the motion settled.
-    stop : array of bool, shape (1,)
-        If another thread sets this flag, `Stopped` is raised.
+    The state y (4,) lies `ahead` forcing cycles before the strobe number `strobe`, and is replaced
+    by the last state. Return a row for the beginning and for each strobe, shape (m, 5): the number
+    of the strobe and the state; and the `records.MOTION`, measured if the motion settled. If
+    another thread sets `stop[0]`, `Stopped` is raised.
     """
-    out["outcome"], out["period"], out["maximum_displacement"] = UNRESOLVED, 0, np.nan
+    records, path = np.zeros(1, MOTION), np.empty((limit + 2, 5))
+    out = records[0]
+    out["outcome"], out["maximum_displacement"] = UNRESOLVED, np.nan
     path[0, 0], path[0, 1:] = strobe - ahead, y
     t = strobe_time(p)
     begin = t - ahead * 2.0 * math.pi / p[FREQUENCY]
@@ -69,14 +52,17 @@ def run(p, y, ahead, strobe, tolerance, limit, path, out, stop):
         )
         if out["outcome"] != UNRESOLVED:
             break
+    if out["period"] > 0:
+        measure(p[None], tolerance, 0, records, NEVER)
+    return path[: out["periods_run"] + 2], out
 
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
     """Do the part of `run` from strobe `first` to the strobe before `last`.
 
-    Return the wall in contact (-1, 1, or 0 for none), and the distance from an orbit below which
-    Newton's method is tried next.
+    Return the wall in contact, and the distance from an orbit at which Newton's method is tried
+    next.
     """
     work = workspace()
     none = np.empty((0, 4))
@@ -100,32 +86,22 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
     return side, near
 
 
-def leg(before, after, y, wait, place, strobe, tolerance, limit, path, out, stop=NEVER):
-    """Wait, switch the damper, `run`, measure a settled motion; return the last strobe.
+def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
+    """Wait `wait` forcing cycles from a strobe, switch the damper, and return the result of `run`.
 
-    Parameters
-    ----------
-    before, after : array, shape (packed.COUNT,)
-        Packed parameters before and after the switching, one of them without the damper.
-    y : array, shape (4,)
-        State at the strobe, replaced by the state at the last strobe.
-    wait : float
-        Forcing cycles from the strobe to the switching.
-    place : float
-        Z2 of the loose mass over the clearance when the damper is switched on; the loose mass is
-        then at rest relative to the primary mass. Not used when the damper is switched off.
-    strobe : float
-        Number of this strobe, at which the waiting begins.
-    out : array of records.MOTION, shape (1,)
+    `before` and `after` are the packed parameters before and after the switching; `place` is as in
+    `wait_and_switch`. The state y at the strobe number `strobe` is replaced by the last state.
     """
     wait_and_switch(before, after, y, wait, place, tolerance)
-    strobe += math.floor(wait) + 1.0
-    run_and_measure(after, y, 1.0 - wait % 1.0, strobe, tolerance, limit, path, out, stop)
-    return strobe + out[0]["periods_run"]
+    return run(after, y, 1.0 - wait % 1.0, strobe + math.floor(wait) + 1.0, tolerance, limit, stop)
 
 
 def wait_and_switch(before, after, y, wait, place, tolerance):
-    """Run from a strobe for `wait` forcing cycles, and switch the damper; return the time."""
+    """Run from a strobe for `wait` forcing cycles, and switch the damper; return the time.
+
+    When it is switched on, the loose mass is at rest relative to the primary mass, with Z2 at
+    `place` times the clearance.
+    """
     t = strobe_time(before)
     end = t + wait * 2.0 * math.pi / before[FREQUENCY]
     advance(before, y, np.empty((0, 4)), side_of(before, y), t, end, tolerance, workspace())
@@ -136,18 +112,11 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
     return end
 
 
-def run_and_measure(p, y, ahead, strobe, tolerance, limit, path, out, stop):
-    """Do `run` and, for a settled motion, `measure`; `out` is an array of one record."""
-    run(p, y, ahead, strobe, tolerance, limit, path, out[0], stop)
-    if out[0]["period"] > 0:
-        measure(p[None], tolerance, 0, out, NEVER)
-
-
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
     """Wait, switch the damper on, and off as soon as the state lies in the set `releases`.
 
-    Return rows as `run` writes them, for the switching on, each strobe, and the switching off, at
-    the latest `longest` forcing cycles later. y is replaced by the free state after it.
+    Return rows as `run` does, for the switching on, each strobe, and the switching off, at the
+    latest `longest` forcing cycles later. y is replaced by the free state after it.
     """
     begin = wait_and_switch(off, on, y, wait, place, tolerance)
     path = np.full((longest + 2, 5), np.nan)
@@ -162,21 +131,6 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
     rows = np.vstack([rows, [(end - begin) * on[FREQUENCY] / (2.0 * math.pi), *y]])
     rows[:, 0] += strobe + wait
     return rows
-
-
-def life(p, path, record, tolerance):
-    """Return the forcing cycles after which a run stays within CAPTURE of its final orbit.
-
-    `path` is the path of the run, from `run`, and `record` the motion that it settled to.
-    """
-    orbit = np.empty((record["period"], 4))
-    begin = strobe_time(p)
-    strobes = begin + np.arange(len(orbit)) * 2.0 * math.pi / p[FREQUENCY]
-    trace(p, record["state"].copy(), begin, strobes, tolerance, orbit, np.empty((0, 5)))
-    last = record["periods_run"]
-    there = orbit[np.arange(-last, 1) % len(orbit), :2]
-    far = np.any(np.abs(path[1 : last + 2, 1:3] - there) > CAPTURE, axis=1)
-    return int(np.max(np.flatnonzero(far), initial=-1)) + 1
 
 
 @kernel
@@ -195,34 +149,16 @@ def depth_of(depth, half, phase, x, v):
 
 @kernel
 def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, work):
-    """Run a motion with the damper on until a rule releases it.
+    """Run a motion from the time `begin` with the damper on, until a rule releases it.
 
-    Parameters
-    ----------
-    y : array, shape (4,)
-        State at the time `begin`, replaced by the state at the release.
-    side : int
-        Wall in contact (-1, 1, or 0 for none).
-    limit : float
-        Largest number of forcing cycles.
-    rule : tuple of (int, float, int)
-        Kind, number n of forcing cycles, and index of a phase. HOLD releases after n cycles, PHASE
-        at the first such phase after n cycles, SETTLED at the fraction `draw` of a period after the
-        states at the strobes repeat, STATE as soon as the state lies inside the release set, or
-        after n cycles.
-    depth, half : array
-        The attributes of a `ReleaseSet`.
-    path : array, shape (m, 5)
-        Receives a row for each of the first m strobes: forcing cycles since `begin`, and the state.
+    `rule` is a kind, a number n of forcing cycles, and the index of a phase. HOLD releases after n
+    cycles, PHASE at the first such phase after n cycles, SETTLED at the fraction `draw` of a period
+    after the states at the strobes repeat, STATE as soon as the state lies inside the release set
+    (`depth` and `half`, attributes of a `ReleaseSet`), or after n cycles. Each of the first strobes
+    fills a row of `path`, shape (m, 5): forcing cycles since `begin`, and the state.
 
-    Returns
-    -------
-    t : float
-        Time of the end.
-    released : bool
-        Whether the rule released the damper within `limit`.
-    contacts : int
-        Number of contacts begun.
+    Return the time of the end, whether the rule released within `limit` forcing cycles, and the
+    number of contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

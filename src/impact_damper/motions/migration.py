@@ -1,49 +1,39 @@
-"""Migration control: the controller of figure 17, from the resonance to the non-resonance branch.
+"""Migration control, from the large free motion of period 1 to the small one, the goal (figure 17).
 
-A run begins with the large free motion of period 1. The damper is switched on and off repeatedly
-until the free oscillator settles to the small one, the goal: off after the motion with it has
-settled, at a phase drawn uniformly over the period of this motion, or as soon as the state leads to
-the goal.
+The damper is switched on and off repeatedly until the free oscillator settles to the goal: off
+after the motion with it has settled, at a phase drawn uniformly over the period of this motion, or
+as soon as the state leads to the goal.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.shares import BOUNDS, wilson
+from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION
 from impact_damper.model.arguments import read_forced
 from impact_damper.model.bounds import (
-    LIFETIME_RANGE,
+    FREQUENCY_RANGE,
     PERIODS_RANGE,
-    RUNS_RANGE,
     SEED_RANGE,
     check_count,
     names_arguments,
 )
-from impact_damper.model.packed import FREQUENCY
+from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble, legs
 from impact_damper.motions.attractors import release_set
-from impact_damper.motions.records import MOTION, NEVER
-from impact_damper.motions.releases import (
-    DESTINATIONS,
-    KINDS,
-    destination,
-    kinds,
-    release_case,
-    release_data,
-    settled_motions,
-    transient_data,
-    watch_runs,
-)
-from impact_damper.motions.traces import trace
+from impact_damper.motions.following import record_at
+from impact_damper.motions.records import NEVER
+from impact_damper.motions.traces import states_at
+from impact_damper.theory.free_oscillator import main_solutions
 
-# Number of cycles within which, by the paper, its controller reaches the non-resonance branch.
-PAPER_CYCLES = 350
 # `course` returns Z1 against time from MARGIN forcing cycles before a run to MARGIN cycles after.
 MARGIN = 10
 # Number of values of Z1 in a forcing cycle.
 SAMPLES = 40
+# Two free motions are the same if their max |Z1| differs by less than ALIKE.
+ALIKE = 1e-6
 # One entry of a log: the damper is switched on and off once. Times are in forcing cycles from the
 # first strobe.
 # on_time, off_time: times at which the damper is switched on and off.
@@ -63,6 +53,19 @@ SWITCHING = np.dtype(
 )
 
 
+class ReleaseCase(NamedTuple):
+    """Packed parameters with and without the damper, and the free motions at one frequency.
+
+    `state` is the free resonance motion at a strobe, and `known` the max |Z1| of the free
+    non-resonance motion and of the resonance motion.
+    """
+
+    on: np.ndarray
+    off: np.ndarray
+    state: np.ndarray
+    known: np.ndarray
+
+
 @names_arguments
 def migrate(
     system,
@@ -77,9 +80,6 @@ def migrate(
     settling=None,
 ):
     """Switch the damper on and off until the free oscillator is on its small motion.
-
-    This is one run of the controller of figure 17 of the paper, from the resonance branch. The
-    damper is on until it is released, then off until the free motion has settled, and so on.
 
     Parameters
     ----------
@@ -104,10 +104,9 @@ def migrate(
     Returns
     -------
     xarray.Dataset
-        For each `time` T (dimensionless) the displacement of the primary mass; for each `switching`
-        the times T at which the damper is switched on and off and at which the free motion has
-        settled, the motion before the release and the free motion after it; and totals of the run,
-        in forcing cycles.
+        For each `time` T the displacement of the primary mass; for each `switching` the times T at
+        which the damper is switched on and off and at which the free motion has settled, the motion
+        before the release and the free motion after it; and totals of the run, in forcing cycles.
 
     Raises
     ------
@@ -127,9 +126,12 @@ def migrate(
     if not isinstance(seed, np.random.SeedSequence):
         check_count("seed", seed, **SEED_RANGE)
     model = read_forced(system, damper, frequency, needs_damper=True)
-    case, made = _checked(model, longest_hold, periods, switchings, settling)
+    check_count("longest_hold", longest_hold, **PERIODS_RANGE)
+    check_count("periods", periods, **PERIODS_RANGE)
+    check_count("switchings", switchings, most=10**4)
     if release not in ("settled", "state"):
         raise ValueError(f"release = {release!r}: must be 'settled' or 'state'")
+    case = release_case(model.oscillator, model.damper, model.frequency, settling)
     inside = None
     if release == "state":
         inside = release_set(model.oscillator, model.frequency, settling)
@@ -140,141 +142,84 @@ def migrate(
     data = {"displacement": displacement}
     data |= {name: ("switching", values) for name, values in switching_data(log, case).items()}
     data |= {name: ((), value) for name, value in totals.items()}
-    drawn = seed.entropy if isinstance(seed, np.random.SeedSequence) else seed
-    made |= {
+    made = model.describe(settling) | {
+        "longest_hold": longest_hold,
+        "periods": periods,
+        "largest_switchings": switchings,
         "release": release,
-        "seed": int(drawn),
+        "seed": int(getattr(seed, "entropy", seed)),
         "spawn_key": list(getattr(seed, "spawn_key", ())),
     }
     return dataset(data, {"time": times}, made, "Migration control, one run", model)
 
 
-def _checked(model, longest_hold, periods, switchings, settling):
-    """Check arguments of `migrate`; return the `ReleaseCase` and the parameters of the dataset."""
-    model.pack()
-    check_count("longest_hold", longest_hold, **PERIODS_RANGE)
-    check_count("periods", periods, **PERIODS_RANGE)
-    check_count("switchings", switchings, most=10**4)
-    made = model.describe(settling) | {
-        "longest_hold": longest_hold,
-        "periods": periods,
-        "largest_switchings": switchings,
-    }
-    return release_case(model.oscillator, model.damper, model.frequency, settling), made
+def _free_motion(oscillator, frequency, start, which, settling):
+    """Return the record of a free motion of period 1 at a frequency, or None.
 
-
-def trials(
-    oscillator,
-    damper,
-    frequency,
-    *,
-    trials=400,
-    releases=240,
-    lifetime=4000,
-    seed=1995,
-    longest_hold=500,
-    periods=2000,
-    switchings=100,
-    settling=None,
-    workers=1,
-    progress=None,
-):
-    """Run the controller many times, and find the motions to which releases lead.
-
-    After the damper is switched on, a large irregular motion comes first, the violent transient.
-    The time until it settles, its life, is measured too.
-
-    Parameters
-    ----------
-    oscillator, damper, frequency, longest_hold, periods, switchings, settling
-        As in `migrate`.
-    trials : int
-        Runs of the controller.
-    releases : int
-        Number of releases of each damped motion, and of runs in which the life is measured.
-    lifetime : int
-        Largest number of forcing cycles of the runs that measure the life.
-
-    Returns
-    -------
-    xarray.Dataset
-        For each `trial` the results of `migrate`; the displacement is stored for one trial only,
-        `example`. Shares of trials that reach the non-resonance branch. For each (damped, release)
-        the free motion to which a release leads; the first damped motion is the violent transient.
-        For each `run` the life of the transient, and for each `age` the share of transients that
-        last longer.
+    At the frequency `start` a run begins with the state of the harmonic-balance solution number
+    `which`, by ascending amplitude, and settles. From there the motion is followed to `frequency`.
     """
-    settling = check_settling(settling)
-    check_count("trials", trials, **RUNS_RANGE)
-    check_count("releases", releases, **RUNS_RANGE)
-    check_count("lifetime", lifetime, **LIFETIME_RANGE)
-    check_count("seed", seed, **SEED_RANGE)
-    model = read_forced(oscillator, damper, frequency, needs_damper=True)
-    case, made = _checked(model, longest_hold, periods, switchings, settling)
-    runs, watched = (
-        root.spawn(number)
-        for root, number in zip(
-            np.random.SeedSequence(seed).spawn(2), (trials, releases), strict=True
-        )
-    )
-    draws = np.array([draw(child, switchings) for child in runs])
-    logs, stop = blank(draws.shape[:2]), np.zeros(1, bool)
-
-    def work(part):
-        for i in range(part.start, part.stop):
-            _, logs[i] = control(case, draws[i], longest_hold, settling, periods, None, stop)
-
-    ensemble.run_chunks(work, trials, workers, progress, stop, size=8)
-    totals = run_totals(logs)
-    logs = logs[:, : np.max(totals["switchings"])]
-    data = switching_data(logs, case)
-    example = _example(totals)
-    path, log = control(case, draws[example], longest_hold, settling, periods, None)
-    times, displacement = course(case, path, log, settling.tolerance)
-    data |= totals | _summary(data, totals) | {"example": example, "displacement": displacement}
-    lives, motions, entries = watch_runs(case, watched, lifetime, settling, workers, progress)
-    life, coordinates = transient_data(lives, motions, lifetime, case.known)
-    records = settled_motions(oscillator, damper, frequency, seed, settling, workers, motions)
-    data |= life | release_data(case, records, entries, settling)
-    coordinates |= {
-        "time": times,
-        "bound": BOUNDS,
-        "damped_motion": KINDS,
-        "free_motion": DESTINATIONS,
-    }
-    made |= {"trials": trials, "releases": releases, "lifetime": lifetime, "seed": seed}
-    return dataset(data, coordinates, made, "Migration control")
+    p = pack(oscillator, None, start)
+    free = main_solutions(oscillator, start)
+    angle = free.phase[which] + np.pi / 2
+    primary = free.amplitude[which] * np.array([np.cos(angle), -start * np.sin(angle)])
+    record = ensemble.settle(p[None], np.tile(primary, (1, 2)), settling, from_strobe=True)[0]
+    if record["period"] != 1:
+        return None
+    return record_at(p, record["state"], 1, FREQUENCY, frequency, settling.tolerance)
 
 
-def _example(totals):
-    """Return the first run with the median number of switchings of those that arrive, or 0."""
-    reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
-    if not reached.any():
-        return 0
-    middle = np.quantile(totals["switchings"][reached], 0.5, method="lower")
-    return int(np.argmax(reached & (totals["switchings"] == middle)))
+def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
+    """Return the `ReleaseCase` of a damper; ValueError without both free motions of period 1.
 
-
-def _summary(logs_data, totals):
-    """Return shares of all runs, and numbers of releases by the motions before and after them."""
-    reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
-    number = len(reached)
-    count = [
+    With a hardening spring the resonance motion ends at a fold at a higher frequency, and the
+    non-resonance motion at a fold at a lower frequency. Therefore the resonance motion is followed
+    upward in frequency and the non-resonance motion downward. With a softening spring both
+    directions are reversed.
+    """
+    on, off = pack(oscillator, damper, frequency), pack(oscillator, None, frequency)
+    above = min(1.1 * frequency, FREQUENCY_RANGE["most"])
+    below = max(0.9 * frequency, FREQUENCY_RANGE["least"])
+    ends = (above, below) if oscillator.hardening >= 0 else (below, above)
+    goal = _free_motion(oscillator, frequency, ends[0], 0, settling)
+    resonance = _free_motion(oscillator, frequency, ends[1], -1, settling)
+    known = np.array(
         [
-            np.sum(
-                (logs_data["released_from"] == DAMPED_MOTION[kind])
-                & (logs_data["destination"] == FREE_MOTION[name])
-            )
-            for name in DESTINATIONS
+            np.nan if record is None else record["maximum_displacement"]
+            for record in (goal, resonance)
         ]
-        for kind in KINDS
-    ]
-    within = reached & (totals["total_time"] <= PAPER_CYCLES)
-    return {
-        "destination_count": np.array(count),
-        "reached_share": wilson(np.sum(reached), number),
-        "within_share": wilson(np.sum(within), number),
-    }
+    )
+    if not known[0] + ALIKE < known[1]:
+        told = oscillator.scales.told("frequency", frequency, "frequency")
+        raise ValueError(
+            f"{told}: without the damper there must be both a non-resonance and a resonance "
+            "motion, since migration leads from one to the other (a linear spring has only one "
+            "motion)"
+        )
+    return ReleaseCase(on, off, resonance["state"].copy(), known)
+
+
+def kinds(period, displacement, known):
+    """Return flags (`DAMPED_MOTION`) that classify motions by period and max |Z1|, arrays.
+
+    A motion of period 1 is quiet if its max |Z1| is below half the max |Z1| of the free resonance
+    motion.
+    """
+    one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
+    several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
+    return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
+
+
+def destination(known, record):
+    """Return the flag (`FREE_MOTION`) that names the free motion in a record."""
+    if not is_settled(record):
+        return FREE_MOTION["unresolved"]
+    if record["period"] == 3:
+        return FREE_MOTION["subharmonic"]
+    for name, displacement in zip(("non_resonance", "resonance"), known, strict=True):
+        if record["period"] == 1 and abs(record["maximum_displacement"] - displacement) < ALIKE:
+            return FREE_MOTION[name]
+    return FREE_MOTION["other"]
 
 
 def draw(seed, switchings):
@@ -285,94 +230,50 @@ def draw(seed, switchings):
     return np.random.default_rng(seed).random((switchings, 3))
 
 
-def blank(shape):
-    """Return a log of the given shape in which no switching has taken place."""
-    log = np.zeros(shape, SWITCHING)
+def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
+    """Return path and log of one run of the controller.
+
+    A row of `draws`, from `draw`, holds the phase at which the damper is switched on, the place of
+    the loose mass in the gap at this time, and the phase at which the damper is switched off. A
+    phase is a fraction of the period of the motion before the switching. `releases` is a
+    `ReleaseSet` for release by state, or None.
+
+    The path has a row for each strobe and each switching, shape (m, 5): forcing cycles from the
+    first strobe, then the state. The log has a SWITCHING for each row of `draws`.
+    """
+    y, period, strobe, path = case.state.copy(), 1, 0.0, []
+    tolerance, limit = settling.tolerance, settling.limit
+    log = np.zeros(len(draws), SWITCHING)
     for name in SWITCHING.names:
         if SWITCHING[name].kind == "f":
             log[name] = np.nan
     log["destination"] = FREE_MOTION["none"]
-    return log
-
-
-def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
-    """Return path and log of one run of the controller.
-
-    Parameters
-    ----------
-    case : ReleaseCase
-    draws : array, shape (n, 3)
-        Result of `draw`. A row holds the phase at which the damper is switched on, the place of the
-        loose mass in the gap at this time, and the phase at which the damper is switched off. A
-        phase is a fraction of the period of the motion before the switching.
-    longest_hold : int
-        Forcing cycles after which the damper is switched off in any case.
-    settling : Settling
-    periods : int
-        Forcing cycles after which no further switching begins.
-    releases : ReleaseSet or None
-        The set for release by state; None for release from the settled motion.
-    stop : array of bool, shape (1,)
-        Argument of `legs.run`.
-
-    Returns
-    -------
-    path : numpy.ndarray, shape (m, 5)
-        One row for each strobe and each switching: forcing cycles from the first strobe, then the
-        state.
-    log : numpy.ndarray of SWITCHING, shape (n,)
-        One entry for each switching.
-    """
-    y = case.state.copy()
-    records = np.zeros(1, MOTION)
-    record = records[0]
-    record["period"] = 1
-    log = blank(len(draws))
-    rest = np.empty((max(longest_hold, settling.limit) + 2, 5))
-    path, strobe = [], 0.0
-
-    def leg(before, after, phase, place, limit):
-        nonlocal strobe
-        wait = phase * max(int(record["period"]), 1)
-        instant = strobe + wait
-        strobe = legs.leg(
-            before, after, y, wait, place, strobe, settling.tolerance, limit, rest, records, stop
-        )
-        path.append(rest[: record["periods_run"] + 2].copy())
-        return instant
-
-    for entry, draw in zip(log, draws, strict=True):
-        place = 2 * draw[1] - 1
+    for entry, (on_phase, place, off_phase) in zip(log, draws, strict=True):
+        wait, place = on_phase * max(period, 1), 2 * place - 1
         if releases is None:
-            entry["on_time"] = leg(case.off, case.on, draw[0], place, longest_hold)
-            entry["released_period"] = record["period"]
-            entry["released_displacement"] = record["maximum_displacement"]
-            entry["off_time"] = leg(case.on, case.off, draw[2], 0.0, settling.limit)
+            entry["on_time"] = strobe + wait
+            rows, held = legs.leg(
+                case.off, case.on, y, wait, place, strobe, tolerance, longest_hold, stop
+            )
+            entry["released_period"] = held["period"]
+            entry["released_displacement"] = held["maximum_displacement"]
+            path.append(rows)
+            strobe, wait = rows[-1, 0], off_phase * max(int(held["period"]), 1)
+            entry["off_time"] = strobe + wait
+            rows, free = legs.leg(case.on, case.off, y, wait, 0.0, strobe, tolerance, limit, stop)
         else:
-            wait = draw[0] * max(int(record["period"]), 1)
-            held = legs.hold_by_state(
-                case.off,
-                case.on,
-                y,
-                wait,
-                place,
-                strobe,
-                settling.tolerance,
-                longest_hold,
-                releases,
+            rows = legs.hold_by_state(
+                case.off, case.on, y, wait, place, strobe, tolerance, longest_hold, releases
             )
-            path.append(held[:-1])
-            entry["on_time"], entry["off_time"] = held[0, 0], held[-1, 0]
-            strobe = np.floor(held[-1, 0]) + 1.0
-            ahead, limit = strobe - held[-1, 0], settling.limit
-            legs.run_and_measure(
-                case.off, y, ahead, strobe, settling.tolerance, limit, rest, records, stop
-            )
-            path.append(rest[: record["periods_run"] + 2].copy())
-            strobe += record["periods_run"]
+            path.append(rows[:-1])
+            entry["on_time"], released = rows[0, 0], rows[-1, 0]
+            entry["off_time"], strobe = released, np.floor(released) + 1.0
+            rows, free = legs.run(case.off, y, strobe - released, strobe, tolerance, limit, stop)
+        path.append(rows)
+        period, strobe = int(free["period"]), rows[-1, 0]
         entry["end_time"] = strobe
-        entry["destination"] = destination(case.known, record)
-        entry["destination_displacement"] = record["maximum_displacement"]
+        entry["destination"] = destination(case.known, free)
+        entry["destination_displacement"] = free["maximum_displacement"]
         if entry["destination"] == FREE_MOTION["non_resonance"] or strobe >= periods:
             break
     return np.concatenate(path), log
@@ -387,23 +288,23 @@ def course(case, path, log, tolerance):
     period = 2 * np.pi / case.on[FREQUENCY]
     path = np.vstack([np.append(-MARGIN, case.state), path])
     ends = np.append(path[1:, 0], path[-1, 0] + MARGIN)
-    times = np.arange(-MARGIN * SAMPLES, int(ends[-1] * SAMPLES)) / SAMPLES
+    cycles = np.arange(-MARGIN * SAMPLES, int(ends[-1] * SAMPLES)) / SAMPLES
+    times = (cycles + 0.25) * period
     log = log[log["destination"] != FREE_MOTION["none"]]
     switched = np.stack([log["on_time"], log["off_time"]], axis=-1).ravel()
     damped = np.searchsorted(switched, (path[:, 0] + ends) / 2) % 2 == 1
-    cuts = np.searchsorted(times, np.append(path[:, 0], ends[-1]))
-    states = np.empty((len(times), 4))
-    for row, on, first, last in zip(path, damped, cuts, cuts[1:], strict=False):
-        trace(
+    cuts = np.searchsorted(cycles, np.append(path[:, 0], ends[-1]))
+    parts = [
+        states_at(
             case.on if on else case.off,
-            row[1:].copy(),
+            row[1:],
             (row[0] + 0.25) * period,
-            (times[first:last] + 0.25) * period,
+            times[first:last],
             tolerance,
-            states[first:last],
-            np.empty((0, 5)),
         )
-    return (times + 0.25) * period, states[:, 0]
+        for row, on, first, last in zip(path, damped, cuts, cuts[1:], strict=False)
+    ]
+    return times, np.concatenate(parts)[:, 0]
 
 
 def switching_data(logs, case):
@@ -417,9 +318,9 @@ def switching_data(logs, case):
 
 
 def run_totals(logs):
-    """Return a dict of dataset variables of whole runs.
+    """Return a dict of dataset variables of whole runs, whose times are in forcing cycles.
 
-    Times are in forcing cycles from the moment at which the damper is first switched on.
+    The totals count from the moment at which the damper is first switched on.
     """
     first = logs["on_time"][..., 0]
     reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)

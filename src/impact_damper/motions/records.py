@@ -204,26 +204,6 @@ def measured(p, y, periods, tolerance):
     return records[0]
 
 
-@kernel
-def first_collisions(parameters, states, limit, tolerance, periods, stop):
-    """Fill `periods` with the number of forcing cycles from T = 0 to each motion's first contact.
-
-    The number is infinite without a contact within `limit` cycles. When another thread sets
-    `stop[0]`, the remaining numbers are meaningless.
-    """
-    work = workspace()
-    for i in range(len(states)):
-        p = parameters[i]
-        y = states[i].copy()
-        t = 0.0
-        side = side_of(p, y)
-        end = limit * 2.0 * math.pi / p[FREQUENCY]
-        while side == 0 and t < end and not stop[0]:
-            length, side = step(p, y, side, t, end - t, tolerance, work)
-            t += length
-        periods[i] = t * p[FREQUENCY] / (2.0 * math.pi) if side != 0 else np.inf
-
-
 def phase_of(harmonic, reference):
     """Return the phases (radian) of harmonics relative to the phases of `reference`.
 

@@ -22,21 +22,18 @@ from impact_damper.model.arguments import (
 )
 from impact_damper.model.bounds import (
     LIFETIME_RANGE,
-    PERIODS_RANGE,
     SEED_RANGE,
     check_count,
-    check_number,
     check_starts,
     names_arguments,
 )
-from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.model.parameters import describe
-from impact_damper.model.settling import Settling, check_settling
+from impact_damper.model.packed import FREQUENCY
+from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.ensemble import settle_many
 from impact_damper.motions.records import CHAOTIC, MOTION, UNRESOLVED, tabulate
-from impact_damper.motions.simulate import COMPONENTS, random_states, simulate
-from impact_damper.motions.start_states import describe_search, free_motions, search_starts
+from impact_damper.motions.simulate import COMPONENTS, simulate
+from impact_damper.motions.start_states import describe_search, search_starts
 from impact_damper.motions.strobe_map import STROBE
 from impact_damper.motions.sweep import sweep
 from impact_damper.motions.watch import NEAR
@@ -329,63 +326,3 @@ def _lives(parameters, states, periods, settling, **running):
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives
-
-
-def collisions(
-    oscillator,
-    damper,
-    frequency,
-    *,
-    starts=2000,
-    radius=None,
-    seed=1995,
-    periods=2000,
-    tolerance=1e-9,
-):
-    """Count the random starts that lead to a collision, in the whole ball and within the gap.
-
-    Read literally, the ball of the paper (section 3, iii) extends beyond the walls.
-
-    Parameters
-    ----------
-    oscillator, damper, frequency
-    starts : int
-        Number of starts at T = 0 in each ball.
-    radius : float, optional
-        Radius of the ball; 2 in the paper. By default the largest displacement or speed of the
-        motions without the damper, whichever is larger.
-    seed : int
-    periods : int
-        Forcing cycles of a run; only collisions within them count.
-    tolerance : float
-        Local error allowed in a step of the integrator.
-
-    Returns
-    -------
-    xarray.Dataset
-        For each `ball` (literal, within the gap): the share of starts that lie beyond a wall, the
-        share that collide within the given forcing cycles, and the longest time before a first
-        collision.
-    """
-    p = pack(oscillator, damper, frequency)
-    check_count("starts", starts, most=10**7)
-    check_count("periods", periods, **PERIODS_RANGE)
-    check_number("tolerance", tolerance, least=1e-15, most=1e-2)
-    if radius is None:
-        free = free_motions(oscillator, frequency, Settling())
-        radius = max(free.displacement, free.speed) or 1.0
-    shares = np.empty((2, 3))
-    for row, within_gap in enumerate((False, True)):
-        states = random_states(starts, radius, damper, [seed, row], within_gap=within_gap)
-        waits = ensemble.collide(np.tile(p, (starts, 1)), states, periods, tolerance)
-        met = np.isfinite(waits)
-        shares[row] = np.mean(waits == 0), np.mean(met), np.max(waits[met], initial=0.0)
-    data = dict(zip(("beyond_wall", "colliding", "longest_wait"), shares.T, strict=True))
-    made = describe(oscillator, damper) | {
-        "frequency": float(frequency),
-        "starts": starts,
-        "radius": radius,
-        "seed": seed,
-        "periods": periods,
-    }
-    return dataset(data, {"ball": ["literal", "within_gap"]}, made, "First collisions")

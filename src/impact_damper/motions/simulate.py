@@ -24,6 +24,13 @@ from impact_damper.motions import traces
 # Largest number of samples of a motion, which stay in memory.
 MOST_SAMPLES = 10**7
 COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_velocity")
+CONTACT = (
+    "contact_wall",
+    "contact_begin",
+    "contact_end",
+    "approach_velocity",
+    "departure_velocity",
+)
 
 
 def random_states(count, radius, damper, seed, *, within_gap=True):
@@ -140,27 +147,13 @@ def simulate(
     start = read_start(model, state, start)
     length = periods * 2 * np.pi / p[FREQUENCY]
     times = start + np.linspace(0.0, length, max(int(np.ceil(periods * samples)), 1) + 1)
-    states = np.empty((len(times), 4))
-    log = np.empty((1024, 5))
-    first = y.copy()
-    count = traces.trace(p, y, start, times, tolerance, states, log)
-    if count > len(log):
-        log = np.empty((count, 5))
-        traces.trace(p, first, start, times, tolerance, states, log)
-    log = log[:count]
-    data = dict(zip(COMPONENTS, states.T, strict=True))
-    data |= {
-        "contact_wall": log[:, 0],
-        "contact_begin": log[:, 1],
-        "contact_end": log[:, 2],
-        "approach_velocity": log[:, 3],
-        "departure_velocity": log[:, 4],
-    }
+    states, log = traces.trace(p, y, start, times, tolerance)
+    data = dict(zip((*COMPONENTS, *CONTACT), (*states.T, *log.T), strict=True))
     if model.oscillator.softens:
         escaped = np.isnan(states[:, 0])
         data["escape_time"] = times[np.argmax(escaped)] if escaped.any() else np.nan
     parameters = model.describe() | {
-        "state": first.tolist(),
+        "state": y.tolist(),
         "start": start,
         "periods": float(periods),
         "samples": int(samples),

@@ -265,10 +265,8 @@ def _ramp(target, indices, factor, tolerance):
         strobe_map.flow(p, state, none, begin, PERIODS, np.bool_(False), tolerance)
         if not np.isfinite(state).all():
             return state
-    end, at_zero = np.array([2 * np.pi / target[FREQUENCY]]), np.empty((1, 4))
-    begin = strobe_map.strobe_time(target)
-    traces.trace(target, state, begin, end, tolerance, at_zero, np.empty((0, 5)))
-    return at_zero[0]
+    begin, end = strobe_map.strobe_time(target), 2 * np.pi / target[FREQUENCY]
+    return traces.states_at(target, state, begin, [end], tolerance)[0]
 
 
 def barrier(oscillator):
@@ -331,7 +329,4 @@ def _course(p, state, periods):
     begin = strobe_map.strobe_time(p)
     period = 2 * np.pi / p[FREQUENCY]
     times = begin + period * np.arange(periods * SAMPLES + 1) / SAMPLES
-    states = np.empty((len(times), 4))
-    none = np.empty((0, 5))
-    traces.trace(p, state.copy(), begin, times, strobe_map.POLISH_TOLERANCE, states, none)
-    return states
+    return traces.states_at(p, state, begin, times, strobe_map.POLISH_TOLERANCE)

@@ -13,6 +13,8 @@ from impact_damper.model.packed import CLEARANCE
 
 # Number of steps of a trace in one call of its kernel, which takes a fraction of a second.
 STEPS_AT_ONCE = 50_000
+# Number of contacts for which a trace has room at first.
+ROOM = 1024
 
 
 @kernel_only
@@ -30,22 +32,31 @@ def series_of_step(work, side, y, t):
     return x, v, q, w
 
 
-def trace(p, y, t, times, tolerance, states, log):
-    """Compute the states of a motion at given times and a log of contacts; return their number.
+def trace(p, state, begin, times, tolerance, room=ROOM):
+    """Return the states at increasing times, shape (n, 4), and the contacts, shape (k, 5).
 
-    Parameters
-    ----------
-    y : array, shape (4,)
-        State at time t, replaced by the last state.
-    times : array, shape (n,)
-        Increasing times, not before t.
-    states : array, shape (n, 4)
-        Receives the states; NaN after the motion has escaped (`kernel.equation.no_return`).
-    log : array, shape (m, 5)
-        Receives a row for each of the first m contacts: wall, beginning, end, and Z2' at the
-        beginning and the end. Further contacts are only counted.
+    The states are NaN after the motion has escaped (`kernel.equation.no_return`). A contact has a
+    row of wall, beginning, end, and Z2' at the beginning and the end. With more than `room`
+    contacts the motion is integrated twice.
     """
-    t, side, contacts = float(t), side_of(p, y), 0
+    states, log = np.empty((len(times), 4)), np.empty((room, 5))
+    contacts = _trace(p, state, begin, times, tolerance, states, log)
+    if contacts > room:
+        return trace(p, state, begin, times, tolerance, contacts)
+    return states, log[:contacts]
+
+
+def states_at(p, state, begin, times, tolerance):
+    """Return the states of a motion at increasing times, shape (n, 4)."""
+    states = np.empty((len(times), 4))
+    _trace(p, state, begin, times, tolerance, states, np.empty((0, 5)))
+    return states
+
+
+def _trace(p, state, t, times, tolerance, states, log):
+    """Fill `states`, and `log` with the first contacts; return the number of all contacts."""
+    y, t, times = np.array(state, float), float(t), np.ascontiguousarray(times, float)
+    side, contacts = side_of(p, y), 0
     if side != 0:
         log[:1] = [[side, t, np.nan, y[3], np.nan]]
         contacts = 1

@@ -142,21 +142,12 @@ class Orbit:
         # beginning only a period later.
         touching = side_of(self.p, self.state) != 0
         last = end + touching * (end - begin)
-        log = np.empty(((1 + touching) * self.periods * CONTACTS, 5))
-        count = traces.trace(
-            self.p,
-            self.state.copy(),
-            begin,
-            np.array([last]),
-            POLISH_TOLERANCE,
-            np.empty((1, 4)),
-            log,
-        )
-        if count > len(log):
+        _, log = traces.trace(self.p, self.state, begin, [last], POLISH_TOLERANCE)
+        if len(log) > (1 + touching) * self.periods * CONTACTS:
             raise ArithmeticError(
-                f"{count} contacts in an orbit: more than {CONTACTS} in a forcing cycle"
+                f"{len(log)} contacts in an orbit: more than {CONTACTS} in a forcing cycle"
             )
-        log = log[touching:count]
+        log = log[touching:]
         return log[log[:, 1] < end]
 
     @cached_property

@@ -11,7 +11,7 @@ from helpers.known_orbits import DESIGN, PAPER
 from impact_damper.data import datasets
 from impact_damper.data.variables import VARIABLES
 from impact_damper.data.whole_files import BrokenFileError
-from impact_damper.motions.response import collisions, frequency_response, steady_motion
+from impact_damper.motions.response import frequency_response, steady_motion
 from impact_damper.motions.simulate import simulate
 
 
@@ -25,13 +25,12 @@ def small():
     )
 
 
-@pytest.fixture(scope="module", params=["simulate", "steady", "response", "collisions"])
+@pytest.fixture(scope="module", params=["simulate", "steady", "response"])
 def made(request):
     return {
         "simulate": lambda: simulate(PAPER, DESIGN, 2.0, (0, 0, 0, 1), periods=3, samples=20),
         "steady": lambda: steady_motion(PAPER, DESIGN, 2.0, (0, 0, 0, 1)),
         "response": lambda: frequency_response(PAPER, DESIGN, [2.0, 2.01], starts=4),
-        "collisions": lambda: collisions(PAPER, DESIGN, 2.0, starts=20),
     }[request.param]()
 
 

@@ -5,11 +5,12 @@ import math
 import numpy as np
 import pytest
 from helpers.known_orbits import DESIGN, PAPER
+from helpers.sampling import sample
 from helpers.si_motions import SiMotion
 
 import impact_damper as idm
 from impact_damper.design import costs
-from impact_damper.design.costs import logged, measured_costs, pressure_costs
+from impact_damper.design.costs import measured_costs, pressure_costs
 from impact_damper.model.packed import FREQUENCY, INVERSE_MASS_RATIO, pack
 from impact_damper.motions.strobe_map import strobe_time
 
@@ -80,8 +81,8 @@ def test_an_impulse_is_the_change_of_momentum_and_powers_balance(impacting_orbit
     found = measured_costs(p, impacting_orbit.state, impacting_orbit.strobe, 1)
     assert abs(found["power_error"]) < 1e-11
     end = impacting_orbit.strobe + 2 * np.pi / p[FREQUENCY]
-    _, log = logged(p, impacting_orbit.state, impacting_orbit.strobe, np.array([end]))
-    states, _ = logged(p, impacting_orbit.state, impacting_orbit.strobe, log[:, 1:3].ravel())
+    _, log = sample(p, impacting_orbit.state, impacting_orbit.strobe, [end])
+    states, _ = sample(p, impacting_orbit.state, impacting_orbit.strobe, log[:, 1:3].ravel())
     loose = (states[:, 1] - states[:, 3]).reshape(-1, 2)
     change = log[:, 0] * np.diff(loose)[:, 0] / p[INVERSE_MASS_RATIO]
     np.testing.assert_allclose(found["contact_impulse"], change, rtol=1e-11)
@@ -100,10 +101,10 @@ def test_the_phase_of_the_first_state_does_not_matter(impacting_orbit):
     p, begin = impacting_orbit.parameters, impacting_orbit.strobe
     expected = measured_costs(p, impacting_orbit.state, begin, 1)
     end = begin + 2 * np.pi / p[FREQUENCY]
-    _, log = logged(p, impacting_orbit.state, begin, np.array([end]))
+    _, log = sample(p, impacting_orbit.state, begin, [end])
     for share in (0.1, 0.6):
         time = log[0, 1] + share * (log[0, 2] - log[0, 1])
-        states, _ = logged(p, impacting_orbit.state, begin, np.array([time]))
+        states, _ = sample(p, impacting_orbit.state, begin, [time])
         found = measured_costs(p, states[0], time, 1)
         for name, value in expected.items():
             if name != "power_error" and np.ndim(value) == 0:

@@ -11,7 +11,7 @@ import pytest
 import impact_damper as idm
 from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
-from impact_damper.motions import legs, records
+from impact_damper.motions import legs
 from impact_damper.motions.response import steady_orbit
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish
 
@@ -43,9 +43,7 @@ def test_every_function_ends_after_an_escape(damper):
     p = pack(SOFT, damper, 1.0)
     state = np.array([2.4, 0.5, 2.4 if damper is None else 0.1, 0.5])
     assert not polish(p, state, 12, 1e3, POLISH_TOLERANCE)[0]
-    path, out = np.zeros((402, 5)), np.zeros(1, records.MOTION)
-    legs.run(p, state, 0.5, 0.0, 1e-9, 400, path, out[0], records.NEVER)
-    assert out[0]["outcome"] == ESCAPED
+    assert legs.run(p, state, 0.5, 0.0, 1e-9, 400)[1]["outcome"] == ESCAPED
 
 
 @pytest.mark.parametrize("damping", [0.002, 0.05, 0.5])

@@ -185,13 +185,3 @@ def test_measures_against_dense_samples(known_orbit):
     atol = 2e-4 if known_orbit.damper else 1e-8
     assert_allclose(record["harmonic_displacement"], turn * np.fft.rfft(x)[1], atol=atol)
     assert_allclose(record["harmonic_relative"], turn * np.fft.rfft(z)[1], atol=10 * atol)
-
-
-def test_first_collision_by_simulation():
-    p = pack(PAPER, DESIGN, 2.0)
-    states = np.array([[0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 2.1, 0.0], [0.0, 0.0, 0.0, 0.0]])
-    waits = ensemble.collide(np.tile(p, (3, 1)), states, 10, 1e-12)
-    _, log = sample(p, states[0], 0.0, [10.0])
-    assert_allclose(waits[0], log[0, 1] * p[0] / (2 * math.pi), rtol=1e-12)
-    assert waits[1] == 0
-    assert waits[2] == np.inf

@@ -62,9 +62,7 @@ def test_contacts_and_peaks_from_samples_agree_with_those_of_the_series():
         begin, period = strobe_time(given.p), 2 * math.pi / given.frequency
         run = taylor(given.p, np.array(given.state), begin, 2, 1e-13)
         times = begin + period * np.arange(801) / 400
-        states = np.empty((801, 4))
-        start = np.array(given.state)
-        traces.trace(given.p, start, begin, times, 1e-13, states, np.empty((0, 5)))
+        states = traces.states_at(given.p, given.state, begin, times, 1e-13)
         read = read_off(given.p, 0.0, times, states)
         assert len(read.contact_times) == len(run.contact_times)
         assert np.allclose(read.contact_times, run.contact_times, atol=1e-4)

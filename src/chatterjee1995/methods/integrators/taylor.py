@@ -19,7 +19,6 @@ from impact_damper.kernel.single import (
 )
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 from impact_damper.motions import traces
-from impact_damper.motions.ensemble import collide
 
 # Kinds of steps: in flight, in flight until a contact, and in contact.
 FLIGHT, MEETING, CONTACT = range(3)
@@ -158,16 +157,16 @@ class Taylor(Integrator):
         return taylor(p, start, begin, periods, tolerance)
 
     def flight(self, p, state, end, resolution, time):
-        states, none = np.empty((2, 4)), np.empty((0, 5))
-        traces.trace(p, state.copy(), 0.0, np.array([time, end]), resolution, states, none)
+        states = traces.states_at(p, state, 0.0, [time, end], resolution)
         there = abs(states[0, 2])
         return (np.array([there]), there) if np.isfinite(there) else None
 
     def touches(self, p, state, levels, resolution):
         parameters = np.repeat(p[None], len(levels), axis=0)
         parameters[:, CLEARANCE] = levels
-        states = np.repeat(state[None], len(levels), axis=0)
-        return np.isfinite(collide(parameters, states, 1, resolution))
+        end = 2.0 * np.pi / p[FREQUENCY]
+        logs = [traces.trace(row, state, 0.0, [end], resolution)[1] for row in parameters]
+        return np.array([len(log) > 0 for log in logs])
 
 
 INTEGRATORS = (Taylor(),)

@@ -1,0 +1,56 @@
+"""Random starts that lead to a collision.
+
+Read literally, the ball of the paper (section 3, iii) extends beyond the walls.
+"""
+
+import math
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.single import side_of, step, workspace
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import describe
+from impact_damper.motions.simulate import random_states
+
+
+def collisions(
+    oscillator, damper, frequency, *, starts=2000, radius, seed=1995, periods=2000, tolerance=1e-9
+):
+    """Count the random starts that lead to a collision, in the whole ball and within the gap.
+
+    Return a dataset with, for each `ball` (literal, within the gap), the share of `starts` that lie
+    beyond a wall, the share that collide within `periods` forcing cycles, and the longest time
+    before a first collision.
+    """
+    p = pack(oscillator, damper, frequency)
+    shares = np.empty((2, 3))
+    for row, within_gap in enumerate((False, True)):
+        states = random_states(starts, radius, damper, [seed, row], within_gap=within_gap)
+        waits = np.array([first_collision(p, state, periods, tolerance) for state in states])
+        met = np.isfinite(waits)
+        shares[row] = np.mean(waits == 0), np.mean(met), np.max(waits[met], initial=0.0)
+    data = dict(zip(("beyond_wall", "colliding", "longest_wait"), shares.T, strict=True))
+    made = describe(oscillator, damper) | {
+        "frequency": float(frequency),
+        "starts": starts,
+        "radius": radius,
+        "seed": seed,
+        "periods": periods,
+    }
+    return dataset(data, {"ball": ["literal", "within_gap"]}, made, "First collisions")
+
+
+@kernel
+def first_collision(p, state, limit, tolerance):
+    """Return the forcing cycles from T = 0 to the first contact, infinite if above `limit`.
+
+    The number is 0 for a state at or beyond a wall.
+    """
+    work, y, t, side = workspace(), state.copy(), 0.0, side_of(p, state)
+    end = limit * 2.0 * math.pi / p[FREQUENCY]
+    while side == 0 and t < end:
+        length, side = step(p, y, side, t, end - t, tolerance, work)
+        t += length
+    return t * p[FREQUENCY] / (2.0 * math.pi) if side != 0 else np.inf

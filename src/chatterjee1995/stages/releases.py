@@ -1,0 +1,342 @@
+"""Migration by many runs of the controller, and motions to which releases of the damper lead.
+
+The damper is switched on during the resonance motion, at a random phase and with the loose mass at
+rest at a random place in the gap. A violent transient can follow, until the motion settles. A
+release switches the damper off again (section 5 of the paper).
+"""
+
+from dataclasses import replace
+from itertools import count
+
+import numpy as np
+
+from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.data.shares import BOUNDS, escape_rate, wilson
+from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION, VARIABLES
+from impact_damper.model.bounds import LEAD
+from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import describe
+from impact_damper.motions import ensemble, legs
+from impact_damper.motions.migration import (
+    SWITCHING,
+    control,
+    course,
+    destination,
+    draw,
+    kinds,
+    release_case,
+    run_totals,
+    switching_data,
+)
+from impact_damper.motions.records import MOTION, NEVER
+from impact_damper.motions.response import frequency_response
+from impact_damper.motions.simulate import random_states
+from impact_damper.motions.start_states import describe_search
+from impact_damper.motions.strobe_map import strobe_time
+from impact_damper.motions.sweep import Catalogue
+from impact_damper.motions.traces import states_at
+from impact_damper.theory.single_harmonic import impacting_solutions
+
+# Number of cycles within which, by the paper, its controller reaches the non-resonance branch.
+PAPER_CYCLES = 350
+# An orbit captures a run after the last strobe at which the run differs from the orbit by more than
+# CAPTURE in Z1 or Z1'.
+CAPTURE = 0.1
+# One release: phase in forcing cycles after a strobe, Z1 and Z1', and the flag of the free motion
+# to which the release leads.
+RELEASE = np.dtype(
+    [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
+)
+# Names of the kinds of motion with the damper and without, except the first name, "none".
+KINDS = list(DAMPED_MOTION)[1:]
+DESTINATIONS = list(FREE_MOTION)[1:]
+
+
+def migration(
+    oscillator,
+    damper,
+    frequency,
+    *,
+    trials=400,
+    releases=240,
+    lifetime=4000,
+    seed=1995,
+    longest_hold=500,
+    periods=2000,
+    switchings=100,
+    settling,
+    workers=1,
+    progress=None,
+):
+    """Return runs of the controller, and the motions to which releases lead, as a dataset.
+
+    There are `trials` runs as by `migrate`. The displacement is stored for one of them, `example`.
+    `releases` other runs of at most `lifetime` forcing cycles measure how long the violent
+    transient lasts, and are released once. Each settled damped motion is released as often.
+    """
+    case = release_case(oscillator, damper, frequency, settling)
+    roots = np.random.SeedSequence(seed).spawn(2)
+    draws = np.array([draw(child, switchings) for child in roots[0].spawn(trials)])
+    logs, stop = np.zeros(draws.shape[:2], SWITCHING), np.zeros(1, bool)
+
+    def work(part):
+        for i in range(part.start, part.stop):
+            _, logs[i] = control(case, draws[i], longest_hold, settling, periods, None, stop)
+
+    ensemble.run_chunks(work, trials, workers, progress, stop, size=8)
+    totals = run_totals(logs)
+    data = switching_data(logs[:, : np.max(totals["switchings"])], case)
+    example = _example(totals)
+    path, log = control(case, draws[example], longest_hold, settling, periods, None)
+    times, displacement = course(case, path, log, settling.tolerance)
+    data |= totals | _summary(data, totals) | {"example": example, "displacement": displacement}
+    lives, motions, entries = watch_runs(
+        case, roots[1].spawn(releases), lifetime, settling, workers, progress
+    )
+    data |= _transient(lives, motions, lifetime, case.known)
+    known = _settled_motions(oscillator, damper, frequency, seed, settling, workers, motions)
+    data |= release_data(case, known, entries, settling)
+    coordinates = {
+        "time": times,
+        "bound": BOUNDS,
+        "damped_motion": KINDS,
+        "free_motion": DESTINATIONS,
+    }
+    made = describe(oscillator, damper, settling) | {
+        "frequency": frequency,
+        "longest_hold": longest_hold,
+        "periods": periods,
+        "largest_switchings": switchings,
+        "trials": trials,
+        "releases": releases,
+        "lifetime": lifetime,
+        "seed": seed,
+    }
+    return dataset(data, coordinates, made, "Migration control")
+
+
+def _example(totals):
+    """Return the first run with the median number of switchings of those that arrive, or 0."""
+    reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
+    if not reached.any():
+        return 0
+    middle = np.quantile(totals["switchings"][reached], 0.5, method="lower")
+    return int(np.argmax(reached & (totals["switchings"] == middle)))
+
+
+def _summary(switchings, totals):
+    """Return shares of all runs, and numbers of releases by the motions before and after them."""
+    reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
+    within = reached & (totals["total_time"] <= PAPER_CYCLES)
+    before, after = switchings["released_from"], switchings["destination"]
+    return {
+        "destination_count": [
+            [np.sum((before == DAMPED_MOTION[k]) & (after == FREE_MOTION[d])) for d in DESTINATIONS]
+            for k in KINDS
+        ],
+        "reached_share": wilson(np.sum(reached), len(reached)),
+        "within_share": wilson(np.sum(within), len(reached)),
+    }
+
+
+def _release(case, state, wait, settling, stop=NEVER):
+    """Return the RELEASE that switches the damper off `wait` forcing cycles after a strobe."""
+    tolerance, limit = settling.tolerance, settling.limit
+    path, record = legs.leg(case.on, case.off, state.copy(), wait, 0.0, 0.0, tolerance, limit, stop)
+    return wait, *path[0, 1:3], destination(case.known, record)
+
+
+def watch_runs(case, seeds, lifetime, settling, workers, progress):
+    """Run with the damper on from the resonance branch, and release each run once.
+
+    Return for each of the `seeds` (SeedSequence) the forcing cycles before the run is captured by
+    an orbit, at most `lifetime`; the record of the motion that it settles to; and the RELEASE. The
+    strobe of the release lies between strobe LEAD, before which the run still depends on its start,
+    and the capture. A run that is captured before strobe LEAD is not released.
+    """
+    # The phase at which the damper is switched on, the place of the loose mass, the strobe of the
+    # release, and the phase after this strobe.
+    draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
+    lives, motions = np.empty(len(draws)), np.zeros(len(draws), MOTION)
+    entries = np.full(len(draws), np.array((np.nan,) * 3 + (FREE_MOTION["none"],), RELEASE))
+    stop = np.zeros(1, bool)
+
+    def work(part):
+        for i in range(part.start, part.stop):
+            phase, place, instant, wait = draws[i]
+            path, motions[i] = legs.leg(
+                *(case.off, case.on, case.state.copy(), phase, 2 * place - 1, 0.0),
+                *(settling.tolerance, lifetime, stop),
+            )
+            captured = is_settled(motions[i])
+            life = _life(case.on, path, motions[i], settling.tolerance) if captured else lifetime
+            lives[i] = life
+            if life > LEAD:
+                state = path[LEAD + int(instant * (life - LEAD)) + 1, 1:]
+                entries[i] = _release(case, state, wait, settling, stop)
+
+    ensemble.run_chunks(work, len(draws), workers, progress, stop, size=8)
+    return lives, motions, entries
+
+
+def _life(p, path, record, tolerance):
+    """Return the forcing cycles after which a run stays within CAPTURE of its final orbit.
+
+    `path` is the path of the run, from `legs.run`, and `record` the motion that it settled to.
+    """
+    begin, period = strobe_time(p), 2 * np.pi / p[FREQUENCY]
+    strobes = begin + np.arange(record["period"]) * period
+    orbit = states_at(p, record["state"], begin, strobes, tolerance)
+    last = record["periods_run"]
+    there = orbit[np.arange(-last, 1) % len(orbit), :2]
+    far = np.any(np.abs(path[1:, 1:3] - there) > CAPTURE, axis=1)
+    return int(np.max(np.flatnonzero(far), initial=-1)) + 1
+
+
+def _transient(lives, motions, lifetime, known):
+    """Return a dict of dataset variables of the lifetimes.
+
+    A capture is detected only after the run has settled, so a run that was captured shortly before
+    its end is not counted as captured. To avoid a bias, lifetimes are evaluated only up to a
+    horizon: `lifetime` minus the longest time between capture and settling in any run.
+    """
+    settled = is_settled(motions)
+    delay = np.max(motions["periods_run"][settled] - lives[settled], initial=0)
+    return {
+        "landed_on": kinds(motions["period"], motions["maximum_displacement"], known),
+        "escape_rate": escape_rate(lives, lifetime - delay),
+    }
+
+
+def release_data(case, motions, entries, settling):
+    """Return a dict of dataset variables of the releases from the unsettled and settled motions.
+
+    `entries` are the releases from the unsettled motion, and `motions` the settled motions, each
+    with equally many releases, spread evenly over its period. While the loose mass flies, the
+    primary mass moves as without the damper, so all releases within one flight lead to the same
+    free motion.
+    """
+    number = len(entries)
+    rows = [entries]
+    for record in motions:
+        waits = np.arange(number) * record["period"] / number
+        releases = [_release(case, record["state"], wait, settling) for wait in waits]
+        rows.append(np.array(releases, RELEASE))
+    table = np.array(rows)
+    valid = np.sum(table["destination"] >= 0, axis=1)
+    shares = [
+        [wilson(np.sum(row["destination"] == FREE_MOTION[name]), total) for name in DESTINATIONS]
+        for row, total in zip(table, valid, strict=True)
+    ]
+    period = np.array([0] + [record["period"] for record in motions])
+    displacement = np.array([np.nan] + [record["maximum_displacement"] for record in motions])
+    return {
+        "damped_kind": kinds(period, displacement, case.known),
+        "damped_period": period,
+        "damped_displacement": displacement,
+        "damped_contacts": np.array([np.nan] + [record["contacts"] for record in motions]),
+        "release_phase": table["phase"],
+        "release_displacement": table["displacement"],
+        "release_velocity": table["velocity"],
+        "release_destination": table["destination"],
+        "release_share": np.array(shares),
+    }
+
+
+def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
+    """Return records of the distinct settled damped motions, by ascending max |Z1|.
+
+    They are the settled motions among the records `known`, and those to which runs lead from random
+    states with the loose mass in the gap and from solutions of harmonic balance.
+    """
+    on = pack(oscillator, damper, frequency)
+    # Harmonic balance is solved for elastic contact. As first states of runs these solutions also
+    # serve for an inelastic damper.
+    balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
+    angle = balance.phase + np.pi / 2
+    columns = [
+        part
+        for size in (balance.amplitude, balance.relative_amplitude)
+        for part in (size * np.cos(angle), -size * frequency * np.sin(angle))
+    ]
+    states = np.concatenate([np.stack(columns, axis=-1), random_states(96, 2.0, damper, seed)])
+    reached = ensemble.settle(
+        np.tile(on, (len(states), 1)), states, settling, from_strobe=True, workers=workers
+    )
+    catalogue = Catalogue(on, count())
+    for record in np.concatenate([known, reached]):
+        if is_settled(record):
+            catalogue.add(record, "random_start")
+    return sorted(catalogue.records, key=lambda record: record["maximum_displacement"])
+
+
+def release_scan(
+    oscillator,
+    damper,
+    frequencies,
+    *,
+    starts=24,
+    radius=None,
+    releases=100,
+    lifetime=200,
+    seed=1995,
+    settling,
+    workers=1,
+    progress=None,
+):
+    """Release the damper from every damped motion, at each frequency, and return a dataset.
+
+    `lifetime` is the largest number of forcing cycles of a run that is released before it settles,
+    and `releases` the number of releases from each motion. The other arguments are as in
+    `frequency_response`. The first damped motion at a frequency has not settled.
+    """
+    cases = [release_case(oscillator, damper, frequency, settling) for frequency in frequencies]
+    search = {"starts": starts, "radius": radius, "seed": seed, "settling": settling}
+    response = frequency_response(
+        oscillator, damper, frequencies, **search, workers=workers, progress=progress
+    )
+    seeds = np.random.SeedSequence(seed).spawn(len(cases))
+    rows = []
+    for i, case in enumerate(cases):
+        _, _, entries = watch_runs(
+            case, seeds[i].spawn(releases), lifetime, settling, workers, None
+        )
+        motions = _scan_records(response.isel(frequency=i))
+        rows.append(release_data(case, motions, entries, settling))
+    width = max(len(row["damped_kind"]) for row in rows)
+    names = (
+        "damped_kind",
+        "damped_period",
+        "damped_displacement",
+        "damped_contacts",
+        "release_share",
+    )
+    data = {name: np.array([_padded(row[name], width) for row in rows]) for name in names}
+    data = {name: (("frequency", *VARIABLES[name].dims), values) for name, values in data.items()}
+    made = describe(oscillator, damper, settling) | describe_search(starts, radius, seed)
+    made |= {"releases": releases, "lifetime": lifetime}
+    coordinates = {
+        "frequency": response["frequency"].values,
+        "free_motion": DESTINATIONS,
+        "bound": BOUNDS,
+    }
+    return dataset(data, coordinates, made, "Free motions to which releases of the damper lead")
+
+
+def _scan_records(response):
+    """Return the settled motions at one frequency of a response, the smallest one first.
+
+    Only the fields that `release_data` reads are set.
+    """
+    keep = response["outcome"].values == flag("outcome", "settled")
+    found = np.zeros(np.sum(keep), MOTION)
+    for name in ("period", "maximum_displacement", "contacts", "state"):
+        found[name] = response[name].values[keep]
+    return found[::-1]
+
+
+def _padded(values, length):
+    """Return an array, extended along its first axis to a length by NaN, or by -1 for integers."""
+    missing = np.nan if values.dtype.kind == "f" else -1
+    widths = [(0, length - len(values))] + [(0, 0)] * (values.ndim - 1)
+    return np.pad(values, widths, constant_values=missing)

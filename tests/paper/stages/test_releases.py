@@ -1,0 +1,86 @@
+"""Runs of the controller of figure 17: consistent totals, and releases compared with SciPy."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.integrate import solve_ivp
+
+from chatterjee1995.stages.releases import migration, release_scan
+from impact_damper.data.datasets import flag
+from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.settling import Settling
+from impact_damper.motions.migration import migrate
+
+CUBIC = Oscillator(0.215)
+PAPER = Damper(0.12, 2.0)
+SMALL = {"trials": 20, "releases": 40, "lifetime": 1000, "longest_hold": 20}
+
+
+@pytest.fixture(scope="module")
+def runs():
+    return migration(CUBIC, PAPER, 1.85, **SMALL, settling=Settling())
+
+
+def test_every_run_ends_once(runs):
+    """Switchings follow each other in time until the goal is reached, and all are counted."""
+    goal = flag("destination", "non_resonance")
+    made = runs.destination.values != flag("destination", "none")
+    assert_array_equal(made.sum(axis=1), runs.switchings)
+    assert int(runs.destination_count.sum()) == int(runs.switchings.sum())
+    assert_array_equal(
+        np.any(runs.destination == goal, axis=1),
+        runs.trial_outcome == flag("trial_outcome", "reached"),
+    )
+    for row, count in zip(runs.destination.values, runs.switchings.values, strict=True):
+        assert goal not in row[: count - 1]
+    for before, after in (("on_time", "off_time"), ("off_time", "end_time")):
+        assert np.all((runs[before] < runs[after]).values[made])
+    assert np.all(runs.damper_time <= runs.release_time)
+    assert np.all(runs.release_time < runs.total_time)
+
+
+def test_a_single_run_repeats_the_trial(runs):
+    """`migrate` with the seed of the trial `example` gives the same switchings and displacement."""
+    example = int(runs.example)
+    seed = np.random.SeedSequence(1995).spawn(2)[0].spawn(SMALL["trials"])[example]
+    one = migrate(CUBIC, PAPER, 1.85, seed=seed, longest_hold=20)
+    count = int(one.switchings)
+    for name in ("on_time", "off_time", "end_time", "destination", "released_from"):
+        assert_array_equal(one[name], runs[name].values[example, :count])
+    assert_array_equal(one.displacement, runs.displacement)
+
+
+@pytest.mark.parametrize("row", [1, 2])
+def test_releases(runs, row):
+    """Releases of the quiet motion and of the motion of period 3 lead where SciPy's runs lead."""
+    maxima = {}
+    for k in range(0, 40, 4):
+        begin = (float(runs.release_phase[row, k]) % 1 + 0.25) * 2 * np.pi / 1.85
+        state = [float(runs[f"release_{name}"][row, k]) for name in ("displacement", "velocity")]
+        times = begin + np.linspace(200, 230, 3000)
+        free = solve_ivp(
+            lambda t, y: (y[1], np.cos(1.85 * t) - CUBIC.damping * y[1] - y[0] ** 3),
+            *((begin, times[-1]), state, "DOP853", times),
+            rtol=1e-10,
+            atol=1e-11,
+        )
+        maxima.setdefault(int(runs.release_destination[row, k]), []).append(np.abs(free.y[0]).max())
+    for name, displacement in (("non_resonance", 0.29604), ("subharmonic", 0.84606)):
+        assert_allclose(
+            maxima.pop(flag("destination", name), displacement), displacement, atol=1e-3
+        )
+    assert not maxima
+
+
+def test_release_scan():
+    """At W = 1.73 releases from the quiet motion lead to a motion that does not exist at W = 1.7.
+
+    This is the free motion of period 3.
+    """
+    small = {"starts": 16, "releases": 10, "lifetime": 60, "settling": Settling()}
+    scan = release_scan(CUBIC, PAPER, [1.7, 1.73], **small)
+    quiet = scan.damped_kind == flag("damped_kind", "quiet")
+    assert_array_equal(quiet.sum("damped"), [1, 1])
+    shares = scan.release_share.sel(bound="share").where(quiet).sum("damped")
+    assert_array_equal(shares.sel(free_motion="non_resonance"), [1, 0])
+    assert_array_equal(shares.sel(free_motion="subharmonic"), [0, 1])
