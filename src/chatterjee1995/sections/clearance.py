@@ -153,7 +153,7 @@ def even(given) -> dict:
 SECTIONS = {"optimum": Optimum, "design_rules": DesignRules, "studies": Study}
 KINDS = (
     Kind("optimum", "clearance", "clearance", ("optimum",)),
-    Kind("design_rules", "clearance", "clearance", ("design_rules",), named=True),
+    Kind("design_rules", "clearance", "clearance", ("design_rules",)),
     Kind("studies", "clearance", "clearance", ("studies",), most=1),
 )
 TABLES = (

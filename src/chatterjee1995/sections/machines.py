@@ -54,7 +54,6 @@ KINDS = (
         "machines",
         "impact_damper.plot.machine_figures.figures",
         ("machines",),
-        named=True,
     ),
 )
 TABLES = (Table("machines", "machines", "machines", ("machines",)),)

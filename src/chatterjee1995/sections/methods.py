@@ -282,7 +282,7 @@ KINDS = (
     Kind("rigid_limit", "methods", "rigid_limit", ("rigid_limit",)),
     Kind("missed_contacts", "methods", "missed_contacts", ("missed_contacts",), most=1),
     Kind("stable_steps", "methods", "stable_steps", ("stable_steps",)),
-    Kind("accuracy", "methods", "accuracy", ("accuracy",), named=True),
+    Kind("accuracy", "methods", "accuracy", ("accuracy",)),
 )
 TABLES = (
     Table("contact_model", "methods", "contact", ("contact_model",)),

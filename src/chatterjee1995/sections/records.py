@@ -74,8 +74,6 @@ class Kind(NamedTuple):
     # Whether entries of `curves` must have a damper, or must have none. If they have one, a figure
     # with `branches` also draws those of the same oscillators without a damper.
     damper: bool = True
-    # Whether the caption names each entry.
-    named: bool = False
 
     @property
     def source(self) -> str:

@@ -1,12 +1,9 @@
 """Entries and captions that stages, figures, tables and chapters of the report use."""
 
 import re
-from dataclasses import fields
 
 from chatterjee1995.sections.registry import KINDS, PAPER, STAGES, TABLES, section_of
-from impact_damper.model.machine import Machine
 from impact_damper.model.parameters import SYMBOLS
-from impact_damper.model.units import QUANTITIES
 
 # If a list has more values than this, the text gives only the smallest and the largest.
 MANY = 3
@@ -77,7 +74,7 @@ def figure_values(config, name) -> dict:
     figure = config.figures[name]
     kind = KINDS[figure.kind]
     cases = {each: _case(config, section_of(kind.name), each) for each in figure.data}
-    words = cases_in_words(cases, kind.named)
+    words = cases_in_words(cases)
     text = config.captions.figures[kind.name]
     return {
         "function": f"{kind.source}:{f'draw_{kind.name}' if kind.stages else figure.data[0]}",
@@ -127,12 +124,10 @@ def chapter_modules(config, chapter) -> list:
 
 
 def _case(config, section, name):
-    """Return the parameters of an entry as text, keyed by symbol or name; {} for a schematic."""
-    if section is None:
-        return {}
+    """Return the parameters of an entry as text; nothing for a schematic or a machine."""
+    if section in (None, "machines"):
+        return []
     entry = getattr(config, section)[name]
-    if section == "machines":
-        return machine_in_words(entry.machine.values())
     values = {key: value for key, value in entry if value is not None}
     if "oscillator" in values:
         values = config.oscillators[values["oscillator"]].values() | values
@@ -151,58 +146,30 @@ def caption(title, cases, text, remark) -> str:
     return whole.replace("omega_l", "ωl").replace("|", r"\|")
 
 
-def cases_in_words(entries, named=False) -> str:
+def cases_in_words(cases) -> str:
     """Return the parameters of the entries that a figure draws, as text.
 
-    `entries` holds values as text, keyed by entry and symbol. Parameters with the same value in all
-    entries come first. Then each entry lists its own, with its name if `named`. If the entries
-    differ in one parameter only, this parameter lists its values.
+    Parameters with the same value in all entries come first, then each entry with its own.
     """
-    first, *others = entries.values()
-    shared = [item for item in first.items() if all(item in each.items() for each in others)]
-    parts = [_joined(shared)]
-    own = {
-        name: [item for item in each.items() if item not in shared]
-        for name, each in entries.items()
-    }
-    (varied, *more) = dict.fromkeys(key for each in own.values() for key, _ in each) or [None]
-    if named:
-        parts += [f"{name.replace('_', ' ')}: {_joined(each)}" for name, each in own.items()]
-    elif varied and not more and all(own.values()):
-        values = [each[0][1].removeprefix("= ") for each in own.values()]
-        parts.append(f"{varied} = {', '.join(values)}".replace("= by", "by"))
-    else:
-        parts += map(_joined, own.values())
-    return "; ".join(part for part in parts if part)
+    shared = [each for each in next(iter(cases.values())) if all(each in x for x in cases.values())]
+    parts = [", ".join(shared)]
+    for name, case in cases.items():
+        own = [each for each in case if each not in shared]
+        parts += [f"{name.replace('_', ' ')} with {', '.join(own)}"] if own else []
+    return "; ".join(filter(None, parts))
 
 
-def in_words(values) -> dict:
-    """Return the values of parameters as text, keyed by symbol: "= 0.215", "from 1 to 3".
+def in_words(values) -> list:
+    """Return the values of parameters as text: "h = 0.215", "W from 1 to 3", "d0 by (19)".
 
     A value is a number, a list, a range, or "rule" for the clearance by (19). Keys that are no
     parameters, and a linear stiffness of zero, are left out.
     """
-    return {
-        symbol: _value(values[name])
+    return [
+        f"{symbol} {_value(values[name])}"
         for name, symbol in SYMBOLS.items()
         if name in values and (name, values[name]) != ("linear_frequency", 0)
-    }
-
-
-def machine_in_words(values) -> dict:
-    """Return the arguments of `Machine` with their units, such as "12 kg", keyed by their names."""
-    words = {}
-    for each in fields(Machine):
-        if each.name in values:
-            value, unit = values[each.name], QUANTITIES[each.metadata["quantity"]].unit
-            text = value if isinstance(value, str) else f"{_number(value)} {unit}".rstrip()
-            words[each.name.replace("_", " ")] = text
-    return words
-
-
-def _joined(items):
-    """Return pairs of name and value as text."""
-    return ", ".join(f"{name} {value}" for name, value in items)
+    ]
 
 
 def _value(value):
