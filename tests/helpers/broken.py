@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from snakemake.utils import update_config
 
 from chatterjee1995.sections.configuration import without_left_out
-from chatterjee1995.variables.studies import AXES as STUDY_AXES
+from chatterjee1995.variables import AXES as STUDY_AXES
 from helpers import configurations
 from helpers.running import ROOT
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from chatterjee1995.variables.policies import POLICIES
+from chatterjee1995.variables import POLICIES
 from impact_damper.data.datasets import flag
 from impact_damper.plot.basin_plane import basins as basins_plot
 from impact_damper.plot.motions import migration as migration_plot

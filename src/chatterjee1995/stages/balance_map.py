@@ -11,12 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from chatterjee1995.variables.balance_map import MAPPED, NEAR
+from chatterjee1995.variables import MAPPED, NEAR
 from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wall
-from impact_damper.model import packed
 from impact_damper.model.arguments import read_increasing
 from impact_damper.model.bounds import check_number
-from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, pick
 from impact_damper.model.settling import check_settling
 from impact_damper.model.units import UNITLESS
@@ -38,12 +37,12 @@ HIGH = 0.5
 
 
 class Cells(NamedTuple):
-    """Solutions of harmonic balance in all cells, and start states; NaN without a solution.
+    """Solutions of harmonic balance in all cells, and start states at T = 0.
 
-    All arrays have the shape (rows, columns); those of the starts at T = 0 have a last axis of 4.
-    `quiet` and `high` are flags. Beyond the end of the free resonance branch,
-    `resonance` is the amplitude at this end. Without a high solution `high_start` is the state on
-    this branch, with the loose mass at rest in the middle of the gap.
+    Entries are NaN without a solution. All arrays have the shape (rows, columns), those of the
+    starts a last axis of 4. `quiet` and `high` are flags. Beyond the end of the free resonance
+    branch, `resonance` is the amplitude at this end. Without a high solution `high_start` is the
+    state on this branch, with the loose mass at rest in the middle of the gap.
     """
 
     resonance: np.ndarray
@@ -131,13 +130,6 @@ def _start(amplitude, relative_amplitude, phase, frequency):
     )
 
 
-# A chaotic motion is stopped after a number of cycles, the patience (`Settling.patience`). At most
-# CHECKED of the chaotic high motions are run again with LONG times the patience, to see whether the
-# chaos lasts.
-CHECKED = 50
-LONG = 10
-
-
 class _Row(NamedTuple):
     """Oscillator, damper and forcing frequencies of one row of a map."""
 
@@ -149,37 +141,11 @@ class _Row(NamedTuple):
 def balance_map(
     parameter, values, frequency_ratios, fixed, *, settling=None, workers=1, progress=None
 ):
-    """Compare harmonic balance with exact motions over frequency and one parameter.
+    """Compare harmonic balance with exact motions over frequency and one parameter of the rows.
 
-    Parameters
-    ----------
-    parameter : str
-        Parameter of the rows: damping (h), mass_ratio (rm), clearance (d0) or restitution (e).
-    values : array_like, shape (n,)
-        Increasing values of this parameter, one for each row of the map.
-    frequency_ratios : array_like, shape (m,)
-        Increasing forcing frequencies W, divided by the frequency Wp of the free resonance peak of
-        the row.
-    fixed : dict
-        The other arguments of `Oscillator` and `Damper`. Without `clearance` each row has the
-        clearance of rule (19) of the paper, as a designer would choose.
-    settling : Settling, optional
-    workers : int
-        Threads; the result does not depend on it.
-    progress : str, optional
-        Title of a progress bar.
-
-    Returns
-    -------
-    xarray.Dataset
-        For each (map_value, frequency_ratio), and for the quiet and the high motion: the verdict of
-        harmonic balance, the exact result, and a flag that combines both. For each map_value: the
-        frequencies at which the branch of quiet orbits ends.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is out of range; the message names it.
+    `frequency_ratios` are forcing frequencies W divided by the frequency Wp of the free resonance
+    peak of the row. `fixed` holds the other arguments of `Oscillator` and `Damper`; without
+    `clearance` each row has the clearance of rule (19), as a designer would choose.
     """
     settling = check_settling(settling)
     rows = _rows(parameter, values, frequency_ratios, fixed)
@@ -196,15 +162,20 @@ def balance_map(
     known = np.where(landed[..., None], quiet_runs["state"], np.nan)
     orbits = follow_quiet_orbits(parameters, known)
     data = {
-        "map_frequency": parameters[..., FREQUENCY],
-        "map_clearance": [row.damper.clearance for row in rows],
-        "resonance_amplitude": balance.resonance,
         "straight_flight_end": [_rigid_end(row) for row in rows],
-        "high_long_outcome": _long(parameters, balance.high_start, high_kind, settling, workers),
+        "balance_quiet": balance.quiet,
+        "balance_quiet_amplitude": balance.quiet_amplitude,
+        "quiet_run_motion": quiet_kind,
+        "quiet_orbit_displacement": orbits.displacement,
+        "quiet_orbit_harmonic": orbits.harmonic,
+        "quiet_verdict": _quiet_verdict(balance.quiet, orbits),
+        "quiet_end": np.interp(orbits.end, np.arange(len(frequency_ratios)), frequency_ratios),
+        "quiet_end_event": np.vectorize(partial(flag, "quiet_end_event"))(orbits.end_event),
+        "balance_high": balance.high,
+        "high_run_motion": high_kind,
+        "high_run_outcome": high_runs["outcome"],
+        "high_verdict": _high_verdict(balance, high_kind, high_runs["maximum_displacement"]),
     }
-    data |= _quiet_data(balance, quiet_kind)
-    data |= _orbit_data(balance, orbits, frequency_ratios)
-    data |= _high_data(balance, high_kind, high_runs)
     coordinates = {
         "map_value": np.asarray(values, float),
         "frequency_ratio": np.asarray(frequency_ratios, float),
@@ -212,36 +183,6 @@ def balance_map(
     }
     made = fixed | {"parameter": parameter} | vars(settling)
     return dataset(data, coordinates, made, "Harmonic balance against the true motions")
-
-
-def _quiet_data(balance, kinds):
-    return {
-        "balance_quiet": balance.quiet,
-        "balance_quiet_amplitude": balance.quiet_amplitude,
-        "quiet_run_motion": kinds,
-    }
-
-
-def _orbit_data(balance, orbits, ratios):
-    truth = _truth(orbits)
-    return {
-        "quiet_orbit": truth,
-        "quiet_orbit_displacement": orbits.displacement,
-        "quiet_orbit_harmonic": orbits.harmonic,
-        "quiet_verdict": _quiet_verdict(balance.quiet, truth),
-        "quiet_end": np.interp(orbits.end, np.arange(len(ratios)), ratios),
-        "quiet_end_event": np.vectorize(partial(flag, "quiet_end_event"))(orbits.end_event),
-    }
-
-
-def _high_data(balance, kinds, runs):
-    return {
-        "balance_high": balance.high,
-        "balance_high_amplitude": balance.high_amplitude,
-        "high_run_motion": kinds,
-        "high_run_outcome": runs["outcome"],
-        "high_verdict": _high_verdict(balance, kinds, runs["maximum_displacement"]),
-    }
 
 
 def _rows(parameter, values, ratios, fixed):
@@ -277,23 +218,6 @@ def _run(parameters, starts, settling, workers, progress):
     return records
 
 
-def _long(parameters, starts, kinds, settling, workers):
-    """Return the outcome of a longer run of the high motion in each cell.
-
-    Only CHECKED of the chaotic motions, spread over the cells, are run. The other outcomes are
-    "absent".
-    """
-    cells = np.flatnonzero(kinds == flag("high_run_motion", "high_chaotic"))
-    outcome = np.full(kinds.size, flag("high_long_outcome", "absent"))
-    if len(cells):
-        chosen = np.unique(cells[np.linspace(0, len(cells) - 1, CHECKED).astype(int)])
-        patience = LONG * settling.patience
-        longer = replace(settling, patience=patience, limit=max(settling.limit, patience + 100))
-        given = parameters.reshape(-1, packed.COUNT)[chosen], starts.reshape(-1, 4)[chosen]
-        outcome[chosen] = ensemble.settle(*given, longer, workers=workers)["outcome"]
-    return outcome.reshape(kinds.shape)
-
-
 def _kinds(records, resonance):
     """Return the flag `quiet_run_motion` of each run, the kind of motion in which it ended.
 
@@ -316,37 +240,19 @@ def _kinds(records, resonance):
     return np.select(list(cases.values()), kinds, flag("quiet_run_motion", "unresolved"))
 
 
-def _truth(orbits):
-    """Return the flag `quiet_orbit` of each cell: whether the exact orbit is stable or exists.
+def _quiet_verdict(balance, orbits):
+    """Return the flag `quiet_verdict`, which combines harmonic balance and the exact orbit.
 
     A cell without an orbit is "absent" if the branch of orbits is known to end before the cell,
     otherwise "unresolved".
     """
-    values = orbits.multiplier
-    columns = np.arange(values.shape[1])
+    size = np.abs(orbits.multiplier)
+    columns = np.arange(size.shape[1])
     ended = np.isin(orbits.end_event, ["fold", "contacts_change"])
     below = ended[:, :1] & (columns < orbits.end[:, :1])
     above = ended[:, 1:] & (columns > orbits.end[:, 1:])
-    real = values.imag == 0
-    cases = {
-        "stable": np.abs(values) < 1,
-        "neimark_sacker": np.isfinite(values) & ~real,
-        "fold": real & (values.real > 0),
-        "symmetry_breaking": real & (values.real < 0),
-        "absent": below | above,
-    }
-    kinds = [flag("quiet_orbit", name) for name in cases]
-    return np.select(list(cases.values()), kinds, flag("quiet_orbit", "unresolved"))
-
-
-def _quiet_verdict(balance, truth):
-    """Return the flag `quiet_verdict`, which combines harmonic balance and the exact orbit."""
+    cases = {"stable": size < 1, "unstable": size >= 1, "absent": np.isnan(size) & (below | above)}
     verdict = np.full(balance.shape, flag("quiet_verdict", "unresolved"))
-    cases = {
-        "stable": truth == flag("quiet_orbit", "stable"),
-        "unstable": truth > flag("quiet_orbit", "stable"),
-        "absent": truth == flag("quiet_orbit", "absent"),
-    }
     for name in ("stable", "unstable", "none"):
         for true, holds in cases.items():
             here = (balance == flag("balance_quiet", name)) & holds

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from chatterjee1995.stages.releases import PAPER_CYCLES
-from chatterjee1995.variables.policies import POLICIES
+from chatterjee1995.variables import POLICIES
 from impact_damper.data.datasets import dataset
 from impact_damper.data.shares import BOUNDS, QUANTILE, wilson
 from impact_damper.kernel.compiling import kernel

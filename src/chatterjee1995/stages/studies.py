@@ -4,27 +4,16 @@ A cell is one combination of mass ratio, clearance, frequency and restitution; c
 the order of `AXES`, the last axis fastest. A chunk of a study is a range of these numbers. The seed
 and the number of a cell determine its random starts, so results do not depend on the chunks. After
 every few cells the runs are reduced to a few numbers per cell, so the memory of a chunk hardly
-grows with its size. `gather_chunks` has one chunk in memory at a time.
+grows with its size.
 """
 
 import math
 
-import netCDF4
 import numpy as np
-import xarray as xr
 
-from chatterjee1995.variables.studies import AXES, OUTCOMES
-from impact_damper.data.datasets import (
-    dataset,
-    flag,
-    is_settled,
-    load,
-    oscillator_of,
-    seal,
-    variable,
-    write,
-)
-from impact_damper.data.whole_files import BrokenFileError, whole_netcdf
+from chatterjee1995.variables import AXES, OUTCOMES
+from impact_damper.data.datasets import dataset, flag, is_settled, load, oscillator_of, save
+from impact_damper.data.whole_files import BrokenFileError
 from impact_damper.model.arguments import read_increasing
 from impact_damper.model.bounds import RUNS_RANGE, SEED_RANGE, check_count
 from impact_damper.model.packed import FREQUENCY, pack
@@ -68,24 +57,11 @@ def study_chunk(
 ):
     """Return the motions to which random starts lead, in a range of cells of a grid.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    axes : dict
-        Increasing values of mass_ratio (rm), clearance (d0), frequency (W) and restitution (e).
-    cells : tuple of int
-        Numbers of the first cell of the chunk, and of the first cell after the chunk.
-    contact_stiffness : float
-        r1, the same in all cells.
-    starts, radius, seed, settling, workers, progress
-        As in `frequency_response`, for each cell.
-
-    Returns
-    -------
-    xarray.Dataset
-        For each `cell`: largest displacement of all motions to which the starts lead; displacement
-        on the quiet orbit, a periodic motion of one cycle with two symmetric contacts; numbers of
-        random starts that lead to the quiet orbit and to each outcome.
+    `axes` are increasing values of mass_ratio (rm), clearance (d0), frequency (W) and restitution
+    (e), and `cells` the numbers of the first cell of the chunk and of the first one after it. The
+    other arguments are those of `frequency_response`, for each cell. The dataset has for each
+    `cell` the largest displacement of all motions to which the starts lead, the displacement on
+    the quiet orbit, and the numbers of random starts that lead to this orbit and to each outcome.
     """
     settling = settling or Settling()
     check_count("starts", starts, **RUNS_RANGE)
@@ -168,98 +144,30 @@ def gather_chunks(paths, path) -> None:
     `cell`. It also has, for each mass ratio, frequency and restitution, the clearance of the grid
     at which the largest displacement is smallest, and the clearance of the paper's rule (18).
 
-    Parameters
-    ----------
-    paths : sequence of str or pathlib.Path
-        Files of all chunks, each with a dataset of `study_chunk`.
-    path : str or pathlib.Path
-        File to write; it appears only once it is complete.
-
-    Raises
-    ------
-    BrokenFileError
-        If the file of a chunk is incomplete, does not begin where the chunk before it ended, or
-        belongs to another study.
+    A BrokenFileError names a chunk that is incomplete, does not begin where the chunk before it
+    ended, or belongs to another study.
     """
-    chunk = load(paths[0])
-    axes = {name: chunk[name].values for name in AXES}
+    chunks = [load(each) for each in paths]
+    head, done = chunks[0], 0
+    for chunk, each in zip(chunks, paths, strict=True):
+        same = chunk.attrs == head.attrs and all(
+            np.array_equal(chunk[name], head[name]) for name in (*AXES, "counted_outcome")
+        )
+        if not same or chunk["cell"].values[0] != done:
+            raise BrokenFileError(f"{each} must begin at cell {done} of the same study")
+        done += chunk.sizes["cell"]
+    axes = {name: head[name].values for name in AXES}
     shape = tuple(len(values) for values in axes.values())
-    others = {"counted_outcome": chunk["counted_outcome"].values}
-    head = dataset({}, axes | others, {}, "").assign_attrs(chunk.attrs)
-    with whole_netcdf(path) as part:
-        write(head, part)
-        with netCDF4.Dataset(part, "a") as file:
-            for name in chunk.data_vars:
-                _define(file, name, (*AXES, *chunk[name].dims[1:]), chunk[name].dtype)
-            done = 0
-            for each in paths:
-                chunk = load(each)
-                _check_next(chunk, each, done, head)
-                done += _place(file, chunk, done, shape)
-            if done != math.prod(shape):
-                found = f"ends at cell {done} of {math.prod(shape)}"
-                raise BrokenFileError(f"{paths[-1]} {found}")
-            _write_clearances(file, axes, oscillator_of(head))
-        with xr.open_dataset(part, engine="netcdf4", cache=False) as data:
-            sealed = seal(data.variables, path)
-        with netCDF4.Dataset(part, "a") as file:
-            file.setncatts(sealed)
-
-
-def _place(file, chunk, first, shape):
-    """Write a chunk to its cells, from cell number `first` on, and return the number of cells."""
-    count = chunk.sizes["cell"]
-    for cells, block in blocks(first, first + count, shape):
-        lengths = [index.stop - index.start for index in block]
-        for name in chunk.data_vars:
-            values = chunk[name].values[cells.start - first : cells.stop - first]
-            file[name][block] = values.reshape(*lengths, *values.shape[1:])
-    return count
-
-
-def _define(file, name, dims, dtype):
-    """Create an empty registered variable in an open file."""
-    labelled = variable(name, np.empty((0,) * len(dims), dtype), dims)
-    missing = np.nan if labelled.dtype.kind == "f" else False
-    file.createVariable(name, labelled.dtype, dims, fill_value=missing).setncatts(labelled.attrs)
-
-
-def _check_next(chunk, path, first, head):
-    """Raise BrokenFileError unless a chunk begins at cell `first` and belongs to the study."""
-    same = chunk.attrs == head.attrs and all(
-        np.array_equal(chunk[name], head[name]) for name in (*AXES, "counted_outcome")
-    )
-    if not same or chunk["cell"].values[0] != first:
-        raise BrokenFileError(f"{path} must begin at cell {first} of the same study")
-
-
-def blocks(first, last, shape):
-    """Divide a range of cells into rectangular blocks of the grid, at most 2 n - 1 for n axes.
-
-    Yield for each block the slice of the numbers of its cells, and its place in the grid, a tuple
-    of slices.
-    """
-    while first < last:
-        axis, stride = len(shape) - 1, 1
-        # Find the largest block that begins at cell `first` and does not extend beyond the range.
-        while axis > 0 and first % (wider := stride * shape[axis]) == 0 and first + wider <= last:
-            axis, stride = axis - 1, wider
-        place = np.unravel_index(first, shape)
-        count = min((last - first) // stride, shape[axis] - int(place[axis]))
-        block = [slice(int(i), int(i) + 1) for i in place[:axis]]
-        block += [slice(int(place[axis]), int(place[axis]) + count)]
-        block += [slice(0, length) for length in shape[axis + 1 :]]
-        yield slice(first, first + count * stride), tuple(block)
-        first += count * stride
-
-
-def _write_clearances(file, axes, oscillator):
-    """Write both clearances that `gather_chunks` adds."""
-    dims = tuple(name for name in AXES if name != "clearance")
-    _define(file, "best_clearance", dims, float)
-    _define(file, "rule_clearance", ("mass_ratio", "frequency"), float)
-    forcing = oscillator.forcing_amplitude(axes["frequency"])
-    for i, mass_ratio in enumerate(axes["mass_ratio"]):
-        sizes = np.ma.getdata(file["largest_displacement"][i])
-        file["best_clearance"][i] = axes["clearance"][np.argmin(sizes, axis=0)]
-        file["rule_clearance"][i] = forcing / (mass_ratio * axes["frequency"] ** 2)
+    if done != math.prod(shape):
+        raise BrokenFileError(f"{paths[-1]} ends at cell {done} of {math.prod(shape)}")
+    data = {}
+    for name in head.data_vars:
+        values = np.concatenate([chunk[name].values for chunk in chunks])
+        data[name] = (*AXES, *head[name].dims[1:]), values.reshape(*shape, *values.shape[1:])
+    best = np.argmin(data["largest_displacement"][1], axis=AXES.index("clearance"))
+    inertia = np.multiply.outer(axes["mass_ratio"], axes["frequency"] ** 2)
+    forcing = oscillator_of(head).forcing_amplitude(axes["frequency"])
+    data["best_clearance"] = axes["clearance"][best]
+    data["rule_clearance"] = ("mass_ratio", "frequency"), forcing / inertia
+    coordinates = axes | {"counted_outcome": head["counted_outcome"].values}
+    save(dataset(data, coordinates, {}, "").assign_attrs(head.attrs), path)

@@ -20,7 +20,7 @@ from impact_damper.motions import strobe_map, traces
 from impact_damper.motions.following import record_at
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
-from impact_damper.motions.sweep import SAME, reached, sweep
+from impact_damper.motions.sweep import SAME, sweep
 
 # Number of frequencies at which the free subharmonic is searched for.
 SEARCHED = 81
@@ -57,32 +57,11 @@ def subharmonic_suppression(
 ):
     """Find all motions with the damper at frequencies at which the free subharmonic exists.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-        With a nonlinear spring.
-    damper : Damper
-    frequencies : sequence of float
-        Increasing frequencies W. The free subharmonic is searched for from the first to the last.
-        Damped motions are searched for at the same number of frequencies, spread over the range of
-        the free subharmonic and a tenth of its width beyond each end; without one, at the given
-        frequencies.
-    starts : int
-        Number of starts at each frequency. All are random, as in `frequency_response`, except at
-        frequencies at which the free subharmonic exists. There one half of the starts has the
-        primary mass on the free subharmonic and switches the damper on at a random time
-        (`switched_on`).
-    radius, seed, settling, workers, progress
-        As in `frequency_response`.
-
-    Returns
-    -------
-    xarray.Dataset
-        For each (frequency, motion) a motion, as in a frequency response. For each `frequency` the
-        largest subharmonic without and with the damper, and the effect of the damper on it. For
-        each (frequency, switched_motion) the share of starts on the free subharmonic that lead to
-        this motion when the damper is switched on. The ends of the free subharmonic and of branches
-        with the damper.
+    The free subharmonic is searched for from the first to the last of the frequencies. Damped
+    motions are searched for at the same number of frequencies, spread over the range of the free
+    subharmonic and a tenth of its width beyond each end; without one, at the given frequencies.
+    Where the free subharmonic exists, one half of the starts has the primary mass on it and
+    switches the damper on at a random time. The other arguments are those of `frequency_response`.
     """
     settling = check_settling(settling)
     check_damper(damper)
@@ -120,17 +99,12 @@ def subharmonic_suppression(
         workers=workers,
         progress=progress,
     )
-    data |= _subharmonic_table(data, size) | _branch_table(data, frequencies)
-    data |= {
-        "switched_share": _shares(data, np.isfinite(size), starts // 2),
-        "free_subharmonic_frequency": free.ends,
-        "free_subharmonic_event": free.events,
-    }
+    data |= _subharmonic_table(data, size)
+    data["switched_share"] = _shares(data, np.isfinite(size), starts // 2)
     made = describe(oscillator, damper, settling) | describe_search(starts, radius, seed)
     coordinates = {
         "frequency": frequencies,
         "component": list(COMPONENTS),
-        "edge": ["lower", "upper"],
         "switched_motion": list(SWITCHED_MOTIONS),
     }
     return dataset(data, coordinates, made, "One-third subharmonic without and with the damper")
@@ -178,13 +152,11 @@ def _subharmonic_table(data, free):
     """Return the variables of the subharmonics without and with the damper at each frequency."""
     size = np.where(is_subharmonic(data), data["maximum_displacement"][1], -np.inf)
     damped = np.max(size, axis=1)
-    found = np.max(np.where(reached(data), size, -np.inf), axis=1)
     return {
         "free_subharmonic": free,
         "damped_subharmonic": np.where(damped > 0, damped, np.nan),
         "subharmonic_ratio": np.maximum(damped, 0) / free,
         "suppression": _suppression(damped, free),
-        "reached_suppression": _suppression(found, free),
     }
 
 
@@ -196,24 +168,6 @@ def _suppression(damped, free):
         "unchanged",
     )
     return np.array([flag("suppression", meaning) for meaning in meanings])
-
-
-def _branch_table(data, frequencies):
-    """Return the variables of the branches of subharmonics with the damper."""
-    found = is_subharmonic(data)
-    branch, period = data["branch"][1], data["period"][1]
-    rows = []
-    for number, n in np.unique(np.stack([branch[found], period[found]], axis=1), axis=0):
-        cells = found & (branch == number) & (period == n)
-        ends, events = branch_ends(data, number, frequencies, np.flatnonzero(cells.any(axis=1)))
-        rows.append((n, np.max(data["maximum_displacement"][1][cells]), ends, events))
-    names = ("subharmonic_period", "subharmonic_displacement")
-    columns = zip(*rows, strict=True) if rows else [()] * 4
-    *scalars, ends, events = (np.array(column) for column in columns)
-    return dict(zip(names, scalars, strict=True)) | {
-        "subharmonic_frequency": ends.reshape(-1, 2),
-        "subharmonic_event": events.reshape(-1, 2),
-    }
 
 
 def _shares(data, present, count):
@@ -249,17 +203,13 @@ def is_subharmonic(data):
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return both ends of a branch of a `sweep` over `grid`, and flags of their events.
+    """Return both ends of a branch of a `sweep` over `grid`, found at `rows`.
 
-    `rows` are those at which the branch was found. If an end was not located, the value is the last
-    point on the branch, and the event sweep_ends if this is the end of the grid, otherwise
-    not_found.
+    An end that was not located is the last point found on the branch.
     """
     ends = grid[[min(rows), max(rows)]]
-    events = np.full(2, flag("free_subharmonic_event", "not_found"))
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):
-            events[side] = flag("free_subharmonic_event", "sweep_ends")
             continue
         value = data["end_value"]
         away = step * (value - grid[row])
@@ -270,29 +220,20 @@ def branch_ends(data, branch, grid, rows):
             & (away <= abs(grid[row + step] - grid[row]))
         )
         if fits.any():
-            last = np.argmax(np.where(fits, away, -1.0))
-            ends[side], events[side] = value[last], data["end_event"][last]
-    return ends, events
+            ends[side] = value[np.argmax(np.where(fits, away, -1.0))]
+    return ends
 
 
 class FreeSubharmonic(NamedTuple):
     """The free one-third subharmonic.
 
-    Attributes
-    ----------
-    parameters, states : numpy.ndarray, shapes (n, packed.COUNT) and (n, 4)
-        Packed parameters at the frequencies at which the motion was found, and its states there at
-        the strobe.
-    ends : numpy.ndarray, shape (2,)
-        Lowest and highest frequency of the motion, NaN if no motion was found.
-    events : numpy.ndarray, shape (2,)
-        Events at the two ends, flags of `free_subharmonic_event`.
+    `parameters` (n, packed.COUNT) and `states` (n, 4) at the strobe belong to the frequencies at
+    which the motion was found. `ends` are its lowest and highest frequency, NaN without a motion.
     """
 
     parameters: np.ndarray
     states: np.ndarray
     ends: np.ndarray
-    events: np.ndarray
 
     @property
     def found(self):
@@ -331,10 +272,8 @@ def free_subharmonic(
     chosen = is_subharmonic(data) & (data["period"][1] == 3) & (data["asymmetry"][1] < SAME)
     branches, counts = np.unique(data["branch"][1][chosen], return_counts=True)
     if len(branches) == 0:
-        events = np.full(2, flag("free_subharmonic_event", "not_found"))
-        none = np.empty((0, packed.COUNT)), np.empty((0, 4))
-        return FreeSubharmonic(*none, np.full(2, np.nan), events)
+        return FreeSubharmonic(np.empty((0, packed.COUNT)), np.empty((0, 4)), np.full(2, np.nan))
     branch = branches[np.argmax(counts)]
     row, column = np.nonzero(chosen & (data["branch"][1] == branch))
-    ends, events = branch_ends(data, branch, frequencies, row)
-    return FreeSubharmonic(parameters[row], data["state"][1][row, column], ends, events)
+    ends = branch_ends(data, branch, frequencies, row)
+    return FreeSubharmonic(parameters[row], data["state"][1][row, column], ends)

@@ -6,7 +6,7 @@ import pandas as pd
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.columns import parameter_columns
-from chatterjee1995.variables.balance_map import BALANCE_VERDICT, NEAR
+from chatterjee1995.variables import BALANCE_VERDICT, NEAR
 from impact_damper.data.datasets import flag, is_settled, parameters_of
 from impact_damper.data.shares import wilson
 from impact_damper.data.variables import VARIABLES
@@ -177,10 +177,6 @@ def _summary(data):
     chaotic = np.sum(kinds == flag("high_run_motion", "high_chaotic"))
     settled = np.sum(kinds == flag("high_run_motion", "high"))
     yield _cells("violent motions found", "", "chaotic", chaotic, chaotic + settled)
-    long = data["high_long_outcome"].values
-    still = np.sum(long == flag("high_long_outcome", "chaotic"))
-    ran = np.sum(long != flag("high_long_outcome", "absent"))
-    yield _cells("chaotic ones run ten times as long", "", "still chaotic", still, ran)
     agreed = data["quiet_verdict"].values == flag("quiet_verdict", "stable_stable")
     landed = data["quiet_run_motion"].values[agreed] == flag("quiet_run_motion", "quiet")
     question = "balance stable, orbit stable"

@@ -7,8 +7,7 @@ from matplotlib.patches import PathPatch
 
 from chatterjee1995.figures.balance import QUIET, VIOLENT, draw_balance_map
 from chatterjee1995.figures.clearance import draw_studies
-from chatterjee1995.variables.balance_map import HIGH_VERDICT, QUIET_VERDICT
-from chatterjee1995.variables.studies import AXES, OUTCOMES
+from chatterjee1995.variables import AXES, HIGH_VERDICT, OUTCOMES, QUIET_VERDICT
 from impact_damper.data.datasets import dataset
 from impact_damper.plot.maps import edges
 from impact_damper.plot.style import style

@@ -4,20 +4,16 @@ A study runs motions in each cell of a grid of dampers and frequencies; a chunk 
 """
 
 import json
-import math
 import re
-import tracemalloc
 
 import numpy as np
 import pytest
 from helpers.known_orbits import PAPER
-from hypothesis import given
-from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 from chatterjee1995.stages import studies
-from chatterjee1995.stages.studies import blocks, gather_chunks
-from chatterjee1995.variables.studies import OUTCOMES
+from chatterjee1995.stages.studies import gather_chunks
+from chatterjee1995.variables import OUTCOMES
 from impact_damper.data.datasets import dataset, load, save
 from impact_damper.data.whole_files import BrokenFileError
 from impact_damper.model.parameters import Damper
@@ -67,27 +63,6 @@ def saved(folder, shape, bounds, seed=7):
     return paths
 
 
-@given(
-    st.lists(st.integers(1, 5), min_size=1, max_size=5).flatmap(
-        lambda shape: st.tuples(
-            st.just(tuple(shape)),
-            st.tuples(*[st.integers(0, math.prod(shape))] * 2).map(sorted),
-        )
-    )
-)
-def test_blocks_hold_a_range_of_cells_once_and_are_few(drawn):
-    shape, (first, last) = drawn
-    grid = np.zeros(shape, int)
-    found = list(blocks(first, last, shape))
-    for cells, block in found:
-        grid[block] += np.arange(cells.start, cells.stop).reshape(grid[block].shape) + 1
-    numbers = np.arange(grid.size)
-    assert_array_equal(
-        grid.ravel(), np.where((first <= numbers) & (numbers < last), numbers + 1, 0)
-    )
-    assert len(found) <= 2 * len(shape) - 1
-
-
 def test_chunks_come_back_to_their_cells_however_they_are_cut(tmp_path):
     shape, results = (3, 4, 2, 5), []
     for number, bounds in enumerate([(0, 120), (0, 1, 60, 120), range(0, 121, 7), (0, 119, 120)]):
@@ -105,19 +80,6 @@ def test_chunks_come_back_to_their_cells_however_they_are_cut(tmp_path):
     assert_array_equal(data["best_clearance"], best)
     rm, w = data["mass_ratio"], data["frequency"]
     assert_allclose(data["rule_clearance"] * rm * w**2, 1)
-
-
-@pytest.mark.thorough
-def test_gathering_takes_the_memory_of_a_chunk(tmp_path):
-    peaks = []
-    for number in (2, 16):
-        shape = number, 100, 100, 1
-        paths = saved(tmp_path / str(number), shape, range(0, number * 10000 + 1, 10000))
-        tracemalloc.start()
-        gather_chunks(paths, tmp_path / "all.nc")
-        peaks.append(tracemalloc.get_traced_memory()[1])
-        tracemalloc.stop()
-    assert peaks[1] < 1.2 * peaks[0]
 
 
 @pytest.mark.parametrize(
