@@ -83,7 +83,8 @@ docs: kernels
 
 # For developers, after a change of the dependencies; needs uv.
 lock:
-	uv pip compile pyproject.toml --all-extras --group build --universal --python-version 3.11 \
+	uv pip compile pyproject.toml --extra command --extra workflow --extra slurm --extra test \
+		--extra docs --group build --universal --python-version 3.11 \
 		--generate-hashes --no-emit-index-url --no-header --output-file requirements.lock
 
 # For developers, after a change of the lower bounds in pyproject.toml; needs uv. Installs the

@@ -20,6 +20,7 @@ from benchmarks import (
     stages,
     startup,
 )
+from benchmarks.rivals import table as rivals
 from benchmarks.timing import one_core
 from chatterjee1995.tables import files as table_files
 from impact_damper.plot.style import save_figure
@@ -43,6 +44,13 @@ def compare(write, amount):
         write("times", times)
         write("ratios", made, how=ratios.HOW)
         write("heyoka_settings", ratios.heyoka_settings(found, times, amount["rounds"]))
+
+
+def compare_programs(write, amount):
+    """Compare the kernel with odeint, CVODE and diffrax."""
+    found = scenes.from_configuration(amount["starts"])
+    with one_core():
+        write("rivals", rivals.table(found, amount["few"]), how=rivals.HOW)
 
 
 def draw_chart(write, amount):
@@ -96,6 +104,7 @@ def settle(write, amount):
 
 PARTS = {
     "ratios": compare,
+    "rivals": compare_programs,
     "chart": draw_chart,
     "costs": cost,
     "scaling": scale,

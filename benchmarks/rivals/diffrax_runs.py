@@ -1,0 +1,107 @@
+"""Motions by diffrax on the CPU: Dopri8 with events, compiled by JAX for all starts together.
+
+A `while_loop` integrates from one event to the next, and `vmap` runs all starts side by side.
+"""
+
+import functools
+from importlib.metadata import version as version_of
+
+import numpy as np
+
+from impact_damper.kernel.equation import forcing_amplitude
+from impact_damper.model.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    DAMPING,
+    DASHPOT,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    cubic_spring,
+)
+
+STEPS = 10**6  # largest number of steps between two contacts
+
+
+def obstacle():
+    """Return the reason why the program is not available, or an empty string."""
+    try:
+        import diffrax  # noqa: F401
+    except ImportError:
+        return "no diffrax (pip install 'impact-damper[benchmark]')"
+    return ""
+
+
+def version():
+    """Return the versions of diffrax and JAX."""
+    return f"diffrax {version_of('diffrax')}, JAX {version_of('jax')}"
+
+
+def equations(p):
+    """Return the rates, with the phase -1, 0 or 1 as argument, and the root function."""
+    import jax.numpy as jnp
+
+    h, w, d0 = (float(p[place]) for place in (DAMPING, FREQUENCY, CLEARANCE))
+    wall, dashpot = float(p[CONTACT_STIFFNESS]), float(p[DASHPOT])
+    heavy, amplitude = 1 + float(p[INVERSE_MASS_RATIO]), float(forcing_amplitude.py_func(p))
+    linear, cubic = map(float, cubic_spring(p))
+
+    def rates(t, y, side):
+        free = amplitude * jnp.cos(w * t) - h * y[1] - (linear + cubic * y[0] * y[0]) * y[0]
+        pressed = wall * (y[2] - side * d0) + dashpot * y[3]
+        force = jnp.where(side == 0, 0.0, pressed) if np.isfinite(d0) else 0.0
+        return jnp.array([y[1], free - force, y[3], free - heavy * force])
+
+    def beyond(t, y, args, **_):
+        # Negative within a phase, so that only the end of a phase crosses zero upwards.
+        return jnp.where(args == 0, 1.0, -1.0) * (jnp.abs(y[2]) - d0)
+
+    return rates, beyond
+
+
+@functools.cache
+def _compiled(parameters, end, damped):
+    """Return the compiled function of starts, begin and tolerance; parameters are bytes."""
+    import diffrax
+    import jax
+    import jax.numpy as jnp
+    import optimistix
+
+    jax.config.update("jax_enable_x64", True)
+    rates, beyond = equations(np.frombuffer(parameters))
+    finder = optimistix.Newton(1e-14, 1e-14)
+    settings = {
+        "terms": diffrax.ODETerm(rates),
+        "solver": diffrax.Dopri8(),
+        "event": diffrax.Event(beyond, finder, direction=True) if damped else None,
+        "max_steps": STEPS,
+        "throw": False,
+        "adjoint": diffrax.ForwardMode(),
+    }
+
+    def motion(start, begin, tolerance):
+        control = diffrax.PIDController(rtol=tolerance, atol=tolerance)
+
+        def phase(carried):
+            t, y, side, contacts = carried
+            given = {"t0": t, "t1": end, "dt0": None, "y0": y, "args": side}
+            found = diffrax.diffeqsolve(**given, **settings, stepsize_controller=control)
+            t, y = found.ts[-1], found.ys[-1]
+            side = jnp.where(side == 0, jnp.sign(y[2]), 0.0)
+            return t, y, side, contacts + ((side != 0) & (t < end))
+
+        first = jnp.asarray(begin, float), start, jnp.asarray(0.0), jnp.asarray(0)
+        _, y, _, contacts = jax.lax.while_loop(lambda c: c[0] < end, phase, first)
+        return y, contacts
+
+    return jax.jit(jax.vmap(motion, in_axes=(0, None, None)))
+
+
+def prepare(scene, tolerance):
+    """Return a function from starts to the states at the end and the numbers of contacts."""
+    compiled = _compiled(scene.parameters.tobytes(), float(scene.end), scene.components == 4)
+
+    def run(starts):
+        states, contacts = compiled(starts, scene.begin, tolerance)
+        return np.asarray(states), np.asarray(contacts)
+
+    return run

@@ -1,0 +1,71 @@
+"""Boost.odeint, from C++ (`odeint.cpp`), compiled on first use with `c++ -O3 -march=native`."""
+
+import ctypes
+import functools
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from impact_damper.kernel.equation import forcing_amplitude
+from impact_damper.model.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    DAMPING,
+    DASHPOT,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+    cubic_spring,
+)
+
+PROGRAM = Path(__file__).with_name("odeint.cpp")
+FLAGS = ("-O3", "-march=native", "-std=c++17", "-shared", "-fPIC")
+
+
+def obstacle():
+    """Return the reason why the program cannot be compiled on this computer, or an empty string."""
+    if shutil.which("c++") is None:
+        return "no C++ compiler `c++`"
+    test = ["c++", "-E", "-x", "c++", "-include", "boost/numeric/odeint.hpp", "/dev/null"]
+    if subprocess.run(test, capture_output=True).returncode:
+        return "no Boost (Debian: libboost-dev)"
+    return ""
+
+
+def version():
+    """Return the versions of Boost and of the compiler."""
+    read = ["c++", "-E", "-P", "-x", "c++", "-include", "boost/version.hpp", "-"]
+    boost = subprocess.run(read, input="BOOST_LIB_VERSION", capture_output=True, text=True)
+    compiler = subprocess.run(["c++", "--version"], capture_output=True, text=True)
+    return f"Boost {boost.stdout.split()[-1]}, {compiler.stdout.splitlines()[0]}"
+
+
+@functools.cache
+def _library():
+    with tempfile.TemporaryDirectory(prefix="impact-damper-") as folder:
+        library = Path(folder) / "odeint.so"
+        subprocess.run(["c++", *FLAGS, "-o", library, PROGRAM], check=True)
+        loaded = ctypes.CDLL(str(library))
+    real = np.ctypeslib.ndpointer(float, flags="C")
+    whole = np.ctypeslib.ndpointer(np.int64, flags="C")
+    number = ctypes.c_double
+    loaded.motions.restype = None
+    loaded.motions.argtypes = [real, ctypes.c_long, number, number, number, real, whole]
+    return loaded
+
+
+def prepare(scene, tolerance):
+    """Return a function from starts to the states at the end and the numbers of contacts."""
+    p, library = scene.parameters, _library()
+    places = (CLEARANCE, CONTACT_STIFFNESS, DASHPOT, INVERSE_MASS_RATIO)
+    given = [p[DAMPING], *cubic_spring(p), forcing_amplitude.py_func(p), p[FREQUENCY]]
+    given = np.array([*given, *p[list(places)]])
+
+    def run(starts):
+        states, contacts = np.array(starts), np.zeros(len(starts), np.int64)
+        library.motions(given, len(starts), scene.begin, scene.end, tolerance, states, contacts)
+        return states, contacts
+
+    return run
