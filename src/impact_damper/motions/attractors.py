@@ -1,24 +1,7 @@
 """Attractors and what leads to them: neighbourhoods, labels of states, and the release set.
 
-A neighbourhood is an ellipse around a state of a free orbit at a strobe. Every motion that is in
-the ellipse at a strobe tends to the orbit, so its integration can stop.
-
-Proof. Let x(t) be the orbit and P its period. Let F(t) be the matrix of its variational equations,
-with F(0) = 1 and F(P) = V R V^-1, where the norm |R| is the largest modulus of a multiplier and is
-below 1. Write the difference of a motion from the orbit as d = F(t) V w(t). The equation of motion
-with the spring k3 Z1^3 then gives, without approximation,
-
-    w' = -k3 c(t) [3 x1(t) d1^2 + d1^3],    c = V^-1 F(t)^-1 (0, 1),    d1 = (F(t) V w)_1.
-
-With g = |first row of F(t) V| it follows that |w|' <= |k3| |c| (3 |x1| g^2 |w|^2 + g^3 |w|^3). Let
-r(t) solve this relation as an equation, from r(0) = r0. It bounds |w(t)| for all |w(0)| <= r0.
-After a period V^-1 d = R w(P). If |R| r(P) < r0, the ellipse |V^-1 d| < r0 is therefore mapped into
-itself. The ratio r(P)/r0 grows with r0, so smaller ellipses contract too, and all motions in the
-ellipse tend to the orbit.
-
-The scalar equation for r is integrated numerically. In each of STEPS steps in a forcing cycle a
-coefficient has the larger of its values at the ends of the step. In place of |R| r(P) < r0 the
-program requires |R| r(P) < FACTOR r0.
+A neighbourhood is an ellipse around a state of a free orbit at a strobe. Every motion in the
+ellipse provably tends to the orbit (docs/explanation/neighbourhoods.md), so its integration stops.
 """
 
 import math
@@ -29,10 +12,9 @@ from scipy.ndimage import distance_transform_edt, maximum_filter, minimum_filter
 
 from impact_damper.data.datasets import is_settled
 from impact_damper.data.variables import BASIN_LABEL
-from impact_damper.kernel import batch
 from impact_damper.kernel.single import workspace
 from impact_damper.kernel.tangents import advance
-from impact_damper.model.packed import CLEARANCE, FREQUENCY, cubic_spring, pack
+from impact_damper.model.packed import FREQUENCY, cubic_spring, pack
 from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
@@ -72,16 +54,9 @@ PHASES, WIDTH, REFINED = 16, 1.6, 4
 class Attractors(NamedTuple):
     """Attracting orbits of the free oscillator, by ascending max |Z1|, and their m neighbourhoods.
 
-    Attributes
-    ----------
-    records : numpy.ndarray of records.MOTION, shape (k,)
-    owner : numpy.ndarray of int, shape (m,)
-        Index of the orbit of each neighbourhood. An orbit of period n has n neighbourhoods.
-    centre : numpy.ndarray, shape (m, 2)
-        States Z1, Z1' at strobes.
-    shape : numpy.ndarray, shape (m, 2, 2)
-        Matrices S such that |S (z - c)| < 1 is the neighbourhood of a centre c; infinite, so that
-        it is empty, if no neighbourhood was proven.
+    `owner` (m,) is the index of the orbit of each neighbourhood; an orbit of period n has n of
+    them. `centre` (m, 2) are states Z1, Z1' at strobes, and `shape` (m, 2, 2) matrices S: a state z
+    lies in the neighbourhood if |S (z - centre)| < 1. Without a proof S is infinite.
     """
 
     records: np.ndarray
@@ -185,7 +160,7 @@ def neighbourhood(p, state, periods):
 
 
 def _radius(coefficients, step, contraction):
-    """Return the largest r0 for which `contraction` r(P) < FACTOR r0 (see the module docstring).
+    """Return the largest r0 for which `contraction` r(P) < FACTOR r0.
 
     r grows, so in a step r' = a r^2 + b r^3 is at most its value with r at the end of the step. The
     root of r = r(begin) + step (a r^2 + b r^3) is therefore an upper bound on r at the end. The
@@ -210,18 +185,14 @@ def label_damped(p, states, phase, settling, workers=1, progress=None):
 
     No proven neighbourhoods exist for motions with contacts, so each motion is run until it has
     settled. A label is the index of an attractor, a record, by ascending max |Z1|, or a negative
-    flag of `basin_label`. `states` (n, 4) are those at the forcing phase `phase`, radian.
+    flag of `basin_label`. `states` (n, 4) are states at the forcing phase `phase`, radian.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
-    strobe = strobe_time(p) + (2 * np.pi / p[FREQUENCY] if begin > strobe_time(p) else 0.0)
-    starts = to_strobe(p, states, begin, strobe, settling.tolerance)
+    if begin > strobe_time(p):
+        begin -= 2 * np.pi / p[FREQUENCY]
+    rows = np.tile(p, (len(states), 1))
     motions = ensemble.settle(
-        np.tile(p, (len(starts), 1)),
-        starts,
-        settling,
-        from_strobe=True,
-        workers=workers,
-        progress=progress,
+        rows, states, settling, start=begin, workers=workers, progress=progress
     )
     labels = np.full(len(motions), BASIN_LABEL["unresolved"])
     for outcome, label in LABELS.items():
@@ -241,23 +212,6 @@ def label_damped(p, states, phase, settling, workers=1, progress=None):
     return labels, motions["periods_run"], np.array(attractors, records.MOTION)
 
 
-def to_strobe(p, states, begin, strobe, tolerance):
-    """Return the states at the time `strobe` of motions with given states at the time `begin`."""
-    y = np.array(states, float)
-    number = len(y)
-    sides = np.where(y[:, 2] > p[CLEARANCE], 1, np.where(y[:, 2] < -p[CLEARANCE], -1, 0))
-    batch.advance(
-        np.tile(p, (number, 1)),
-        y,
-        sides.astype(np.int64),
-        np.full(number, begin),
-        np.full(number, strobe),
-        tolerance,
-        np.zeros(number, np.int64),
-    )
-    return y
-
-
 def orbit_passages(p, record, phase):
     """Return Z1, Z1' of an orbit at all times with a given forcing phase, shape (period, 2)."""
     period = 2 * np.pi / p[FREQUENCY]
@@ -270,21 +224,10 @@ def orbit_passages(p, record, phase):
 class ReleaseSet(NamedTuple):
     """The states of the free oscillator at one frequency that lead to the goal of migration.
 
-    The goal is the smaller of the two free motions of period 1.
-
-    Attributes
-    ----------
-    p : numpy.ndarray, shape (packed.COUNT,)
-        Packed parameters without a damper.
-    attractors : Attractors
-        The stable free motions; the last one is the resonance motion.
-    goal : int
-        Index of the goal among the attractors.
-    depth : numpy.ndarray, shape (PHASES, cells, cells)
-        Distance of a state from the boundary of the set, positive inside, in units of Z1, with Z1'
-        divided by W. Axes: phase, Z1', Z1.
-    half : numpy.ndarray, shape (2,)
-        Half widths of the grid in Z1 and Z1'.
+    The goal is the smaller of the two free motions of period 1, with the index `goal` among the
+    `attractors`; the last attractor is the resonance motion. `depth` (PHASES, cells, cells) is the
+    distance of a state from the boundary of the set, positive inside, in units of Z1 with Z1'
+    divided by W, over phase, Z1' and Z1. `half` (2,) are the half widths of the grid in Z1 and Z1'.
     """
 
     p: np.ndarray

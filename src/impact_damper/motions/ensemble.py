@@ -73,22 +73,10 @@ def settle(
 ):
     """Run motions from states (m, 4), each with its packed parameters, until each has settled.
 
-    Parameters
-    ----------
-    start : float
-        Time T of all states, in the forcing cycle that ends at the first strobe.
-    from_strobe : bool
-        If True, the states are states at the strobe, and `start` is not used.
-    workers : int
-        Number of threads.
-    progress : str, optional
-        Title of a progress bar.
-    stop : array of bool, shape (1,), optional
-        Another thread may set this flag to end the runs. The records are then incomplete.
-
-    Returns
-    -------
-    numpy.ndarray of records.MOTION, shape (m,)
+    `start` is the time T of all states, in the forcing cycle that ends at the first strobe. With
+    `from_strobe` the states are states at the strobe. `progress` is the title of a progress bar. If
+    another thread sets `stop[0]`, the runs end and the records are incomplete. Return an array of
+    `records.MOTION`, shape (m,).
     """
     settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)
@@ -186,21 +174,9 @@ def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes
 def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
     """Return the free orbit that each state leads to, and the number of cycles until it was known.
 
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters without a damper.
-    states : array, shape (n, 2)
-        Z1 and Z1' at the forcing phase `phase`, radian.
-    attractors : attractors.Attractors
-    limit : int
-        Forcing cycles after which a label is UNKNOWN.
-
-    Returns
-    -------
-    labels : numpy.ndarray of int, shape (n,)
-        Index in `attractors.records`, or GONE or UNKNOWN.
-    periods : numpy.ndarray of int, shape (n,)
+    `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`, radian. A label is an index in
+    `attractors.records` (`attractors` is an `Attractors`), or GONE, or UNKNOWN after `limit`
+    cycles.
     """
     states = np.ascontiguousarray(states, float)
     strobe = 0.5 * math.pi
@@ -234,9 +210,7 @@ def label_many(p, states, begin, tolerance, limit, owner, centre, shape, labels,
     """Label states of the free oscillator by the orbit whose neighbourhood their motions enter.
 
     `states` are Z1 and Z1' at the time `begin`, at most a forcing cycle before the first strobe.
-    `owner`, `centre` and `shape` are the attributes of `attractors.Attractors`. `labels` and
-    `periods` receive the index of the orbit, or GONE or UNKNOWN, and the number of strobes until
-    then.
+    `labels` and `periods` receive the results of `label_states`.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

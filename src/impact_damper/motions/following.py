@@ -28,9 +28,7 @@ RESOLUTION = 1e-8
 class Followed(NamedTuple):
     """The last two orbits on the way to a value of the parameter, and how following ended.
 
-    `values` and `orbits` are those of the last but one and the last orbit, `status` is what the
-    correction returned for the last attempted step, and `arrived` tells whether the target was
-    reached.
+    `status` is what the correction returned for the last attempted step.
     """
 
     values: tuple[float, float]
@@ -50,14 +48,9 @@ class Followed(NamedTuple):
 
 
 class StrobeOrbit(NamedTuple):
-    """An orbit represented by its state at the strobe, the phase W T = pi/2 of the forcing.
+    """State of an orbit at the strobe, shape (4,), and its dominant Floquet multiplier.
 
-    Attributes
-    ----------
-    state : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' at W T = pi/2.
-    multiplier : complex
-        Dominant Floquet multiplier, with an imaginary part that is not negative.
+    The imaginary part of the multiplier is not negative.
     """
 
     state: np.ndarray
@@ -78,27 +71,13 @@ def follow(
 ) -> Followed:
     """Follow an orbit from one value of a parameter to another, or as far as it goes.
 
-    Parameters
-    ----------
-    correct : callable
-        Function of a value of the parameter and a predicted state, shape (4,). It returns an orbit
-        with the attribute `state`, or None if it fails, and a status.
-    start, target : float
-        Values of the parameter. The first attempted step leads from `start` to `target`.
-    orbit
-        Orbit at `start`.
-    shortest : float
-        The function stops when a step fails and its half is shorter than this.
-    growth : float
-        Factor by which a step grows after success.
-    reach : float
-        A step also fails if Z1, Z1' or Z2 changes by `reach` or more, because it may have led to
-        another orbit.
-    extrapolating : bool
-        If True, the prediction is extrapolated from the last two orbits. Otherwise it is the last
-        state.
-    behind : optional
-        Orbit at the value 2 start - target. With it the first prediction is extrapolated too.
+    `correct` takes a value and a predicted state (4,), and returns an orbit with the attribute
+    `state`, or None if it fails, and a status. The first step leads from `start` to `target`. A
+    step grows by the factor `growth` after success. It fails also if Z1, Z1' or Z2 changes by
+    `reach` or more, since it may have led to another orbit. Following stops when half of a failed
+    step is shorter than `shortest`. The prediction is extrapolated from the last two orbits if
+    `extrapolating`, otherwise it is the last state. `behind` is the orbit at 2 start - target, if
+    known.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -128,13 +107,12 @@ def extrapolate(state, before, ratio):
 
 
 def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -> tuple:
-    """Follow a stable orbit while one parameter changes to a target value, as far as possible.
+    """Follow a stable orbit while the parameter of an index changes to a target value, if possible.
 
     Following stops where the orbit becomes unstable, or where it repeats after fewer cycles; this
-    value is located with the accuracy `resolution`. `parameter` is an index in the packed
-    parameters. Return the packed parameters and the `StrobeOrbit` of the last orbit. The parameter
-    equals the target exactly if this was reached; the multiplier is NaN if no orbit was found near
-    the given state.
+    value is located with the accuracy `resolution`. Return the packed parameters and the
+    `StrobeOrbit` of the last orbit. The parameter equals the target exactly if this was reached;
+    the multiplier is NaN if no orbit was found near the given state.
     """
     # Records hold periods as two-byte integers; for these numba would compile the kernels again.
     periods = int(periods)

@@ -175,18 +175,12 @@ def measure_nothing(out):
 def measure(parameters, tolerance, watched, out, stop):
     """Complete the records `out` by measurements that begin at their states at the strobe.
 
-    A motion that has diverged or escaped gets an infinite displacement. Each other motion is
-    integrated over its `period`, or over `watched` forcing cycles if its period is 0. The measured
-    fields are:
-
-    - maximum_displacement: largest |Z1|;
-    - contacts: number of contacts per forcing cycle;
-    - asymmetry: distance between the mirrored first state and the state after half the measured
-      time, zero for a symmetric motion; NaN for an even number of cycles;
-    - harmonic_displacement, harmonic_relative: complex amplitudes c of Re(c exp(i W T)) in Z1 and
-      Z2, by the trapezoidal rule with SAMPLES samples in a forcing cycle.
-
-    When another thread sets `stop[0]`, the remaining records are not completed.
+    A motion is integrated over its `period`, or over `watched` forcing cycles if its period is 0.
+    One that has diverged or escaped gets an infinite displacement. Asymmetry is the distance
+    between the mirrored first state and the state after half the measured time, NaN for an even
+    number of cycles. The harmonics are complex amplitudes c of Re(c exp(i W T)), from SAMPLES
+    samples in a forcing cycle. When another thread sets `stop[0]`, the remaining records are not
+    completed.
     """
     for i in range(len(out)):
         if out[i].outcome == DIVERGED or out[i].outcome == ESCAPED:
@@ -216,23 +210,12 @@ def phase_of(harmonic, reference):
 def tabulate(records):
     """Return the registered variables, keyed by name, for an array of records of any shape."""
     first, second = records["harmonic_displacement"], records["harmonic_relative"]
-    return {
-        "outcome": records["outcome"],
-        "period": records["period"],
-        "contacts": records["contacts"],
-        "maximum_displacement": records["maximum_displacement"],
-        "asymmetry": records["asymmetry"],
+    others = ("multiplier", "state", "reach", "harmonic_displacement", "harmonic_relative")
+    return {name: records[name] for name in MOTION.names if name not in others} | {
         "phase_relative": phase_of(first, second),
         "phase_loose": phase_of(first, first - second),
         "multiplier_real": records["multiplier"].real,
         "multiplier_imaginary": records["multiplier"].imag,
-        "residual": records["residual"],
-        "lyapunov_exponent": records["lyapunov_exponent"],
-        "lyapunov_error": records["lyapunov_error"],
-        "first_frequency": records["first_frequency"],
-        "second_frequency": records["second_frequency"],
-        "frequency_error": records["frequency_error"],
-        "periods_run": records["periods_run"],
     }
 
 

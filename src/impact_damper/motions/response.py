@@ -1,9 +1,7 @@
 """The steady motion that a state leads to, all motions at each frequency, and their lives.
 
-Runs that begin close together on a chaotic motion are independent after a few tens of cycles. On a
-transient they end at random times, distributed exponentially. The number of runs that end, divided
-by the sum of the lives of all runs, therefore estimates the rate of ending, even if some do not
-end.
+Runs that begin close together on a chaotic transient end at random times, distributed
+exponentially, so the number of ends divided by the sum of the lives estimates the rate of ending.
 """
 
 from dataclasses import replace
@@ -259,16 +257,9 @@ def frequency_response(
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
     """Return the lives of the chaotic motions of a sweep, registered variables of shape (n, m).
 
-    Parameters
-    ----------
-    parameters : array, shape (n, packed.COUNT)
-    outcomes, states : array, shape (n, m) and (n, m, 4)
-        Flags `outcome` of the motions at each value of the parameter, and their states at the
-        strobe.
-    runs, periods : int
-        Number of runs of each chaotic motion, and forcing cycles of a run.
-    **running
-        `workers` and `progress` of `ensemble.settle`.
+    `outcomes` (n, m) are flags of the motions at each row of the packed `parameters`, and `states`
+    (n, m, 4) their states at the strobe. Each chaotic motion is run `runs` times for `periods`
+    forcing cycles. `running` are `workers` and `progress` of `ensemble.settle`.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}

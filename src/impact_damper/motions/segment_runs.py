@@ -1,9 +1,4 @@
-"""Kernels of multiple shooting: runs over the segments of an orbit, and steps of Newton's method.
-
-In multiple shooting an orbit is a chain of segments, each with a first state of its own. Newton's
-method makes the end of each segment equal to the beginning of the next; one more equation fixes the
-distance along a branch, with a parameter as one more unknown.
-"""
+"""Kernels of multiple shooting, for orbits cut into chains of segments (`orbits.segments`)."""
 
 import math
 
@@ -38,22 +33,11 @@ NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 def survey(p, states, phases, tolerance, log, sums):
     """Record contacts, the largest |Z1| and first harmonics of a motion in segments.
 
-    Parameters
-    ----------
-    states : array, shape (m, 4)
-        States at the beginnings of the segments, replaced by the states at their ends.
-    phases : array, shape (m + 1,)
-        Phases W T at which the segments begin, and at which the last one ends, radian.
-    log : array, shape (n, 5)
-        Receives a row for each of the first n contacts, as from `traces.trace`.
-    sums : array, shape (2, 2)
-        Receives real and imaginary part of the mean of 2 exp(-i W T) Z1 (row 0) and of
-        2 exp(-i W T) Z2 (row 1), from SAMPLES samples in a forcing cycle.
-
-    Returns
-    -------
-    contacts : int
-    largest : float
+    `states` (m, 4) at the beginnings of the segments are replaced by the states at their ends;
+    `phases` (m + 1,) are W T at the beginnings and at the last end. `log` (n, 5) receives the first
+    n contacts, as from `traces.trace`; `sums` (2, 2) real and imaginary part of the mean of 2
+    exp(-i W T) Z1 and 2 exp(-i W T) Z2, from SAMPLES samples in a forcing cycle. Return the number
+    of contacts and the largest |Z1|.
     """
     work, start = workspace(), np.empty(4)
     frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
@@ -148,137 +132,6 @@ def flow_all(p, states, tangents, times, tolerance):
     return touching
 
 
-@kernel_only
-def sweep(factors, basis, triangles):
-    """Compute the QR factors of a product of matrices, A_k Q_(k-1) = Q_k R_k, by Gram-Schmidt.
-
-    `factors` (m, n, n) are the A_k, `triangles` receives the R_k, and `basis` Q_0 is replaced by
-    Q_m.
-    """
-    m, n = factors.shape[:2]
-    moved = np.empty((n, n))
-    for k in range(m):
-        for i in range(n):
-            for j in range(n):
-                moved[i, j] = 0.0
-                triangles[k, i, j] = 0.0
-                for s in range(n):
-                    moved[i, j] += factors[k, i, s] * basis[s, j]
-        for j in range(n):
-            for i in range(2 * j):
-                c, product = i % j, 0.0
-                for s in range(n):
-                    product += moved[s, c] * moved[s, j]
-                triangles[k, c, j] += product
-                for s in range(n):
-                    moved[s, j] -= product * moved[s, c]
-            norm = 0.0
-            for s in range(n):
-                norm += moved[s, j] * moved[s, j]
-            norm = np.sqrt(norm)
-            triangles[k, j, j] = norm
-            for s in range(n):
-                moved[s, j] /= norm
-        for i in range(n):
-            for j in range(n):
-                basis[i, j] = moved[i, j]
-
-
-@kernel
-def separate(factors, apart, sweeps, settled, coupled, blocks, cuts):
-    """Separate the eigenvalues of a product of matrices by modulus; return the number of groups.
-
-    Orthogonal iteration makes the product block triangular. Each diagonal block has the eigenvalues
-    of one group.
-
-    Parameters
-    ----------
-    factors : array, shape (m, n, n)
-        Factors of the product, the rightmost factor first.
-    apart : float
-        Two neighbouring moduli belong to different groups if their ratio exceeds this number, and
-        if the subspaces of the groups turn by less than the square root of `settled` in the last
-        iteration.
-    sweeps : int
-        Largest number of iterations.
-    settled : float
-        The iteration stops once the subspaces turn by less than this angle (radian) in an
-        iteration.
-    coupled : float
-        While the subspaces of two groups turn by more than this angle, the groups count as one. The
-        two vectors of a complex pair keep turning in their plane, so they stay one group.
-    blocks, cuts : array, shape (n, n) and (n + 1,)
-        Receive the diagonal blocks, and the first row of each group, then n.
-    """
-    m, n = factors.shape[:2]
-    basis, first, turned = np.zeros((n, n)), np.empty((n, n)), np.empty((n, n))
-    triangles = np.empty((m, n, n))
-    groups = 0
-    for i in range(n):
-        basis[i, i] = 1.0
-    for _ in range(sweeps):
-        for i in range(n):
-            for j in range(n):
-                first[i, j] = basis[i, j]
-        sweep(factors, basis, triangles)
-        for i in range(n):
-            for j in range(n):
-                turned[i, j] = 0.0
-                for s in range(n):
-                    turned[i, j] += first[s, i] * basis[s, j]
-        groups, cuts[0], moved, before = 1, 0, 0.0, 0.0
-        for j in range(n):
-            size = 0.0
-            for k in range(m):
-                size += np.log(abs(triangles[k, j, j]) + 1e-300)
-            if j > 0 and before - size > np.log(apart):
-                coupling = 0.0
-                for row in range(j, n):
-                    for column in range(j):
-                        coupling = max(coupling, abs(turned[row, column]))
-                moved = max(moved, coupling)
-                if coupling < coupled:
-                    cuts[groups] = j
-                    groups += 1
-            before = size
-        cuts[groups] = n
-        if moved < settled:
-            break
-    # The two vectors of a complex pair never stop turning in their plane. If they were separated
-    # because the ratio of their growth factors exceeds `apart`, they are joined again.
-    kept = 1
-    for group in range(1, groups):
-        j, moved = cuts[group], 0.0
-        for row in range(j, n):
-            for column in range(j):
-                moved = max(moved, abs(turned[row, column]))
-        if moved < np.sqrt(settled):
-            cuts[kept] = j
-            kept += 1
-    groups, cuts[kept] = kept, n
-    product, next_product = np.empty((n, n)), np.empty((n, n))
-    for group in range(groups):
-        begin, end = cuts[group], cuts[group + 1]
-        for i in range(begin, end):
-            for j in range(begin, end):
-                product[i, j] = 1.0 if i == j else 0.0
-        for k in range(m):
-            for i in range(begin, end):
-                for j in range(begin, end):
-                    next_product[i, j] = 0.0
-                    for s in range(i, end):
-                        next_product[i, j] += triangles[k, i, s] * product[s, j]
-            for i in range(begin, end):
-                for j in range(begin, end):
-                    product[i, j] = next_product[i, j]
-        for i in range(begin, end):
-            for j in range(begin, end):
-                blocks[i, j] = 0.0
-                for s in range(begin, end):
-                    blocks[i, j] += turned[i, s] * product[s, j]
-    return groups
-
-
 @kernel
 def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
     """Compute the derivatives of the ends of segments by a parameter, as central differences.
@@ -315,29 +168,12 @@ def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
 def correction(p, rate, phases, states, sign, row, fresh, tolerance, ends, tangents, slopes, out):
     """Integrate all segments, and compute a correction of Newton's method.
 
-    Parameters
-    ----------
-    p, rate, sign, slopes
-        As in `slopes_of_ends`.
-    phases : array, shape (m + 1,)
-        Phases W T at which the segments begin, and at which the last one ends, radian.
-    states, ends : array, shape (m, 4)
-        States at the beginnings of the segments. `ends` receives those at their ends.
-    row : array, shape (m n + 1,)
-        The correction is orthogonal to this row.
-    fresh : bool
-        Whether `slopes` are computed; otherwise they are taken as they are.
-    tangents : array, shape (m, 4, 4)
-        Receives the transposed derivatives of the ends by the states.
-    out : array, shape (m n + 1, 2)
-        Receives the correction, and a vector along the branch whose scalar product with `row` is 1.
-        Both are NaN or infinite if the matrix is singular.
-
-    Returns
-    -------
-    touching, residual : float
-        Time in contact, and largest difference between an end and the beginning of the next
-        segment.
+    `states` (m, 4) stand at the `phases` (m + 1,); `ends` (m, 4) and `tangents` (m, 4, 4) receive
+    the ends and the transposed derivatives of the ends by the states. `slopes` is as in
+    `slopes_of_ends`, and computed again if `fresh`. `out` (m n + 1, 2) receives the correction,
+    orthogonal to `row`, and a vector along the branch whose product with `row` is 1; NaN or
+    infinite if the matrix is singular. Return the time in contact, and the largest difference
+    between an end and the next beginning.
     """
     work, touching, residual = workspace(), 0.0, 0.0
     m, n = slopes.shape

@@ -1,9 +1,4 @@
-"""Simulate one motion, from a given state or a random state.
-
-A state is Z1, Z1', Z2, Z2': the displacement Z1 of the primary mass, its displacement Z2 relative
-to the loose mass, and both velocities. A state from a dataset has its forcing phase W T as a
-coordinate, and a motion from this state begins at this phase.
-"""
+"""Simulate one motion, from a given state or a random state."""
 
 import numpy as np
 
@@ -34,30 +29,12 @@ CONTACT = (
 
 
 def random_states(count, radius, damper, seed, *, within_gap=True):
-    """Return random states, uniform in a ball around the origin.
+    """Return random states (count, 4), uniform in a ball of a radius around the origin.
 
-    Parameters
-    ----------
-    count : int
-    radius : float
-        Radius of the ball, dimensionless; 2 in the paper. With `within_gap` at most 1000
-        clearances.
-    damper : Damper or None
-        Without a damper states are drawn from a disk of (Z1, Z1'), with Z2 = Z1 and Z2' = Z1'.
-    seed : int or sequence of int
-    within_gap : bool
-        If True, states with |Z2| beyond the clearance are drawn again. In such states the contact
-        spring would store a large energy. If False, all states of the ball are used, as in the
-        paper.
-
-    Returns
-    -------
-    numpy.ndarray, shape (count, 4)
-
-    Raises
-    ------
-    TypeError, ValueError
-        If count, radius or seed is out of range.
+    Without a damper they are drawn from a disk of (Z1, Z1'), with Z2 = Z1 and Z2' = Z1'. If
+    `within_gap`, states with |Z2| beyond the clearance are drawn again, because the contact spring
+    would store a large energy; the radius is then at most 1000 clearances. The seed is an int or a
+    sequence of int. ValueError if an argument is out of range.
     """
     check_count("count", count, least=0, most=10**8)
     check_number("radius", radius, **RADIUS_RANGE)

@@ -100,18 +100,9 @@ class Search(NamedTuple):
 def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
     """Return the starts of a search. If a radius is given, `warn_if_narrow` is called.
 
-    Parameters
-    ----------
-    systems : list of tuple
-        Damper or None, and frequency W, of each system.
-    count : int
-        Number of random starts of each system.
-    radius : float or None
-        Radius of the ball of random starts. None for a search scaled by the free motions.
-    seed : int
-        The random starts of a system depend on the seed and on its index in `systems`.
-    settling : Settling
-        Settings of the runs of free motions.
+    `systems` is a list of a damper or None, and a frequency W. Each has `count` random starts,
+    which depend on the seed and on the index of the system: uniform in a ball of the radius, or
+    scaled by the free motions if the radius is None.
     """
     if radius is None:
         rows = [
@@ -150,10 +141,7 @@ def missed_share(starts) -> float:
 def warn_if_narrow(oscillator, frequencies, radius) -> dict:
     """Return displacement and speed of the largest free motion for each frequency, by balance.
 
-    Warns
-    -----
-    UserWarning
-        If a free motion is larger or faster than the radius of the ball of starts.
+    Warn if a free motion is larger or faster than the radius of the ball of starts.
     """
     check_number("radius", radius, **RADIUS_RANGE)
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}

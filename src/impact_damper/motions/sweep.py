@@ -54,19 +54,10 @@ CLOSE = 0.05
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
     """Find all motions along a sweep of one parameter.
 
-    Parameters
-    ----------
-    parameters : array, shape (n, packed.COUNT)
-        Packed parameters in the order of the sweep, which differ in the parameter of this `index`.
-    dimension : str
-        Name of the dimension of the data for this parameter.
-    search : start_states.Search
-
-    Returns
-    -------
-    dict
-        Registered variables of the distinct motions, with the dimensions (dimension, motion); of
-        the runs, with (dimension, start); of the ends of branches, with (end); and of the search.
+    The rows of packed `parameters` differ in the parameter of this `index`; `dimension` is its name
+    in the data. `search` is a `start_states.Search`. Return a dict of registered variables of the
+    distinct motions, with the dimensions (dimension, motion); of the runs, with (dimension, start);
+    of the ends of branches, with (end); and of the search.
     """
     size, starts = search.random.shape[:2]
     runs = ensemble.settle(
@@ -215,22 +206,9 @@ def _tables(catalogues, branches, dimension, starts):
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
     records["outcome"] = flag("outcome", "absent")
-    for name in (
-        "residual",
-        "maximum_displacement",
-        "contacts",
-        "asymmetry",
-        "lyapunov_exponent",
-        "lyapunov_error",
-        "first_frequency",
-        "second_frequency",
-        "frequency_error",
-        "state",
-        "multiplier",
-        "harmonic_displacement",
-        "harmonic_relative",
-    ):
-        records[name] = np.nan
+    for name in MOTION.names:
+        if MOTION[name].base.kind in "fc":
+            records[name] = np.nan
     extra = {
         "branch": np.full(records.shape, -1),
         "motion_starts": np.zeros(records.shape, int),

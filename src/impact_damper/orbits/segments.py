@@ -12,7 +12,7 @@ import numpy as np
 from impact_damper.kernel.single import side_of, workspace
 from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import FREQUENCY
-from impact_damper.motions.segment_runs import flow_all, list_turns, separate, survey
+from impact_damper.motions.segment_runs import flow_all, list_turns, survey
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits.paths import follow_path
 
@@ -160,18 +160,31 @@ def cyclic(factors):
 def multipliers(factors):
     """Return the eigenvalues of the product of matrices, without forming it.
 
-    Orthogonal iteration separates eigenvalues of different moduli. Eigenvalues of similar moduli
-    are computed from the product of diagonal blocks.
+    Orthogonal iteration makes the product block triangular. Each diagonal block has eigenvalues of
+    similar moduli. The two vectors of a complex pair keep turning in their plane, so they stay in
+    one block.
     """
     m, n = factors.shape[:2]
     if m == 1:
         return np.linalg.eigvals(factors[0]).astype(complex)
-    blocks, cuts = np.empty((n, n)), np.zeros(n + 1, int)
-    groups = separate(np.ascontiguousarray(factors), APART, SWEEPS, SETTLED, COUPLED, blocks, cuts)
-    values = np.diagonal(blocks).astype(complex)
-    for begin, end in zip(cuts[:groups], cuts[1:], strict=False):
-        if end > begin + 1:
-            values[begin:end] = np.linalg.eigvals(blocks[begin:end, begin:end])
+    basis, triangles = np.eye(n), np.empty((m, n, n))
+    for _ in range(SWEEPS):
+        first = basis
+        for k, factor in enumerate(factors):
+            basis, triangles[k] = np.linalg.qr(factor @ basis)
+        turned = first.T @ basis
+        sizes = np.sum(np.log(np.abs(triangles.diagonal(axis1=1, axis2=2)) + 1e-300), axis=0)
+        coupling = np.array([np.max(np.abs(turned[j:, :j])) for j in range(1, n)])
+        apart = -np.diff(sizes) > np.log(APART)
+        if np.max(coupling[apart], initial=0.0) < SETTLED:
+            break
+    cuts = np.flatnonzero(apart & (coupling < COUPLED)) + 1
+    values = np.empty(n, complex)
+    for block in map(slice, [0, *cuts], [*cuts, n]):
+        product = turned[block, block]
+        for triangle in triangles[::-1]:
+            product = product @ triangle[block, block]
+        values[block] = np.linalg.eigvals(product)
     return values
 
 
