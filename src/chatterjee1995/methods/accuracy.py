@@ -97,6 +97,14 @@ def reference_of(scene, stored):
     return Reference(np.array(stored["state"]), times, stored["amplitude"])
 
 
+def accuracy(
+    system, damper, *, name, frequency, state, periods, motion, accuracy, settings, references
+):
+    """Return `error_against_work` for a scene; `references` are those of all scenes, by name."""
+    scene = ComparisonScene(name, system, damper, frequency, state, periods, motion, accuracy)
+    return error_against_work(scene, settings, references.get(name))
+
+
 def error_against_work(scene, settings, stored=None):
     """Return errors and work of each method on a test case (scene).
 

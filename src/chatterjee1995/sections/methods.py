@@ -213,7 +213,7 @@ class Scene(MaybeWithDamper):
             yield problem((*path, "accuracy", "quantity"), self.accuracy.quantity, reason)
 
     @stage(
-        "chatterjee1995.stages.accuracy:accuracy",
+        "chatterjee1995.methods.accuracy:accuracy",
         "Errors of methods against counted work, {name}",
         name="accuracy",
         files={"references": "workflow/resources/references.json"},

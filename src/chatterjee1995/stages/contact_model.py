@@ -1,11 +1,8 @@
 """Map of the contact model over restitution and load, and the loads of simulated motions.
 
-Equation (25) of the paper gives the dashpot with which a contact has the restitution e if no other
-force acts and the contact ends at zero penetration. Other forces cause an acceleration g towards
-the wall, the load G = g/(wn v0) with the natural frequency wn of the contact and the approach speed
-v0. At the end of a contact the dashpot pulls the loose mass; with walls that cannot pull the
-contact ends sooner. The map gives the restitution under load for both rules for the end (exit
-rules). The contacts of simulated motions show which loads occur.
+Other forces than the contact's cause an acceleration g towards the wall, the load G = g/(wn v0)
+with the natural frequency wn of the contact and the approach speed v0. The map gives the
+restitution under load for two rules for the end of a contact (`theory.contact_law`).
 """
 
 from dataclasses import replace
@@ -63,35 +60,9 @@ def contact_model(
 ):
     """Compute the contact for each restitution and load, and the loads of simulated motions.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-        Its restitution is replaced by the values in `used`.
-    frequencies : sequence of float
-        Increasing forcing frequencies W of the motions.
-    restitutions, loads : sequence of float
-        Increasing e and G of the map.
-    used : sequence of float
-        Increasing restitutions of the motions.
-    starts : int
-        Number of random starts of the search for motions at each restitution and frequency.
-    periods : int
-        Forcing cycles over which the contacts of a motion are recorded.
-    seed : int
-    settling : Settling, optional
-
-    Returns
-    -------
-    xarray.Dataset
-        For each (exit_rule, load, restitution) the contact in closed form; for each restitution
-        `used` the same without load; and the load of each `contact` of the smallest and of the
-        largest motion found at each restitution `used` and each frequency.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is out of range; the message names it.
+    `used` are the restitutions of the motions: at each of them and each frequency, the contacts of
+    the smallest and of the largest motion found from `starts` random starts are recorded over
+    `periods` forcing cycles. `restitutions` and `loads` are the axes of the map.
     """
     settling = check_settling(settling)
     check_damper(damper)
@@ -189,26 +160,9 @@ def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
 def contacts_of(oscillator, damper, frequency, state, periods):
     """Return load and restitution of the contacts of a motion within forcing cycles.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-    frequency : float
-        W.
-    state : array, shape (4,)
-        Z1, Z1', Z2, Z2' at W T = pi/2.
-    periods : int
-
-    Returns
-    -------
-    dict of numpy.ndarray
-        `load` at the beginning of each contact, and `restitution`, speed of departure divided by
-        speed of approach. Contacts that do not both begin and end within the time are omitted.
-
-    Raises
-    ------
-    ValueError
-        If there are more than LARGEST_LOG contacts.
+    `state` is Z1, Z1', Z2, Z2' at W T = pi/2. The load is taken at the beginning of each contact, and
+    the restitution is the speed of departure divided by the speed of approach. Contacts that do not
+    both begin and end within the time are omitted.
     """
     p = pack(oscillator, damper, frequency)
     begin = strobe_map.strobe_time(p)

@@ -1,11 +1,7 @@
-"""The exact quiet orbit at the design point (peak frequency Wp) of a damper, stable or unstable.
+"""The exact quiet orbit at the peak frequency Wp of a damper, stable or unstable.
 
-The quiet orbit is the periodic motion for which a damper is designed. It has period 1 and two
-contacts per cycle. The orbit may be unstable, so that no simulation settles on it. With heavy
-damping motions do settle on it. From there the orbit is followed by Newton's method down to the
-damping h of the oscillator.
-
-A start is an initial state.
+The orbit may be unstable, so that no simulation settles on it. With heavy damping motions do settle
+on it. From there the orbit is followed by Newton's method down to the damping h of the oscillator.
 """
 
 from dataclasses import replace
@@ -32,27 +28,9 @@ HEAVY, HEAVY_SHARE = 2.0, 0.5
 def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settling=None):
     """Find the quiet orbit at the peak frequency Wp, and follow it in the damping h.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-    starts, radius
-        Number and radius of the random starts, as in `response.frequency_response`.
-    seed : int
-    settling : Settling, optional
-
-    Returns
-    -------
-    xarray.Dataset
-        The variables of `orbit_branches` for the orbits over the damping, from the h of the
-        oscillator up to the heavy damping; `design_orbit_status`, whether the orbit was found and
-        followed down to the h of the oscillator; for each `design_start` the outcome of a run from
-        this start with this h; and `peak_frequency`.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If there is no damper, or an argument is out of range.
+    The dataset has the variables of `orbit_branches` over the damping, from the h of the oscillator
+    up to the heavy damping; whether the orbit was found and followed down to the h of the
+    oscillator; and for each `design_start` the outcome of a run from this start with this h.
     """
     check_damper(damper)
     check_count("seed", seed, **SEED_RANGE)

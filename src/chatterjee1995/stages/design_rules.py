@@ -1,15 +1,9 @@
 """Accuracy of each design rule: the clearance it predicts, compared with the exact optimum.
 
-The optimum is the clearance at which the quiet orbit has the smallest displacement. The quiet orbit
-is the periodic motion for which a damper is designed: it is symmetric and has period 1 and two
-contacts per cycle. Newton's method finds the orbit, stable or unstable. Its first guess is the
-theory of straight flight (`theory.straight_flight`), in which the loose mass flies at constant
-speed between the walls. Clearances d0 are given as the ratio rm W^2 d0/f, with the mass ratio rm,
-the forcing frequency W and the forcing amplitude f. This ratio is 1 by rule (18) of the paper.
-Displacements are given as W^2 Z1/f.
-
-Z1 is the displacement of the primary mass, W T the phase of the forcing, d0 the clearance and r1
-the contact stiffness.
+The optimum is the clearance at which the quiet orbit, stable or unstable, has the smallest
+displacement. Newton's method finds the orbit, from the theory of straight flight as first guess.
+Clearances are given as the ratio rm W^2 d0/f with the forcing amplitude f, which is 1 by rule (18)
+of the paper, and displacements as W^2 Z1/f.
 """
 
 import itertools
@@ -53,36 +47,10 @@ def design_rules(
 ):
     """Find the optimum clearance of each damper and frequency of a grid, and the errors of rules.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    mass_ratios, restitutions, contact_stiffnesses, frequencies : sequence of float
-        rm, e, r1 and W, each increasing; every combination is computed.
-    progress : str, optional
-        Label of a progress bar.
-
-    Returns
-    -------
-    xarray.Dataset
-        The criterion of the optimum is the smallest max |Z1| or the smallest first harmonic of Z1.
-        For each criterion: the ratio rm W^2 d0/f at the optimum, the minimum in units of f/W^2, the
-        kind of minimum, stability, and the modulus of the dominant Floquet multiplier. For each
-        `rule`: the ratio rm W^2 d0/f that the rule predicts, and the fraction by which max |Z1| at
-        this ratio exceeds the smallest max |Z1|. The rules:
-
-        - balance, equation (18): 1;
-        - gap_harmonic, pi^2/8: condition (18), derived again for a loose mass that crosses the gap
-          in straight flight;
-        - straight_flight: straight flight between rigid walls, for a machine without damping and
-          stiffness;
-        - elastic: the closed form `straight_flight.elastic_ratios`, which holds for e = 1 only;
-          NaN for e < 1;
-        - flight: straight flight with all corrections, `straight_flight.Flight`.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If a sequence does not increase or a value is out of range.
+    Every combination of the increasing values of rm, e, r1 and W is computed. The criterion of the
+    optimum is the smallest max |Z1| or the smallest first harmonic of Z1. For each criterion the
+    dataset has the ratio at the optimum and by each rule (`optimum_clearance.rule_ratios`), and the
+    fraction by which max |Z1| at the ratio of a rule exceeds the smallest max |Z1|.
     """
     given = {
         name: read_increasing(UNITLESS, name, values)
@@ -136,13 +104,7 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 class QuietMotion:
     """The quiet orbit as a function of the ratio rm W^2 d0/f.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-        Its clearance is ignored.
-    frequency : float
-        W.
+    The clearance of the damper is ignored.
     """
 
     def __init__(self, oscillator, damper, frequency):

@@ -42,12 +42,10 @@ HELD = np.dtype(
 class Outcome(NamedTuple):
     """Results of n trials, arrays of shape (n,).
 
-    Attributes
-    ----------
-    reached : whether the goal was reached within the limit
-    cycles : forcing cycles until the free motion settles to the goal, infinite if it does not
-    damper : forcing cycles with the damper on
-    impacts, releases : numbers of contacts and of releases
+    reached: Whether the goal was reached within the limit.
+    cycles: Forcing cycles until the free motion settles to the goal, infinite if it does not.
+    damper: Forcing cycles with the damper on.
+    impacts, releases: Numbers of contacts and of releases.
     """
 
     reached: np.ndarray
@@ -72,32 +70,10 @@ def release_policies(
 ):
     """Compare rules of release for several dampers, over frequency.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    dampers : list of Damper
-    frequencies : sequence of float
-        Forcing frequencies at which both free motions of period 1 exist.
-    trials : int
-        Trials of each rule.
-    tested : int
-        Releases spread evenly over the phases, ten cycles after the damper is switched on.
-    cells : int
-        Cells on each axis of the coarse grid of a release set.
-    seed : int
-    settling : Settling, optional
-    workers : int
-        Threads; the result does not depend on it.
-    progress : str, optional
-        Unused; jobs pass it to every stage.
-
-    Returns
-    -------
-    xarray.Dataset
-        A case is a damper. For each (case, frequency, policy) the share of trials that reach the
-        goal within 350 cycles, quantiles of the cycles until the goal, and the cost (time with the
-        damper on, impacts, releases), with 95 % intervals; and the share of the `tested` releases
-        that lead to the goal.
+    At all frequencies both free motions of period 1 must exist. Each rule has `trials` trials. The
+    share that leads to the goal of `tested` releases, ten cycles after the damper is switched on and
+    spread evenly over the phases, is counted too. `cells` are the cells on each axis of the coarse
+    grid of a release set; `progress` is unused, jobs pass it to every stage.
     """
     settling = check_settling(settling)
     check_count("trials", trials, **RUNS_RANGE)
@@ -237,20 +213,10 @@ class Trials(NamedTuple):
 def hold_many(on, off, starts, draws, limits, rule, depth, half, tolerance, held, stop):
     """Switch the damper on, `hold`, and run the free motion to the next strobe, for each trial.
 
-    Parameters
-    ----------
-    on, off : array, shape (packed.COUNT,)
-        Packed parameters with and without the damper.
-    starts : array, shape (n, 2)
-        Z1 and Z1' at the strobe before switching on.
-    draws : array, shape (n, 3 or more)
-        Numbers between 0 and 1: phase of switching on, place of the loose mass, phase of release.
-    limits : array, shape (n,)
-        Argument `limit` of `hold`; rule, depth, half and tolerance are the same for all trials.
-    held : array of HELD, shape (n,)
-        Receives the results.
-    stop : array of bool, shape (1,)
-        Another thread may set this flag to end the run.
+    `on` and `off` are packed parameters, `starts` (n, 2) Z1 and Z1' at the strobe before switching
+    on, `draws` (n, 3 or more) numbers between 0 and 1 for the phase of switching on, the place of
+    the loose mass and the phase of release. `held` receives the results. Another thread may set
+    `stop` to end the run. The other arguments are those of `hold`.
     """
     none, path, work, y = np.empty((0, 4)), np.empty((0, 5)), workspace(), np.empty(4)
     period, first = 2.0 * math.pi / on[FREQUENCY], strobe_time(on)

@@ -35,33 +35,9 @@ def rigid_limit(
 ):
     """Compare rigid impacts with compliant contact at each frequency and stiffness.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-    frequency : float
-        Frequency W at which the quiet motion is searched for, with the damper's own r1.
-    frequencies, stiffnesses : sequence of float
-        Increasing W and r1 of the grid; at least two each.
-    starts : int
-        Number of random initial states from which the quiet motion is searched for.
-    seed : int
-    settling : Settling, optional
-
-    Returns
-    -------
-    xarray.Dataset
-        For each (frequency, stiffness) errors and verdict (whether both orbits exist and are
-        stable); for each `frequency` the exponents n with which errors decrease as r1^-n, and the
-        stiffness above which the error of max |Z1| is below each of THRESHOLDS; errors at the
-        damper's own r1 as scalars.
-
-    Raises
-    ------
-    ArithmeticError
-        If no start leads to a quiet motion, or its orbit cannot be followed into the grid.
-    TypeError, ValueError
-        If an argument is out of range; the message names it.
+    The quiet motion is searched for at `frequency`, from random starts, with the damper's own r1.
+    `frequencies` and `stiffnesses` are the axes of the grid. An ArithmeticError says that no start
+    leads to a quiet motion, or that its orbit cannot be followed into the grid.
     """
     check_damper(damper)
     check_count("starts", starts, **RUNS_RANGE)
@@ -96,13 +72,7 @@ def rigid_limit(
 
 
 def _quiet(oscillator, damper, frequency, starts, seed, settling):
-    """Return the quiet orbit to which random starts lead.
-
-    Raises
-    ------
-    ArithmeticError
-        If no start leads to a quiet orbit.
-    """
+    """Return the quiet orbit to which random starts lead; ArithmeticError if there is none."""
     motion, _ = extreme_motions(oscillator, damper, frequency, starts, seed, settling)
     if motion is not None and motion["period"] == 1:
         p = pack(oscillator, damper, frequency)
@@ -127,10 +97,7 @@ def _spread(correct, points, cell, own_point, orbit):
 def _reached(followed, key):
     """Return the orbit at the end of the line along which it was followed.
 
-    Raises
-    ------
-    ArithmeticError
-        If the end was not reached. The message names `key`, the axis of the grid.
+    If it was not reached, an ArithmeticError names `key`, the axis of the grid.
     """
     if not followed.arrived:
         raise ArithmeticError(f"{key}: the quiet motion cannot be followed into this grid")
