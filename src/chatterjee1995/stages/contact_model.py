@@ -160,7 +160,7 @@ def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
 def contacts_of(oscillator, damper, frequency, state, periods):
     """Return load and restitution of the contacts of a motion within forcing cycles.
 
-    `state` is Z1, Z1', Z2, Z2' at W T = pi/2. The load is taken at the beginning of each contact, and
+    `state` is Z1, Z1', Z2, Z2' at W T = pi/2. The load is taken at the beginning of a contact, and
     the restitution is the speed of departure divided by the speed of approach. Contacts that do not
     both begin and end within the time are omitted.
     """

@@ -71,8 +71,8 @@ def release_policies(
     """Compare rules of release for several dampers, over frequency.
 
     At all frequencies both free motions of period 1 must exist. Each rule has `trials` trials. The
-    share that leads to the goal of `tested` releases, ten cycles after the damper is switched on and
-    spread evenly over the phases, is counted too. `cells` are the cells on each axis of the coarse
+    share that leads to the goal of `tested` releases is counted too, ten cycles after the damper is
+    switched on and spread evenly over the phases. `cells` are the cells on each axis of the coarse
     grid of a release set; `progress` is unused, jobs pass it to every stage.
     """
     settling = check_settling(settling)
