@@ -14,9 +14,8 @@ from impact_damper.plot.style import (
     GREY,
     PALE,
     SKY,
-    figure,
+    grid,
     legend,
-    letter_panels,
     style,
 )
 
@@ -49,15 +48,10 @@ DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 @style()
 def draw_accuracy(*, accuracy):
     """Draw a panel for each dataset of the stage accuracy, a colour and marker for each method."""
-    rows = -(-len(accuracy) // 2)
-    drawn = figure("double", 1.5 + 2.4 * rows)
-    panels = drawn.subplots(rows, min(2, len(accuracy)), squeeze=False).ravel()
-    for axes, data in zip(panels, accuracy, strict=False):
+    drawn, panels = grid(len(accuracy), 2.4, 1.5)
+    for axes, data in zip(panels, accuracy, strict=True):
         _panel(axes, data)
-    for axes in panels[len(accuracy) :]:
-        axes.set_axis_off()
-    letter_panels(panels[: len(accuracy)])
-    for axes in panels[max(0, len(accuracy) - 2) : len(accuracy)]:
+    for axes in panels[-2:]:
         axes.set_xlabel("Floating-point operations")
     legend(drawn, 4)
     return drawn

@@ -11,25 +11,23 @@ from impact_damper.plot.style import (
     BLACK,
     GREY,
     ORANGE,
-    ROLES,
     SKY,
     axis_label,
     curve,
     figure,
+    grid,
     legend,
-    letter_panels,
+    markers,
     parameter_label,
     points,
     style,
 )
+from impact_damper.plot.sweeps import OPTIMUM
 from impact_damper.plot.sweeps import sweep as sweep_plot
 
+UNSTABLE = markers("optimum with an unstable motion", BLACK, "x", markersize=5.5)
 # Parameters that a dataset can sweep, with the scale of their axis.
-SWEPT = {
-    "restitution": "linear",
-    "contact_stiffness": "log",
-    "frequency": "linear",
-}
+SWEPT = {"restitution": "linear", "contact_stiffness": "log", "frequency": "linear"}
 TITLES = {
     "displacement": "optimum of the largest displacement",
     "first_harmonic": "optimum of the first harmonic",
@@ -48,8 +46,6 @@ LOOKS = {
     "elastic": {"color": ORANGE},
     "flight": {"color": BLACK, "linewidth": 1.8},
 }
-
-
 # Hatching of the cells of a study in which not all motions settled.
 UNSETTLED = {"hatch": "////", "edgecolor": BLACK, "linewidth": 0}
 
@@ -69,55 +65,34 @@ def draw_design_rules(*, design_rules):
 
     A dataset in which exactly one parameter is swept in addition to the mass ratio gets a panel.
     """
-    sweeps = [(data, _swept(data)) for data in design_rules]
-    sweeps = [(data, names[0]) for data, names in sweeps if len(names) == 1]
-    rows = -(-len(sweeps) // 2) + 1
-    drawn = figure("double", 1.9 * rows + 1.3)
-    panels = drawn.subplots(rows, 2, squeeze=False)
-    upper = panels[:-1].ravel()
-    for axes, (data, name) in zip(upper, sweeps, strict=False):
+    swept = [[name for name in SWEPT if data.sizes[name] > 1] for data in design_rules]
+    sweeps = [
+        (d, names[0]) for d, names in zip(design_rules, swept, strict=True) if len(names) == 1
+    ]
+    drawn, panels = grid(len(sweeps) + len(TITLES), 1.9, 1.3)
+    for axes, (data, name) in zip(panels, sweeps, strict=False):
         _draw_sweep(axes, data.sel(criterion="displacement"), name)
-    for axes in upper[len(sweeps) :]:
-        axes.set_axis_off()
-    for axes, (criterion, words) in zip(panels[-1], TITLES.items(), strict=True):
+    for axes, (criterion, words) in zip(panels[len(sweeps) :], TITLES.items(), strict=True):
         _draw_errors(axes, [data.sel(criterion=criterion) for data in design_rules])
         axes.set_title(words)
-    letter_panels([*upper[: len(sweeps)], *panels[-1]])
     legend(drawn, 3)
     return drawn
-
-
-def _swept(data):
-    """Return the names of the parameters, except the mass ratio, that have several values."""
-    return [name for name in SWEPT if data.sizes[name] > 1]
 
 
 def _draw_sweep(axes, data, name):
     """Draw optima (points) and rules (lines) against one parameter, for each mass ratio."""
     data = data.squeeze([other for other in SWEPT if other != name], drop=True)
-    unstable = data["best_stability"] == flag("best_stability", "unstable")
     for index, mass_ratio in enumerate(data["mass_ratio"].values):
         one = data.sel(mass_ratio=mass_ratio)
-        axes.plot(
-            one[name],
-            one["best_ratio"],
-            **points(index),
-            label=f"$r_m = {mass_ratio:g}$: optimum, and flight with corrections (line)",
-        )
+        words = f"$r_m = {mass_ratio:g}$: optimum, and flight with corrections (line)"
+        axes.plot(one[name], one["best_ratio"], **points(index), label=words)
         axes.plot(one[name], one["rule_ratio"].sel(rule="flight"), **curve(index))
     for rule in ("balance", "gap_harmonic"):
         level = data["rule_ratio"].sel(rule=rule).values.flat[0]
         axes.axhline(level, **LOOKS[rule], label=RULES[rule])
+    unstable = data["best_stability"] == flag("best_stability", "unstable")
     crossed = data["best_ratio"].where(unstable).stack(cell=[...])
-    axes.plot(
-        crossed[name],
-        crossed,
-        color=BLACK,
-        marker="x",
-        linestyle="none",
-        markersize=5.5,
-        label="optimum with an unstable motion",
-    )
+    axes.plot(crossed[name], crossed, **UNSTABLE)
     words = parameter_label(parameters_of(data), "damping", "linear_frequency")
     axes.set(
         xlabel=f"{axis_label(data[name])} ({words})",
@@ -135,9 +110,7 @@ def _draw_errors(axes, datasets):
                 for data in datasets
             ]
         )
-        known = np.sort(100 * errors[np.isfinite(errors)])
-        share = np.arange(1, len(known) + 1) / len(known)
-        axes.step(known, share, where="post", **LOOKS[rule], label=words)
+        axes.ecdf(100 * errors[np.isfinite(errors)], **LOOKS[rule], label=words)
     axes.set(
         xscale="log", xlim=(1e-2, 300), xlabel="Error of the rule, %", ylabel="Share of optima"
     )
@@ -172,15 +145,13 @@ def draw_studies(*, studies):
 
 def _draw_study(axes, data, norm):
     """Draw one panel, and return its coloured mesh."""
-    grid = data["mass_ratio"].values, data["clearance"].values
-    shown = mesh(axes, *grid, data["largest_displacement"].values.T, norm)
+    plane = data["mass_ratio"].values, data["clearance"].values
+    shown = mesh(axes, *plane, data["largest_displacement"].values.T, norm)
     settled = data["outcome_count"].sel(counted_outcome=["settled", "non_colliding"])
     part = settled.sum("counted_outcome").values.T < parameters_of(data)["starts"]
-    if part.any():
-        hatch(axes, *grid, part, **UNSETTLED)
-    axes.fill([], [], facecolor="none", label="not all motions settled", **UNSETTLED)
-    axes.plot(grid[0], data["rule_clearance"], color=BLACK, label=r"$r_m \Omega^2 d_0 = 1$")
-    best = ROLES["optimum"] | {"label": "smallest at this mass ratio"}
-    axes.plot(grid[0], data["best_clearance"], **best)
-    axes.set_ylim(edges_of(grid[1])[[0, -1]])
+    hatch(axes, *plane, part, label="not all motions settled", **UNSETTLED)
+    axes.plot(plane[0], data["rule_clearance"], color=BLACK, label=r"$r_m \Omega^2 d_0 = 1$")
+    best = OPTIMUM | {"label": "smallest at this mass ratio"}
+    axes.plot(plane[0], data["best_clearance"], **best)
+    axes.set_ylim(edges_of(plane[1])[[0, -1]])
     return shown

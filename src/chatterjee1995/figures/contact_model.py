@@ -5,10 +5,9 @@ from matplotlib.colors import LogNorm
 from matplotlib.ticker import FuncFormatter
 
 from impact_damper.data.datasets import flag
-from impact_damper.plot.maps import contours, key, marked, mesh
+from impact_damper.plot.maps import contours, marked, mesh
 from impact_damper.plot.style import (
     BLACK,
-    PALE,
     PALE_ORANGE,
     VERMILION,
     axis_label,
@@ -20,7 +19,7 @@ from impact_damper.plot.style import (
 
 # Rules for the end of a contact, and titles of their panels.
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
-LINES = {0.01: "solid", 0.05: "dotted"}  # error -> line of its contour
+LEVELS = 0.01, 0.05  # errors with a contour line
 # The load axis is linear below this value and logarithmic above.
 LINEAR = 1e-3
 # Looks of the contacts of motions, in the order of the coordinate `size` of the dataset.
@@ -44,11 +43,11 @@ def draw_contact_model(*, contact_model):
     for axes, (rule, words) in zip(panels, RULES.items(), strict=True):
         cell = data.sel(exit_rule=rule)
         error = np.abs(cell["realised_restitution"].values / x - 1)
-        cells = mesh(axes, x, y, np.maximum(error, norm.vmin), norm)
-        for level, line in LINES.items():
-            contours(axes, x, y, error, level, line)
+        shown = np.maximum(error, norm.vmin)
+        cells = mesh(axes, x, y, shown, norm, "the contact does not end")
+        contours(axes, x, y, error, LEVELS)
         back = cell["contact_verdict"].values == flag("contact_verdict", "falls_back")
-        marked(axes, x, y, back, PALE_ORANGE)
+        marked(axes, x, y, back, PALE_ORANGE, "the loose mass falls back")
         axes.set_yscale("symlog", linthresh=LINEAR)
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axes.set_title(words)
@@ -56,28 +55,18 @@ def draw_contact_model(*, contact_model):
     label = "|realised $e$ / intended $e$ $-$ 1|"
     drawn.colorbar(cells, ax=panels, label=label, extend="both")
     for case in contact_model:
-        draw_contacts(panels[0], case)
-    for level, line in LINES.items():
-        panels[0].plot([], [], color=BLACK, linestyle=line, label=f"error of {100 * level:g} %")
-    key(panels[0], "the contact does not end", PALE, "////")
-    key(panels[0], "the loose mass falls back", PALE_ORANGE)
+        _draw_contacts(panels[0], case)
     panels[0].set_ylabel(r"Load in contact, $g/(\omega_n v_0)$")
     letter_panels(panels)
     legend(drawn, 3)
     return drawn
 
 
-def draw_contacts(axes, data):
+def _draw_contacts(axes, data):
     """Draw the contacts of the simulated motions, at the restitution of their damper."""
     used = data["used"].values[data["contact_used"].values]
-    size = data["contact_size"].values
-    load = data["contact_load"].values
+    load, size = data["contact_load"].values, data["contact_size"].values
     for place in reversed(range(len(MOTIONS))):
-        chosen = size == place
-        axes.plot(
-            used[chosen],
-            load[chosen],
-            linestyle="none",
-            label=f"contacts of the {data['size'].values[place]} simulated motions",
-            **MOTIONS[place],
-        )
+        chosen, words = size == place, data["size"].values[place]
+        label = f"contacts of the {words} simulated motions"
+        axes.plot(used[chosen], load[chosen], linestyle="none", label=label, **MOTIONS[place])

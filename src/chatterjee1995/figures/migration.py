@@ -3,30 +3,37 @@
 import numpy as np
 
 from chatterjee1995.variables import POLICIES
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import flag, named, parameters_of
 from impact_damper.plot.basin_plane import basins as basins_plot
 from impact_damper.plot.motions import migration as migration_plot
 from impact_damper.plot.style import (
+    BLACK,
+    BLUE,
     CURVES,
-    ROLES,
+    GREEN,
+    ORANGE,
+    VERMILION,
     axis_label,
     curve,
     figure,
-    forcing_period,
+    grid,
     legend,
     letter_panels,
+    markers,
     parameter_label,
     style,
 )
 
 AROUND = -15, 25  # cycles from the last release at which the panel around it begins and ends
-# Role of each destination of a release, and panel title of each motion with damper.
+# Look of each destination of a release, and panel title of each motion with damper.
 DESTINATIONS = {
-    "non_resonance": "non_resonance",
-    "subharmonic": "subharmonic",
-    "resonance": "resonance",
-    "other": "other",
-    "unresolved": "lost",
+    "non_resonance": markers(
+        "released to the non-resonance motion", BLUE, ".", markerfacecolor=BLUE
+    ),
+    "subharmonic": markers("released to the one-third subharmonic", VERMILION, "^"),
+    "resonance": markers("released to the resonance motion", BLACK, "+"),
+    "other": markers("released to another motion", GREEN, "d"),
+    "unresolved": markers("not settled after the release", ORANGE, "*"),
 }
 MOTIONS = {
     "unsettled": "before it has settled",
@@ -34,6 +41,7 @@ MOTIONS = {
     "violent": "violent motion",
     "subharmonic": "subharmonic motion",
 }
+DAMPER = "mass_ratio", "clearance", "restitution"
 
 
 @style({"axes.titley": None})  # keeps the letters clear of the upper axis
@@ -43,7 +51,7 @@ def draw_migration(*, migration):
     panels = drawn.subplots(2 * len(migration), 1, squeeze=False)[:, 0]
     for runs, whole, part in zip(migration, panels[::2], panels[1::2], strict=True):
         run = runs.isel(trial=int(runs["example"]))
-        period = forcing_period(run)
+        period = 2 * np.pi / parameters_of(run)["frequency"]
         migration_plot(run, whole)
         migration_plot(run, part, np.nanmax(run["off_time"]) + period * np.array(AROUND))
         above = whole.secondary_xaxis("top", (lambda t, p=period: t / p, lambda n, p=period: n * p))
@@ -61,53 +69,34 @@ def draw_release(*, migration):
     """Draw the states at which the damper is switched off, with a marker for each destination."""
     sources = [(runs, row) for runs in migration for row in range(runs.sizes["damped"])]
     columns = 3 if len(sources) % 3 == 0 else 2
-    rows = -(-len(sources) // columns)
-    drawn = figure("double", 0.6 + 2.6 * rows)
-    panels = drawn.subplots(rows, columns, squeeze=False).ravel()
-    for axes, (runs, row) in zip(panels, sources, strict=False):
+    drawn, panels = grid(len(sources), 2.6, 0.6, columns)
+    for axes, (runs, row) in zip(panels, sources, strict=True):
         _draw_releases(axes, runs.isel(damped=row))
-    for axes in panels[len(sources) :]:
-        axes.remove()
     # of three panels in a row only the middle one has a label: three labels would overlap
-    for axes in panels[1::3] if columns == 3 else panels[: len(sources)]:
+    for axes in panels[1::3] if columns == 3 else panels:
         axes.set_xlabel(axis_label(migration[0]["release_displacement"]))
     drawn.supylabel(axis_label(migration[0]["release_velocity"]), fontsize="medium")
-    letter_panels(panels[: len(sources)])
     legend(drawn, 3)
     return drawn
 
 
 def _draw_releases(axes, releases):
     """Draw the releases from one motion with damper."""
-    for destination, role in DESTINATIONS.items():
+    for destination, look in DESTINATIONS.items():
         value = flag("release_destination", destination)
         chosen = releases["release_destination"].values == value
         if chosen.any():
-            axes.plot(
-                releases["release_displacement"].values[chosen],
-                releases["release_velocity"].values[chosen],
-                **ROLES[role],
-            )
-    (words,) = (
-        words
-        for kind, words in MOTIONS.items()
-        if releases["damped_kind"] == flag("damped_kind", kind)
-    )
-    axes.set_title(words)
+            x, y = releases["release_displacement"], releases["release_velocity"]
+            axes.plot(x[chosen], y[chosen], **look)
+    axes.set_title(MOTIONS[named(releases, "damped_kind")])
 
 
 @style({"axes.titley": None})
 def draw_basins(*, basins):
     """Draw the basins of each dataset, with its attractors and unstable orbits."""
-    columns = min(len(basins), 2)
-    rows = -(-len(basins) // columns)
-    drawn = figure("double", 0.2 + (3.4 if columns == 2 else 4.6) * rows)
-    panels = drawn.subplots(rows, columns, squeeze=False).ravel()
-    for axes, data in zip(panels, basins, strict=False):
+    drawn, panels = grid(len(basins), 3.4 if len(basins) > 1 else 4.6, 0.2)
+    for axes, data in zip(panels, basins, strict=True):
         basins_plot(data, axes)
-    for axes in panels[len(basins) :]:
-        axes.remove()
-    letter_panels(panels[: len(basins)])
     return drawn
 
 
@@ -119,19 +108,14 @@ def draw_release_policies(*, release_policies):
     panels = drawn.subplots(2, data.sizes["case"], sharex=True, sharey="row", squeeze=False)
     for case, (above, below) in enumerate(panels.T):
         one = data.isel(case=case)
-        above.set_title(_case_label(one), fontsize=7.5, loc="right")
+        damper = {name: float(one[f"case_{name}"]) for name in DAMPER}
+        above.set_title(parameter_label(damper, *DAMPER), fontsize=7.5, loc="right")
         _draw_case(above, below, one)
     panels[0, 0].set_ylabel("Share within 350 cycles")
     panels[1, 0].set_ylabel("Median of the cycles")
     letter_panels(panels.ravel())
     legend(drawn, 3)
     return drawn
-
-
-def _case_label(one):
-    """Return symbols and values of the damper of a case."""
-    names = "mass_ratio", "clearance", "restitution"
-    return parameter_label({name: float(one[f"case_{name}"]) for name in names}, *names)
 
 
 def _draw_case(above, below, one):
@@ -144,19 +128,10 @@ def _draw_case(above, below, one):
         # side by side, so that intervals do not hide each other
         above.errorbar(frequency + 0.004 * (k - 1.5), success[:, 0], spread, capsize=1.5, **look)
         cycles = one["policy_cycles"].sel(policy=policy, quantile=0.5).values
-        _draw_bounded(below, frequency + 0.004 * (k - 1.5), cycles, look)
+        middle = np.where(np.isfinite(cycles[:, 0]), cycles[:, 0], np.nan)
+        # an infinite upper end becomes a bar that leaves the panel
+        spread = middle - cycles[:, 1], np.minimum(cycles[:, 2], 1e6) - middle
+        below.errorbar(frequency + 0.004 * (k - 1.5), middle, spread, capsize=1.5, **look)
     ends = frequency[0] - 0.03, frequency[-1] + 0.03
     above.set(xlim=ends, ylim=(-0.05, 1.05))
     below.set(yscale="log", ylim=(8, 400), xlabel=axis_label(one["frequency"]))
-
-
-def _draw_bounded(axes, places, values, look):
-    """Draw values with their intervals.
-
-    `values` has the shape (n, 3): value, lower and upper end. An infinite upper end is drawn as a
-    bar that leaves the panel.
-    """
-    values = values[:, 0], values[:, 1], np.minimum(values[:, 2], 1e6)
-    middle = np.where(np.isfinite(values[0]), values[0], np.nan)
-    spread = middle - values[1], values[2] - middle
-    axes.errorbar(places, middle, spread, capsize=1.5, **look)

@@ -10,9 +10,8 @@ from impact_damper.plot.style import (
     SKY,
     VERMILION,
     axis_label,
-    figure,
+    grid,
     legend,
-    letter_panels,
     style,
 )
 
@@ -23,29 +22,19 @@ COLUMNS = 3  # panels side by side
 def draw_missed_contacts(*, missed_contacts):
     """Draw the share of contacts missed, one panel for each method, and a colour bar."""
     (data,) = missed_contacts
-    count = data.sizes["integrator"]
-    rows = -(-(count + 1) // COLUMNS)
-    drawn = figure("double", 0.8 + 1.9 * rows)
-    panels = drawn.subplots(rows, COLUMNS, sharex=True).ravel()
-    for k, (axes, name) in enumerate(zip(panels, data["integrator"].values, strict=False)):
+    drawn, panels = grid(data.sizes["integrator"], 1.9, 0.8, COLUMNS)
+    for k, (axes, name) in enumerate(zip(panels, data["integrator"].values, strict=True)):
         image = _panel(axes, data, name)
         axes.set_title(integrators()[name].title, loc="right", fontsize=8)
         if integrators()[name].fixed:
             axes.set_ylabel("Steps a cycle")
         elif k % COLUMNS == 0:
             axes.set_ylabel(axis_label(data["method_tolerance"]))
-        if k + COLUMNS >= count:
+        if k + COLUMNS >= len(panels):
             axes.set_xlabel("Depth beyond the wall")
-            axes.xaxis.set_tick_params(labelbottom=True)
-    for axes in panels[count:]:
-        axes.set_axis_off()
-    place = panels[-1].inset_axes((0.1, 0.55, 0.85, 0.08))
-    bar = drawn.colorbar(image, cax=place, orientation="horizontal")
-    bar.set_label("Share of contacts missed")
-    first = panels[0]
-    first.plot([], [], color=BLACK, linestyle="--", label="half missed by constant steps")
-    first.plot([], [], ".", color=SKY, label="contact reported, none occurs")
-    letter_panels(panels[:count])
+    drawn.colorbar(image, ax=panels, label="Share of contacts missed")
+    panels[0].plot([], [], color=BLACK, linestyle="--", label="half missed by constant steps")
+    panels[0].plot([], [], ".", color=SKY, label="contact reported, none occurs")
     legend(drawn, 3)
     return drawn
 

@@ -1,30 +1,25 @@
 """Frequency responses, branches of orbits and shares: figures 2 to 5, 8 and 10 of the paper."""
 
-import numpy as np
-
 from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
 from impact_damper.plot.branches import branch as branch_plot
-from impact_damper.plot.branches import next_to_stable, runs
+from impact_damper.plot.branches import runs
 from impact_damper.plot.motions import phase_panel
 from impact_damper.plot.responses import response as response_plot
-from impact_damper.plot.stacked_shares import LOOKS
 from impact_damper.plot.stacked_shares import shares as shares_plot
 from impact_damper.plot.style import (
-    ROLES,
+    BLACK,
+    GREY,
     figure,
+    grid,
     legend,
     letter_panels,
     parameter_label,
     style,
 )
 
-# An inset magnifies a part of the axes with many events. All lengths are fractions of the axes.
-INSET = (0.225, 0.45)  # width and height of the inset
-LABELS = (0.05, 0.07)  # room for its labels, to the left and below
-# Left and lower sides of the inset that are tried, the upper right corner first.
-LEFTS, BOTTOMS = np.linspace(0.76, 0.06, 15), np.linspace(0.52, 0.1, 15)
-MAGNIFIED = (0.15, 0.2)  # width and height of the part that it shows
-CROWD = 4  # least number of events in this part
+# Looks of orbits without a damper behind branches of orbits with one.
+FREE = {"color": BLACK, "linewidth": 0.7, "zorder": 2.2}
+FREE_UNSTABLE = {"color": GREY, "linewidth": 0.7, "linestyle": ":", "zorder": 2.1}
 
 
 @style()
@@ -36,8 +31,7 @@ def draw_free(*, branches):
         response_plot(free, axes)
         value = free["followed_value"].values
         axes.set_xlim(value.min(), value.max())
-    if len(panels) > 1:
-        letter_panels(panels)
+    letter_panels(panels)
     legend(drawn, 2)
     return drawn
 
@@ -68,8 +62,7 @@ def draw_motion(*, motion):
     panels = drawn.subplots(1, len(motion), squeeze=False)[0]
     for axes, traced in zip(panels, motion, strict=True):
         phase_panel(axes, traced)
-    if len(panels) > 1:
-        letter_panels(panels)
+    letter_panels(panels)
     legend(drawn, 2)
     return drawn
 
@@ -93,8 +86,7 @@ def draw_response(*, response, harmonic_balance, subharmonic, branches):
         if len(kinds) > 1:
             axes.set_title(f"$e = {kind:g}$")
     panels[-1].set_xlim(response[0]["frequency"].values[[0, -1]])
-    if len(kinds) > 1:
-        letter_panels(panels)
+    letter_panels(panels)
     legend(drawn, 3)
     return drawn
 
@@ -125,65 +117,24 @@ def draw_branches(*, branches):
     for axes, data in zip(panels, damped, strict=True):
         for each in free:
             for value, size, stable in runs(each, lambda period: True):
-                role = ROLES["free_stable" if stable else "free_unstable"]
-                dashes = {} if stable else {"linestyle": ":"}
-                axes.plot(value, size, **role | dashes | {"linewidth": 0.7, "label": None})
+                look = FREE if stable else FREE_UNSTABLE
+                axes.plot(value, size, **look)
         branch_plot(data, axes)
         axes.set_ylim(bottom=0)
-        _magnify(axes, data)
     legend(drawn, 4)
     return drawn
-
-
-def _magnify(axes, data):
-    """Draw an inset that magnifies the part with most events next to stable orbits."""
-    beside = next_to_stable(data)
-    places = np.stack([data["event_value"].values, data["event_displacement"].values])[:, beside]
-    limits = np.array([axes.get_xlim(), axes.get_ylim()])
-    half = np.diff(limits) * np.array(MAGNIFIED)[:, None] / 2
-    near = np.all(np.abs(places[:, :, None] - places[:, None]) <= half[..., None], axis=0)
-    if near.sum(axis=0).max(initial=0) < CROWD:
-        return
-    middle = places[:, near[np.argmax(near.sum(axis=0))]].mean(axis=1)[:, None]
-    inset = axes.inset_axes((*_emptiest_corner(axes), *INSET))
-    branch_plot(data, inset)
-    (left, right), (bottom, top) = middle + half * [-1, 1]
-    inset.set(xlim=(left, right), ylim=(bottom, top), xlabel="", ylabel="")
-    axes.indicate_inset_zoom(inset)
-
-
-def _emptiest_corner(axes):
-    """Return the lower left corner of the inset that covers the fewest points of lines."""
-    lines = [line.get_xydata() for line in axes.lines]
-    points = axes.transLimits.transform(np.concatenate(lines))
-    corners = np.array([(left, bottom) for left in LEFTS for bottom in BOTTOMS])
-    covered = [
-        np.all((points > corner - LABELS) & (points < corner + INSET), axis=1).sum()
-        for corner in corners
-    ]
-    return corners[np.argmin(covered)]
 
 
 @style()
 def draw_shares(*, response):
     """Draw the shares of random starts over frequency, one panel for each damper."""
-    columns = min(len(response), 2)
-    rows = -(-len(response) // columns)
-    empty = rows * columns > len(response)
-    drawn = figure("double", (0.2 if empty else 0.8) + 2.3 * rows)
-    panels = drawn.subplots(rows, columns, squeeze=False, sharey=True)
-    used = panels.flat[: len(response)]
-    for axes, data in zip(used, response, strict=True):
+    drawn, panels = grid(len(response), 2.3, 0.8, sharey=True)
+    for place, (axes, data) in enumerate(zip(panels, response, strict=True)):
         shares_plot(data, axes)
         words = parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
         unseen = f"not seen: at most {100 * float(data['missed_share']):.2g} %"
         axes.set_title(f"{words}; {unseen}", loc="right", fontsize=8)
-    for axes in panels[:, 1:].flat:
-        axes.set_ylabel("")
-    if len(response) > 1:
-        letter_panels(used)
-    if empty:
-        legend(drawn, 2, order=LOOKS, place=panels.flat[-1])
-    else:
-        legend(drawn, 4, order=LOOKS)
+        if place % 2:
+            axes.set_ylabel("")
+    legend(drawn, 4)
     return drawn

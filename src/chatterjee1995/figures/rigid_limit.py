@@ -4,24 +4,22 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from impact_damper.data.datasets import parameters_of
-from impact_damper.plot.maps import contours, key, mesh
+from impact_damper.plot.maps import contours, mesh
 from impact_damper.plot.style import (
     BLACK,
     GREY,
-    PALE,
     axis_label,
     curve,
     figure,
     legend,
     letter_panels,
+    line,
     parameter_label,
     style,
 )
 
 SMALLEST = 1e-4  # lower end of the colour scale
-THRESHOLDS = ("solid", "dotted")  # lines of the contours at the thresholds of the dataset
-# Line at the stiffness r1 of the damper.
-OWN = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (6, 3))}
+OWN = line("$r_1$ of the damper", BLACK, linewidth=0.6, linestyle=(0, (6, 3)))
 
 
 @style()
@@ -32,44 +30,38 @@ def draw_rigid_limit(*, rigid_limit):
     maps = [drawn.add_subplot(grid[0, column]) for column in range(len(rigid_limit))]
     norm = LogNorm(SMALLEST, 1)
     for axes, data in zip(maps, rigid_limit, strict=True):
-        cells = draw_map(axes, data, norm)
+        cells = _draw_map(axes, data, norm)
         axes.tick_params(labelleft=axes is maps[0])
-        axes.set_title(title(data).replace(", $e", "\n$e"), fontsize=8)
+        axes.set_title(_title(data).replace(", $e", "\n$e"), fontsize=8)
         axes.set_xlabel(axis_label(data["frequency"]), fontsize=8)
-    first = maps[0]
-    first.set_ylabel(axis_label(data["stiffness"]))
+    maps[0].set_ylabel(axis_label(data["stiffness"]))
     drawn.colorbar(cells, ax=maps, label="|error of max $|Z_1|$|", extend="min")
-    for level, line in zip(data["threshold"].values, THRESHOLDS, strict=True):
-        first.plot([], [], color=BLACK, linestyle=line, label=f"error of {100 * level:g} %")
-    first.plot([], [], label="$r_1$ of the damper", **OWN)
-    key(first, "one or both motions not found", PALE, "////")
     axes = drawn.add_subplot(grid[1, :])
-    draw_orders(axes, rigid_limit)
+    _draw_orders(axes, rigid_limit)
     letter_panels([*maps, axes])
     legend(drawn, 3)
     return drawn
 
 
-def draw_map(axes, data, norm):
-    """Draw one map of an error, with frequency along x and stiffness along y."""
+def _draw_map(axes, data, norm):
+    """Draw the error over frequency and stiffness, and return its coloured mesh."""
     x, y = data["frequency"].values, data["stiffness"].values
     error = np.abs(data["rigid_error"].values.T)
-    cells = mesh(axes, x, y, np.where(error < SMALLEST, SMALLEST, error), norm)
-    for level, line in zip(data["threshold"].values, THRESHOLDS, strict=True):
-        contours(axes, x, y, error, level, line)
+    cells = mesh(axes, x, y, np.maximum(error, SMALLEST), norm, "one or both motions not found")
+    contours(axes, x, y, error, data["threshold"].values)
     axes.axhline(parameters_of(data)["contact_stiffness"], **OWN)
     axes.set_yscale("log")
     axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]])
     return cells
 
 
-def draw_orders(axes, rigid_limit):
+def _draw_orders(axes, rigid_limit):
     """Draw errors of max |Z1| against stiffness at the design frequency, with lines of powers."""
     for index, data in enumerate(rigid_limit):
         row = data.sel(frequency=parameters_of(data)["frequency"], method="nearest")
-        x, line = data["stiffness"], curve(index)
-        axes.plot(x, np.abs(row["rigid_error"]), **line, label=title(data))
-        axes.plot(x, np.abs(row["mended_error"]), **line)
+        x, look = data["stiffness"], curve(index)
+        axes.plot(x, np.abs(row["rigid_error"]), **look, label=_title(data))
+        axes.plot(x, np.abs(row["mended_error"]), **look)
     for name, height, words in (
         ("rigid_error", 2.6, "rigid walls"),
         ("mended_error", 0.1, "rigid walls, corrected"),
@@ -94,6 +86,6 @@ def draw_orders(axes, rigid_limit):
     )
 
 
-def title(data):
+def _title(data):
     """Return the parameters of a damper as text."""
     return parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")

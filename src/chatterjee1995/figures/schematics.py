@@ -3,18 +3,16 @@
 from itertools import pairwise
 
 import numpy as np
-from matplotlib.patches import Circle, Polygon
+from matplotlib.patches import Circle, FancyBboxPatch, Polygon
 
 from impact_damper.plot.schematic_parts import (
     arrow,
     coordinate,
     dashpot,
-    dimension,
     filled,
     ground,
     letter,
     mass,
-    node,
     sheet,
     spring,
     stroke,
@@ -60,7 +58,10 @@ def slot(axes, contact):
     for wall, plate, side in ((2.5, 3.15, 3.68), (5.5, 4.85, 4.32)):
         contact(axes, wall, plate)
         stroke(axes, [(plate, 0.88), (plate, 1.5)])
-        dimension(axes, *sorted((plate, side)), 1.80, "$d/2$", 1.7)
+        for x in (plate, side):
+            stroke(axes, [(x, 1.7), (x, 1.86)], "fine", color=GREY)
+        arrow(axes, (plate, 1.8), (side, 1.8), "fine", "<|-|>")
+        letter(axes, (plate + side) / 2, 1.94, "$d/2$")
     stroke(axes, [(4.0, 1.7), (4.0, 2.47)], "fine", color=GREY, linestyle=(0, (8, 2, 2, 2)))
     coordinate(axes, 4.0, 2.55, "$x_2$")
     letter(axes, 5.5, 2.55, "$y = x_1 - x_2$", color=BLUE)
@@ -99,9 +100,9 @@ def inelastic_model():
 
 
 def place(u, v, level):
-    """Return sheet coordinates in inches, shape (n, 2), of points of a plane in perspective.
+    """Return sheet coordinates, shape (n, 2), of points of a horizontal plane in perspective.
 
-    u points to the right and v into the page; `level` is the height of this horizontal plane.
+    u points to the right and v into the page; `level` is the height of the plane.
     """
     u, v = np.broadcast_arrays(np.atleast_1d(u), v)
     return np.column_stack((0.25 + u + 0.5 * v, level + 0.6 * v))
@@ -120,35 +121,19 @@ def attractor(axes, centre, radius, level, color, **keywords):
 
 
 def approach(axes, start, centre, radius, level, color, rate, **keywords):
-    """Draw a trajectory that spirals from a start onto a circle, with an arrow head.
-
-    `rate` is the decrease of the logarithm of its distance from the circle in a radian.
-    """
+    """Draw a trajectory from a start onto a circle; its distance falls by exp(-rate) a radian."""
     offset = np.subtract(start, centre)
     turned = np.linspace(0, 2 * np.pi, 300)
     angle = np.arctan2(offset[1], offset[0]) + turned
     distance = radius + (np.hypot(*offset) - radius) * np.exp(-rate * turned)
-    points = place(
-        centre[0] + distance * np.cos(angle), centre[1] + distance * np.sin(angle), level
-    )
+    u, v = centre[0] + distance * np.cos(angle), centre[1] + distance * np.sin(angle)
+    points = place(u, v, level)
     stroke(axes, points, "detail", color=color, **keywords)
     arrow(axes, points[44], points[50], color=color)
 
 
 def passage(axes, low, high, edge, words, upward):
-    """Draw a switching of the damper: a vertical line between two planes, dashed where hidden.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    low, high : tuple of float
-        Ends of the line, one in each plane; inches.
-    edge : float
-        Height below which the line is visible; inches.
-    words : str
-    upward : bool
-        Direction of the arrow.
-    """
+    """Draw a switching of the damper: a vertical line from `low` to `high`, dashed above `edge`."""
     x = low[0]
     ends = [(x, low[1] + 0.03), (x, edge)]
     stroke(axes, [(x, edge), high], "detail", linestyle=(0, (2, 2)))
@@ -227,30 +212,42 @@ def migration_scheme():
     return axes.figure
 
 
+def node(axes, x, y, width, height, words, color):
+    """Write words on a box of a flow chart; a question has pale orange, start and ends pale sky."""
+    across, up = width / 2, height / 2
+    if color == PALE_ORANGE:
+        corners = [(x - across, y), (x, y - up), (x + across, y), (x, y + up)]
+        axes.add_patch(Polygon(corners, **filled(color)))
+    else:
+        ends = f"round,pad=0,rounding_size={up if color == PALE_SKY else 0}"
+        box = FancyBboxPatch((x - across, y - up), width, height, ends, **filled(color))
+        axes.add_patch(box)
+    axes.text(x, y, words, ha="center", va="center", linespacing=1.05)
+
+
 @style()
 def algorithm():
     """Return figure 17: the loop of migration control."""
     axes = sheet("single", 5.06)
     x, side, width, margin = 1.17, 2.84, 1.76, 0.1
     chain = [
-        (4.89, 0.24, "Start", "end"),
-        (4.34, 0.42, "Run with the damper off\nuntil the motion settles", "step"),
-        (3.43, 0.96, "On the\nnon-resonance\nbranch?", "question"),
-        (2.29, 0.80, "Switchings\nat their limit?", "question"),
-        (1.42, 0.42, "Switch the damper on,\nloose mass drawn at random", "step"),
-        (0.78, 0.42, "Run until the motion settles,\nor for a stated time", "step"),
-        (0.23, 0.24, "Switch it off at a random phase", "step"),
+        (4.89, 0.24, "Start", PALE_SKY),
+        (4.34, 0.42, "Run with the damper off\nuntil the motion settles", PALE),
+        (3.43, 0.96, "On the\nnon-resonance\nbranch?", PALE_ORANGE),
+        (2.29, 0.80, "Switchings\nat their limit?", PALE_ORANGE),
+        (1.42, 0.42, "Switch the damper on,\nloose mass drawn at random", PALE),
+        (0.78, 0.42, "Run until the motion settles,\nor for a stated time", PALE),
+        (0.23, 0.24, "Switch it off at a random phase", PALE),
     ]
-    for y, height, words, shape in chain:
-        node(axes, x, y, 0.7 if shape == "end" else width, height, words, shape)
-    for (y, height, _, shape), (below, depth, _, _) in pairwise(chain):
+    for y, height, words, color in chain:
+        node(axes, x, y, 0.7 if words == "Start" else width, height, words, color)
+    for (y, height, *_), (below, depth, *_) in pairwise(chain):
         arrow(axes, (x, y - height / 2), (x, below + depth / 2))
-        if shape == "question":
-            axes.text(x + 0.12, y - height / 2 - 0.1, "no", ha="center", va="center")
-    for y, words in ((3.43, "Reached"), (2.29, "Not reached")):
-        node(axes, side, y, 0.92, 0.3, words, "end")
+    for y, height, words in ((3.43, 0.96, "Reached"), (2.29, 0.80, "Not reached")):
+        letter(axes, x + 0.12, y - height / 2 - 0.1, "no", size=9)
+        node(axes, side, y, 0.92, 0.3, words, PALE_SKY)
         arrow(axes, (x + width / 2, y), (side - 0.46, y))
-        axes.text(x + width / 2 + 0.14, y + 0.1, "yes", ha="center", va="center")
+        letter(axes, x + width / 2 + 0.14, y + 0.1, "yes", size=9)
     stroke(axes, [(x - width / 2, 0.23), (margin, 0.23), (margin, 4.34)], "detail")
     arrow(axes, (margin, 4.34), (x - width / 2, 4.34))
     return axes.figure

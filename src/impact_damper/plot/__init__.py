@@ -24,9 +24,3 @@ __all__ = [
     "shares",
     "sweep",
 ]
-
-
-def __getattr__(name):
-    from impact_damper.model.bounds import nearest
-
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}{nearest(name, __all__)}")

@@ -1,9 +1,7 @@
 """Basins of attraction in a plane of states."""
 
 import numpy as np
-from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 
 from impact_damper.data.datasets import has_damper, parameters_of
 from impact_damper.data.variables import BASIN_LABEL
@@ -18,6 +16,7 @@ from impact_damper.plot.style import (
     VERMILION,
     WHITE,
     axis_label,
+    markers,
     parameter_label,
 )
 
@@ -26,11 +25,9 @@ COLOURS = (SKY, VERMILION, PURPLE, "#F7E7A6")
 CHAOS = ORANGE
 # Colours of labels from -6 (quasi-periodic) to -1 (unresolved), before those of the attractors.
 WITHOUT_ATTRACTOR = (GREY, GREY, WHITE, CHAOS, WHITE, PALE)
-# A sum of shares that differs from 1 by less is 1.
-ROUNDING = 1e-9
 AREA = {"edgecolor": BLACK, "linewidth": 0.4}
 POINTS = {"linestyle": "none", "marker": "o", "markeredgecolor": BLACK, "markersize": 4.5}
-SADDLES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5}
+SADDLES = markers("unstable orbit", BLACK, "x", markersize=5)
 
 
 def basins(data, axes=None):
@@ -55,62 +52,50 @@ def basins(data, axes=None):
     >>> axes = idm.plot.basins(idm.basins(idm.Oscillator(0.215), None, 1.85, cells=40))
     """
     found = dataset_in(data, lambda each: "basin_label" in each, "basins")
-    with sheet(axes, height=5.0) as (axes,):
+    with sheet(axes, height=5.0, columns=0) as (axes,):
         number = found.sizes["attractor"]
         colours = [COLOURS[k % 3] for k in range(number)]
         if number > 1:
             colours[-1] = COLOURS[-1]
-        if "basin_share" in found:
-            handles = _draw_shares(axes, found, colours)
-        else:
-            handles = _draw_labels(axes, found, colours)
+        (_draw_shares if "basin_share" in found else _draw_labels)(axes, found, colours)
         attractors = found["attractor_point"].values, found["attractor_speed"].values
         for x, v, colour in zip(*attractors, colours, strict=True):
             axes.plot(x, v, **POINTS, markerfacecolor=colour)
         if "boundary_displacement" in found:
-            manifold = found["boundary_displacement"].values, found["boundary_velocity"].values
+            manifold = found["boundary_displacement"], found["boundary_velocity"]
             axes.plot(*manifold, color=BLACK, linewidth=0.25)
             axes.plot(found["saddle_displacement"], found["saddle_velocity"], **SADDLES)
-            handles.append(Line2D([], [], **SADDLES, label="unstable orbit"))
         _name(axes, found)
-        place = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.16)}
-        axes.legend(handles=handles, ncols=2, fontsize=7, **place)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, fontsize=7)
     return axes
 
 
 def _draw_labels(axes, data, colours):
-    """Colour each state by its motion, and return the entries of the legend."""
+    """Colour each state by its motion, with entries in the legend."""
     labels = data["basin_label"].values
     palette = ListedColormap([*WITHOUT_ATTRACTOR, *colours])
-    low = -len(WITHOUT_ATTRACTOR) - 0.5
-    _fill(
-        axes, data, labels, cmap=palette, norm=BoundaryNorm(np.arange(low, len(colours)), palette.N)
-    )
-    handles = [
-        Patch(facecolor=colour, **AREA, label=words)
-        for colour, words in zip(colours, _attractor_words(data), strict=True)
-    ]
+    low, high = -len(WITHOUT_ATTRACTOR) - 0.5, len(colours) - 0.5
+    _fill(axes, data, labels, cmap=palette, vmin=low, vmax=high)
+    for colour, words in zip(colours, _attractor_words(data), strict=True):
+        axes.fill([], [], facecolor=colour, label=words, **AREA)
     if np.any(labels == BASIN_LABEL["chaotic"]):
-        handles.append(Patch(facecolor=CHAOS, **AREA, label="chaotic"))
-    return handles
+        axes.fill([], [], facecolor=CHAOS, label="chaotic", **AREA)
 
 
 def _draw_shares(axes, data, colours):
-    """Colour states by the share of places of the loose mass, and return the legend's entries."""
+    """Colour states by the share of places of the loose mass, with entries in the legend."""
     shades = LinearSegmentedColormap.from_list("shares", [WHITE, SKY])
     drawn = _fill(axes, data, data["basin_share"][0], cmap=shades, vmin=0, vmax=1)
     words = "share of places of the loose mass"
     axes.figure.colorbar(drawn, ax=axes, label=words, shrink=0.9, ticks=[0, 0.5, 1])
     first, *others = zip(colours, _attractor_words(data), strict=True)
-    handles = [Patch(facecolor=first[0], **AREA, label=first[1])]
-    handles += [
-        Line2D([], [], **POINTS, markerfacecolor=colour, label=words) for colour, words in others
-    ]
+    axes.fill([], [], facecolor=first[0], label=first[1], **AREA)
+    for colour, words in others:
+        axes.plot([], [], **POINTS, markerfacecolor=colour, label=words)
     rest = 1 - float(data["attractor_share"].sum())
-    if rest > ROUNDING:
+    if rest > 1e-9:  # rounding errors are smaller
         words = f"aperiodic in {parameters_of(data)['limit']} cycles: {_percent(rest)}"
-        handles.append(Line2D([], [], linestyle="none", label=words))
-    return handles
+        axes.plot([], [], linestyle="none", label=words)
 
 
 def _fill(axes, data, values, **look):

@@ -29,21 +29,9 @@ EVENTS = {
     "grazing": ("change of contact", "P", SKY),
     "merging": ("change of contact", "P", SKY),
 }
-# Markers of changes of contact are pale, so they have an edge and are larger by this factor.
-EDGE = {"P": {"markeredgecolor": BLACK, "markeredgewidth": 0.3}}
-WIDER = {"P": 2.0}
-# Sizes of markers of events next to stable orbits, and of others.
-LARGE, SMALL = 3.0, 1.2
 # Reasons for the end of a branch that continues in truth, and their marker.
 OPEN_ENDS = ("lost", "point_limit", "unstable")
-OPEN = {
-    "marker": "x",
-    "color": BLACK,
-    "markersize": 4.5,
-    "markeredgewidth": 1.0,
-    "linestyle": "none",
-    "zorder": 3.1,
-}
+OPEN = {"marker": "x", "color": BLACK, "markersize": 4.5, "linestyle": "none", "zorder": 3.1}
 # Label, colour, opacity of unstable orbits, and test of the period.
 PERIODS = [
     ("period 1", BLUE, 1.0, lambda period: period == 1),
@@ -62,7 +50,7 @@ def branch(data, axes=None):
     """Draw the largest displacement in periodic orbits against the parameter that varies.
 
     Stable orbits are solid lines, unstable ones dotted lines. Colours distinguish periods;
-    markers are bifurcations and changes of contact, large next to stable orbits.
+    markers are bifurcations and changes of contact of stable orbits.
 
     Parameters
     ----------
@@ -85,7 +73,14 @@ def branch(data, axes=None):
     given = datasets_in(data, lambda each: "event_kind" in each, "orbit_branches")
     with sheet(axes) as (axes,):
         for each in given:
-            _draw_orbits(axes, each)
+            for label, color, opacity, chosen in PERIODS:
+                faint = {"linestyle": ":", "linewidth": 0.35, "alpha": opacity}
+                strong = {"label": label, "zorder": 2.2, "linewidth": 1.5}
+                for value, size, stable in runs(each, chosen):
+                    draw(axes, value, size, color=color, **(strong if stable else faint))
+            _mark_events(axes, each)
+            _mark_open_ends(axes, each)
+        axes.plot([], [], color=GREY, linewidth=0.8, linestyle=":", label="unstable")
         axes.set(xlabel=followed_label(given[0]), ylabel=axis_label(given[0]["orbit_displacement"]))
     return axes
 
@@ -101,32 +96,11 @@ def followed_label(data):
     return f"{words}, ${symbol}$" if units == "1" else f"{words} ({units})"
 
 
-def _draw_orbits(axes, data):
-    """Draw every branch of a dataset, its events, and the ends beyond which it was not followed."""
-    for label, color, opacity, chosen in PERIODS:
-        faint = {"linestyle": ":", "linewidth": 0.35, "alpha": opacity}
-        strong = {"label": label, "zorder": 2.2, "linewidth": 1.5}
-        for value, size, stable in runs(data, chosen):
-            draw(axes, value, size, color=color, **(strong if stable else faint))
-    draw(axes, [], [], color=GREY, linewidth=0.8, linestyle=":", label="unstable")
-    _mark_events(axes, data)
-    _mark_open_ends(axes, data)
-
-
 def runs(data, chosen):
     """Yield each part of a branch on which all orbits are stable, or all unstable.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        With the variables of `orbit_branches`.
-    chosen : callable
-        Maps the period of a branch to True if the branch is wanted.
-
-    Yields
-    ------
-    (array, array, bool)
-        Parameter that varies, largest displacement, and whether stable.
+    A part is the parameter that varies, the largest displacement, and whether it is stable.
+    `chosen` maps the period of a branch to True if the branch is wanted.
     """
     names = ("orbit_branch", "followed_value", "orbit_displacement", "orbit_stability")
     periods = data["branch_period"].values
@@ -158,37 +132,21 @@ def _mark_open_ends(axes, data):
     chosen = [flag("branch_end", name) for name in OPEN_ENDS]
     number = data["orbit_branch"].values
     for each, ends in enumerate(data["branch_end"].values):
-        at = np.flatnonzero(number == each)
-        for place, end in zip((at[0], at[-1]), ends, strict=True):
-            if end in chosen:
-                axes.plot(data["followed_value"][place], data["orbit_displacement"][place], **OPEN)
+        at = np.flatnonzero(number == each)[[0, -1]][np.isin(ends, chosen)]
+        axes.plot(data["followed_value"][at], data["orbit_displacement"][at], **OPEN)
 
 
 def _mark_events(axes, data):
-    """Mark events of period 1, and with large markers all events next to stable orbits."""
-    beside = next_to_stable(data)
-    plain = data["branch_period"].values[data["event_branch"].values] == 1
-    kinds = data["event_kind"].values
-    value, size = data["event_value"].values, data["event_displacement"].values
-    for name, (label, marker, color) in EVENTS.items():
-        look = {"marker": marker, "color": color, "linestyle": "none", **EDGE.get(marker, {})}
-        wide = WIDER.get(marker, 1)
-        large = (kinds == flag("event_kind", name)) & beside
-        if large.any():
-            first = {"label": label, "markersize": wide * LARGE, "zorder": 3}
-            draw(axes, value[large], size[large], **first, **look)
-        small = (kinds == flag("event_kind", name)) & ~beside & plain
-        if small.any():
-            axes.plot(value[small], size[small], markersize=wide * SMALL, zorder=2.1, **look)
-
-
-def next_to_stable(data):
-    """Return for each event whether the orbit at the event or one of its neighbours is stable."""
+    """Mark the events at which the orbit or one of its neighbours is stable."""
     number, branches = data["orbit_branch"].values, data["event_branch"].values
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     place = np.searchsorted(number, branches) + data["event_place"].values
-    found = np.zeros(len(place), bool)
+    beside = np.zeros(len(place), bool)
     for side in (-1, 0, 1):
         at = np.clip(place + side, 0, len(number) - 1)
-        found |= stable[at] & (number[at] == branches)
-    return found
+        beside |= stable[at] & (number[at] == branches)
+    for name, (label, marker, color) in EVENTS.items():
+        chosen = data.isel(event=beside & (data["event_kind"].values == flag("event_kind", name)))
+        if chosen.sizes["event"]:
+            look = {"color": color, "marker": marker, "linestyle": "none", "zorder": 3}
+            draw(axes, chosen["event_value"], chosen["event_displacement"], label=label, **look)

@@ -2,33 +2,35 @@
 
 import numpy as np
 from matplotlib.colors import ListedColormap
-from matplotlib.patches import PathPatch, Rectangle
+from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
 from impact_damper.plot.style import BLACK, GREY, PALE
 
-COLOURS = "cividis_r"
+
+def mesh(axes, x, y, values, norm, absent=None):
+    """Draw cells coloured by value, and return the mesh.
+
+    NaN leaves a hatched background; `absent` names it in the legend.
+    """
+    back = {"facecolor": PALE, "hatch": "////", "edgecolor": GREY}
+    axes.patch.set(linewidth=0, **back)
+    if absent:
+        axes.fill([], [], label=absent, **back)
+    cells = {"shading": "nearest", "rasterized": True, "norm": norm, "cmap": "cividis_r"}
+    return axes.pcolormesh(x, y, values, **cells)
 
 
-def mesh(axes, x, y, values, norm):
-    """Draw cells coloured by value, and return the mesh; NaN leaves the hatched background."""
-    axes.set_facecolor(PALE)
-    axes.patch.set(hatch="////", edgecolor=GREY, linewidth=0)
-    return axes.pcolormesh(
-        x, y, values, norm=norm, cmap=COLOURS, shading="nearest", rasterized=True
-    )
-
-
-def marked(axes, x, y, where, colour):
+def marked(axes, x, y, where, colour, label):
     """Draw the cells of a mask in one colour."""
-    values = np.where(where, 1.0, np.nan)
-    cells = ListedColormap([colour])
-    axes.pcolormesh(x, y, values, cmap=cells, vmin=0, vmax=2, shading="nearest", rasterized=True)
+    cells = {"cmap": ListedColormap([colour]), "shading": "nearest", "rasterized": True}
+    axes.pcolormesh(x, y, np.ma.masked_where(~where, where), **cells)
+    axes.fill([], [], facecolor=colour, edgecolor=GREY, label=label)
 
 
 def hatch(axes, x, y, where, **look):
-    """Hatch the cells of a mask, drawn as a single path because one path per cell is slow."""
+    """Hatch the cells of a mask as a single path, because one path per cell is slow."""
     x, y = edges_of(x), edges_of(y)
     cells = [
         Path.unit_rectangle().transformed(
@@ -40,19 +42,12 @@ def hatch(axes, x, y, where, **look):
     axes.add_patch(PathPatch(path, facecolor="none", rasterized=True, **look))
 
 
-def contours(axes, x, y, values, level, line):
-    """Draw the contour lines of one level, if there are values above and below it."""
-    if np.nanmin(values) < level < np.nanmax(values):
-        axes.contour(x, y, values, [level], colors=BLACK, linewidths=0.8, linestyles=line)
-
-
-def key(axes, label, colour, hatch=None):
-    """Add a legend entry for cells of one appearance."""
-    axes.add_patch(
-        Rectangle(
-            (np.nan, np.nan), 0, 0, facecolor=colour, edgecolor=GREY, hatch=hatch, label=label
-        )
-    )
+def contours(axes, x, y, error, levels):
+    """Draw a contour line for each level of an error, with an entry in the legend."""
+    for level, line in zip(levels, ("solid", "dotted"), strict=True):
+        if np.nanmin(error) < level < np.nanmax(error):
+            axes.contour(x, y, error, [level], colors=BLACK, linewidths=0.8, linestyles=line)
+        axes.plot([], [], color=BLACK, linestyle=line, label=f"error of {100 * level:g} %")
 
 
 def edges_of(centres):

@@ -1,7 +1,6 @@
 """Single motions: a phase portrait, a course in time, and a run of migration control."""
 
 import numpy as np
-from matplotlib.colors import to_rgb
 
 from impact_damper.plot.sheets import dataset_in, sheet
 from impact_damper.plot.style import (
@@ -9,18 +8,25 @@ from impact_damper.plot.style import (
     BLUE,
     GREY,
     ORANGE,
-    ROLES,
+    PALE_SKY,
+    VERMILION,
     axis_label,
-    forcing_period,
+    line,
+    shading,
 )
 
 WALLS = {
-    1: {"label": "contact, $Z_2 \\geq d_0$", "color": BLUE, "solid_capstyle": "butt"},
-    -1: {"label": "contact, $Z_2 \\leq -d_0$", "color": ORANGE, "linestyle": (0, (1.2, 0.5))},
+    1: line("contact, $Z_2 \\geq d_0$", BLUE, linewidth=3, solid_capstyle="butt"),
+    -1: line("contact, $Z_2 \\leq -d_0$", ORANGE, linewidth=3, linestyle=(0, (1.2, 0.5))),
 }
-# Cycles above which the line of a run of migration control is thin, and above which its envelope is
-# drawn instead.
-MANY, LONG = 50, 100
+DAMPER_ON = shading("damper on", PALE_SKY)
+SWITCHED = {
+    "on_time": line("switched on", VERMILION),
+    "off_time": line("switched off", BLUE, linestyle=(0, (3, 1.5))),
+}
+# Lines of a run of migration control; the thin one is for at least MANY times.
+MANY = 2500
+LINE, THIN = {"linewidth": 0.8}, {"linewidth": 0.3, "alpha": 0.5, "rasterized": True}
 
 
 def orbit(data, axes=None):
@@ -54,8 +60,7 @@ def phase_panel(axes, run):
     """Draw velocity against displacement of the primary mass, thick in contact."""
     axes.plot(run["displacement"], run["velocity"], color=BLACK, linewidth=0.8)
     for wall, look in WALLS.items():
-        velocity = np.where(in_contact(run, wall), run["velocity"], np.nan)
-        axes.plot(run["displacement"], velocity, linewidth=3, **look)
+        axes.plot(run["displacement"], run["velocity"].where(_in_contact(run, wall)), **look)
     axes.set(xlabel=axis_label(run["displacement"]), ylabel=axis_label(run["velocity"]))
 
 
@@ -67,32 +72,28 @@ def _time_panel(axes, run):
         words = "relative to the loose mass, $Z_2$"
         axes.plot(time, relative, color=GREY, linewidth=0.8, label=words)
     for wall, look in WALLS.items():
-        chosen = in_contact(run, wall)
+        chosen = _in_contact(run, wall)
         if chosen.any():
-            axes.plot(time, np.where(chosen, relative, np.nan), linewidth=3, **look)
+            axes.plot(time, relative.where(chosen), **look)
     units = run["displacement"].attrs["units"]
-    axes.set(
-        xlabel=axis_label(time),
-        ylabel="Displacement" if units == "1" else f"Displacement ({units})",
-    )
+    words = "Displacement" if units == "1" else f"Displacement ({units})"
+    axes.set(xlabel=axis_label(time), ylabel=words)
 
 
-def in_contact(run, wall):
-    """Return a mask of the times in contact with a wall (1 or -1), shape (time,).
+def _in_contact(run, wall):
+    """Return the mask of the times in contact with a wall (1 or -1).
 
     A contact whose end is not recorded lasts to the last time.
     """
-    time = run["time"].values[:, None]
-    chosen = run["contact_wall"].values == wall
-    begin = run["contact_begin"].values[chosen]
-    end = np.nan_to_num(run["contact_end"].values[chosen], nan=np.inf)
-    return np.any((begin <= time) & (time <= end), axis=1)
+    contacts = run[["contact_begin", "contact_end"]].isel(
+        contact=run["contact_wall"].values == wall
+    )
+    begun = contacts["contact_begin"] <= run["time"]
+    return (begun & (run["time"] <= contacts["contact_end"].fillna(np.inf))).any("contact")
 
 
 def migration(data, axes=None, span=None):
     """Draw a run of migration control: displacement against time, shaded while the damper is on.
-
-    Of more than a hundred cycles the envelope is drawn.
 
     Parameters
     ----------
@@ -115,13 +116,14 @@ def migration(data, axes=None, span=None):
     run = dataset_in(data, lambda each: {"on_time", "displacement"} <= each.keys(), "migrate")
     with sheet(axes) as (axes,):
         first, last = run["time"].values[[0, -1]] if span is None else span
-        _draw_course(axes, run, first, last)
-        on, off = (run[name].values[np.isfinite(run[name])] for name in ("on_time", "off_time"))
-        for begin, end in zip(on, off, strict=True):
-            axes.axvspan(begin, end, **ROLES["damper_on"])
-        for times, role in ((on, "switched_on"), (off, "switched_off")):
+        drawn = run["displacement"].sel(time=slice(first, last))
+        axes.plot(drawn["time"], drawn, color=BLACK, **(LINE if drawn.size < MANY else THIN))
+        switched = [run[name].values[np.isfinite(run[name])] for name in SWITCHED]
+        for begin, end in zip(*switched, strict=True):
+            axes.axvspan(begin, end, **DAMPER_ON)
+        for times, look in zip(switched, SWITCHED.values(), strict=True):
             for time in times:
-                axes.axvline(time, **ROLES[role])
+                axes.axvline(time, **look)
         axes.set(
             xlim=(first, last),
             xlabel=axis_label(run["time"]),
@@ -129,19 +131,3 @@ def migration(data, axes=None, span=None):
         )
         axes.tick_params(top=False)
     return axes
-
-
-def _draw_course(axes, run, first, last):
-    """Draw the displacement from `first` to `last`, or the envelope of a long run."""
-    time, displacement = run["time"].values, run["displacement"].values
-    inside = (time >= first) & (time <= last)
-    time, displacement = time[inside], displacement[inside]
-    period = forcing_period(run)
-    cycles = (last - first) / period
-    if cycles <= LONG:
-        axes.plot(time, displacement, color=BLACK, linewidth=0.8 if cycles <= MANY else 0.3)
-        return
-    each = max(1, round(period / (time[1] - time[0])))
-    rows = displacement[: len(displacement) // each * each].reshape(-1, each)
-    look = {"facecolor": (*to_rgb(BLACK), 0.25), "edgecolor": BLACK, "linewidth": 0.4}
-    axes.fill_between(time[: rows.size : each], rows.min(axis=1), rows.max(axis=1), **look)

@@ -4,7 +4,6 @@ import numpy as np
 
 from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
 from impact_damper.plot.branches import draw_free_orbits, followed_label, runs
-from impact_damper.plot.lines import branch_lines
 from impact_damper.plot.sheets import datasets_in, sheet
 from impact_damper.plot.style import BLUE, ROLES, axis_label, draw
 
@@ -22,6 +21,12 @@ FREE = {
 SETTLED = ROLES["period_1"] | JOINED | {"label": "settled"}
 STILL = ROLES["non_colliding"] | {"label": "no contact"}
 UNSETTLED = ROLES["chaotic"] | {"label": "not settled"}
+# Displacements of datasets, and labels that replace the description of their axis.
+SIZES = {
+    "maximum_displacement": None,
+    "orbit_displacement": None,
+    "free_amplitude": "amplitude of the primary mass",
+}
 
 
 def response(data, axes=None):
@@ -64,7 +69,7 @@ def response(data, axes=None):
             _draw_motions(axes, each)
         if "steady" in parts:
             _draw_steady(axes, parts["steady"])
-        axes.set(xlabel=_frequency_label(given), ylabel=_size_label(given))
+        _label(axes, given)
         axes.set_ylim(bottom=0)
     return axes
 
@@ -96,29 +101,23 @@ def _draw_orbits(axes, orbits, stable):
 
 def _draw_balance(axes, balance, free):
     """Draw the band, the stable solutions with contact and, if `free`, those without a damper."""
-    _draw_band(axes, balance)
-    if free:
-        stable = balance["free_stability"].values == flag("free_stability", "stable")
-        _draw_amplitudes(axes, balance, "free_amplitude", stable, ROLES["free_stable"])
-        _draw_unstable(axes, balance)
-    if has_damper(balance):
-        stable = balance["stability"].values == flag("stability", "stable")
-        impacting = balance["kind"].values == flag("kind", "impacting")
-        role = ROLES["harmonic_balance"]
-        _draw_amplitudes(axes, balance, "amplitude", stable & impacting, role)
-
-
-def _draw_amplitudes(axes, balance, name, chosen, role):
-    """Draw the amplitude of the solutions where the mask `chosen` is True."""
-    size = np.where(chosen, abs(balance[name].values), np.nan)
-    for branch in size.T[np.isfinite(size).any(axis=0)]:
-        draw(axes, balance["frequency"].values, branch, **role)
-
-
-def _draw_band(axes, balance):
-    """Shade the suppression band, if it exists."""
     if "band_status" in balance and balance["band_status"] == flag("band_status", "found"):
         axes.axvspan(*balance["edge_frequency"].values, **ROLES["band"])
+    if free:
+        stable = balance["free_stability"] == flag("free_stability", "stable")
+        _draw_solutions(axes, balance["free_amplitude"].where(stable), "free_stable")
+        _draw_unstable(axes, balance)
+    if has_damper(balance):
+        stable = balance["stability"] == flag("stability", "stable")
+        stable &= balance["kind"] == flag("kind", "impacting")
+        _draw_solutions(axes, balance["amplitude"].where(stable), "harmonic_balance")
+
+
+def _draw_solutions(axes, amplitude, role):
+    """Draw the amplitudes of solutions, NaN where not wanted, shape (frequency, solution)."""
+    for branch in np.abs(amplitude.values).T:
+        if np.isfinite(branch).any():
+            draw(axes, amplitude["frequency"], branch, **ROLES[role])
 
 
 def _draw_unstable(axes, balance):
@@ -139,45 +138,59 @@ def _draw_unstable(axes, balance):
 
 def _draw_motions(axes, motions):
     """Draw motions from random starts: settled ones joined along branches, others as points."""
-    period = motions["period"].values
-    if not has_damper(motions):
-        settled = is_settled(motions)
-        _draw_settled(axes, motions, settled & (period == 1), ROLES["free_stable"])
-        _draw_settled(axes, motions, settled & (period != 1), ROLES["free_higher"])
-        _draw_unsettled(axes, motions, FREE)
-        return
-    colliding = is_settled(motions) & (motions["contacts"].values > 0)
-    third = (period > 1) & (period % 3 == 0)
-    for name, chosen in (
-        ("period_1", period == 1),
-        ("higher_period", (period > 1) & ~third),
-        ("subharmonic_damped", third),
-    ):
-        _draw_settled(axes, motions, colliding & chosen, ROLES[name] | JOINED)
-    _draw_unsettled(axes, motions, DAMPED)
+    period, settled = motions["period"].values, is_settled(motions)
+    if has_damper(motions):
+        settled = settled & (motions["contacts"].values > 0)
+        third = (period > 1) & (period % 3 == 0)
+        masks = {
+            "period_1": period == 1,
+            "higher_period": (period > 1) & ~third,
+            "subharmonic_damped": third,
+        }
+        look, others = JOINED, DAMPED
+    else:
+        masks, look, others = {"free_stable": period == 1, "free_higher": period != 1}, {}, FREE
+    for name, chosen in masks.items():
+        for frequency, size in _branch_lines(motions, settled & chosen):
+            draw(axes, frequency, size, **ROLES[name] | look)
+    _draw_unsettled(axes, motions, others)
 
 
-def _draw_settled(axes, motions, chosen, role):
-    """Draw lines through the chosen motions of each branch."""
-    for frequency, size in branch_lines(motions, chosen):
-        draw(axes, frequency, size, **role)
+def _branch_lines(motions, chosen):
+    """Yield frequency and size of each branch and period, extended to the ends of the branch.
 
-
-def _draw_unsettled(axes, motions, roles):
-    """Draw the motions that have not settled on an orbit as points; `roles` maps outcomes to roles.
-
-    Chaos that ended in one of the runs gets the role `chaotic_transient`, if `roles` has it.
+    The ends lie between two frequencies. `chosen` is a mask of shape (frequency, motion).
     """
-    for status, role in roles.items():
+    branch, period = motions["branch"].values, motions["period"].values
+    names = ("end_branch", "end_direction", "end_value", "end_displacement")
+    ends = list(zip(*(motions[name].values for name in names), strict=True))
+    for number, cycles in sorted(set(zip(branch[chosen], period[chosen], strict=True))):
+        here = chosen & (branch == number) & (period == cycles)
+        x = motions["frequency"].values
+        y = np.fmax.reduce(np.where(here, motions["maximum_displacement"].values, np.nan), axis=1)
+        for _, direction, value, size in (end for end in ends if end[0] == number):
+            place = np.searchsorted(x, value, "right" if direction > 0 else "left")
+            before = place - (direction > 0)
+            if 0 <= before < len(x) and np.isfinite(y[before]):
+                x, y = np.insert(x, place, value), np.insert(y, place, size)
+        yield x, y
+
+
+def _draw_unsettled(axes, motions, looks):
+    """Draw the motions that have not settled on an orbit as points, by outcome.
+
+    Chaos that ended in one of the runs has the look `chaotic_transient`, if there is one.
+    """
+    for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)
-        if outcome == "chaotic" and "chaotic_transient" in roles:
+        if outcome == "chaotic" and "chaotic_transient" in looks:
             ended = motions["life_ends"].values > 0 if "life_ends" in motions else False
             chosen &= np.equal(ended, status == "chaotic_transient")
         row, column = chosen.nonzero()
         if len(row):
             size = motions["maximum_displacement"].values[row, column]
-            draw(axes, motions["frequency"].values[row], size, **role)
+            draw(axes, motions["frequency"].values[row], size, **look)
 
 
 def _draw_steady(axes, motions):
@@ -188,29 +201,16 @@ def _draw_steady(axes, motions):
     )
     settled = outcome == flag("outcome", "settled")
     still = outcome == flag("outcome", "non_colliding")
-    if settled.any():
-        axes.plot(frequency, np.where(settled, size, np.nan), **SETTLED)
-    for chosen, role in ((still, STILL), (~settled & ~still, UNSETTLED)):
+    for chosen, look in ((settled, SETTLED), (still, STILL), (~settled & ~still, UNSETTLED)):
         if chosen.any():
-            axes.plot(frequency[chosen], size[chosen], **role)
+            axes.plot(frequency, np.where(chosen, size, np.nan), **look)
 
 
-def _frequency_label(given):
-    """Return the label of the frequency axis, with the units of the first dataset that has it."""
-    for each in given:
-        if "frequency" in each.coords:
-            return axis_label(each["frequency"])
-        if "followed_value" in each:
-            return followed_label(each)
-    return axis_label(given[0]["edge_frequency"], "forcing frequency")
-
-
-def _size_label(given):
-    """Return the label of displacements, or of amplitudes if only amplitudes are drawn."""
-    for name in ("maximum_displacement", "orbit_displacement"):
-        for each in given:
-            if name in each:
-                return axis_label(each[name])
-    units = next((each["free_amplitude"].units for each in given if "free_amplitude" in each), "1")
-    words = "Amplitude of the primary mass"
-    return f"{words}, $|a|$" if units == "1" else f"{words} ({units})"
+def _label(axes, given):
+    """Label the axes by the first dataset; with amplitudes only, the ordinate is an amplitude."""
+    first = given[0]
+    axes.set_xlabel(
+        axis_label(first["frequency"]) if "frequency" in first.coords else followed_label(first)
+    )
+    name, each = next((name, each) for name in SIZES for each in given if name in each)
+    axes.set_ylabel(axis_label(each[name], SIZES[name]))

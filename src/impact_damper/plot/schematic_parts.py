@@ -1,23 +1,21 @@
-"""Parts of the schematics: springs, dashpots, masses, dimensions, boxes of flow charts.
+"""Parts of the schematics: springs, dashpots, masses, dimensions.
 
 Coordinates are in inches from the lower left corner of the sheet.
 """
 
 import numpy as np
-from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch, Polygon, Rectangle
+from matplotlib.patches import Circle, FancyArrowPatch, Rectangle
 
 from impact_damper.plot.style import (
     BLACK,
     BLUE,
-    GREY,
-    LETTER_SIZE,
     PALE,
-    PALE_ORANGE,
-    PALE_SKY,
-    STROKES,
     WHITE,
     figure,
 )
+
+STROKES = {"outline": 1.1, "detail": 0.8, "fine": 0.5}  # points
+LETTER = {"ha": "center", "va": "center", "size": 10.0}
 
 
 def sheet(column, height):
@@ -43,23 +41,13 @@ def filled(color, width="detail"):
 
 def arrow(axes, start, end, width="detail", head="-|>", color=BLACK):
     """Draw an arrow from one point to another."""
-    axes.add_patch(
-        FancyArrowPatch(
-            start,
-            end,
-            arrowstyle=head,
-            mutation_scale=8,
-            shrinkA=0,
-            shrinkB=0,
-            linewidth=STROKES[width],
-            color=color,
-        )
-    )
+    look = {"linewidth": STROKES[width], "color": color, "shrinkA": 0, "shrinkB": 0}
+    axes.add_patch(FancyArrowPatch(start, end, arrowstyle=head, mutation_scale=8, **look))
 
 
 def letter(axes, x, y, symbol, **changes):
     """Write a symbol centred on a point."""
-    axes.text(x, y, symbol, **{"ha": "center", "va": "center", "size": LETTER_SIZE} | changes)
+    axes.text(x, y, symbol, **LETTER | changes)
 
 
 def spring(axes, start, end, y, turns=5, height=0.16):
@@ -106,35 +94,8 @@ def wheels(axes, centres, rail, radius=0.08):
         axes.add_patch(Circle((x, rail + radius), radius, **filled(WHITE)))
 
 
-def dimension(axes, left, right, y, symbol, low):
-    """Draw a dimension arrow with its symbol at height y, and extension lines from `low`."""
-    for x in (left, right):
-        stroke(axes, [(x, low), (x, y + 0.06)], "fine", color=GREY)
-    arrow(axes, (left, y), (right, y), "fine", "<|-|>")
-    letter(axes, (left + right) / 2, y + 0.14, symbol)
-
-
-def coordinate(axes, x, y, symbol, length=0.42):
+def coordinate(axes, x, y, symbol):
     """Draw the symbol of a displacement, measured to the right from a tick at (x, y)."""
     stroke(axes, [(x, y - 0.08), (x, y + 0.08)], "detail", color=BLUE)
-    arrow(axes, (x, y), (x + length, y), color=BLUE)
-    letter(axes, x + length + 0.13, y, symbol, color=BLUE)
-
-
-def node(axes, x, y, width, height, words, shape):
-    """Draw a box of a flow chart; `shape` is "step", "question" or "end"."""
-    across, up = width / 2, height / 2
-    if shape == "question":
-        corners = [(x - across, y), (x, y - up), (x + across, y), (x, y + up)]
-        axes.add_patch(Polygon(corners, **filled(PALE_ORANGE)))
-    elif shape == "end":
-        ends = f"round,pad=0,rounding_size={up}"
-        axes.add_patch(
-            FancyBboxPatch((x - across, y - up), width, height, ends, **filled(PALE_SKY))
-        )
-    else:
-        axes.add_patch(Rectangle((x - across, y - up), width, height, **filled(PALE)))
-    lines = words.split("\n")
-    for row, line in enumerate(lines):
-        baseline = y - 0.04 + 0.155 * ((len(lines) - 1) / 2 - row)
-        axes.text(x, baseline, line, ha="center", va="baseline")
+    arrow(axes, (x, y), (x + 0.42, y), color=BLUE)
+    letter(axes, x + 0.55, y, symbol, color=BLUE)

@@ -14,18 +14,8 @@ from impact_damper.plot.style import COLUMNS, legend, style
 def datasets_in(data, takes, words) -> list[xr.Dataset]:
     """Return the datasets given, one or several, as a list.
 
-    Parameters
-    ----------
-    data : xarray.Dataset or sequence of xarray.Dataset
-    takes : callable
-        Maps a dataset to True if it can be drawn.
-    words : str
-        Names of the functions whose results can be drawn, for messages.
-
-    Raises
-    ------
-    TypeError
-        If there is no dataset, one cannot be drawn, or datasets have different units.
+    `takes` maps a dataset to True if it can be drawn; `words` names the functions that return such
+    datasets, for the TypeError that all others raise, and datasets of different units.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:
@@ -40,7 +30,7 @@ def datasets_in(data, takes, words) -> list[xr.Dataset]:
 
 
 def dataset_in(data, takes, words) -> xr.Dataset:
-    """Return the single dataset given; arguments and errors as for `datasets_in`."""
+    """Return the single dataset given, checked as by `datasets_in`."""
     found = datasets_in(data, takes, words)
     if len(found) > 1:
         raise TypeError(f"data = {len(found)} datasets: must be one result of {words}")
@@ -49,25 +39,11 @@ def dataset_in(data, takes, words) -> xr.Dataset:
 
 @contextmanager
 def sheet(axes, count=1, height=3.6, columns=3):
-    """Return a context that yields a list of axes to draw on.
+    """Return a context that yields a list of `count` axes to draw on.
 
-    Given axes keep their own style and get no legend. Otherwise a new figure in the common style is
-    made, which gets a legend at the end.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes, sequence of them, or None
-    count : int
-        Number of axes.
-    height : float
-        Of a new figure, inches.
-    columns : int
-        Of its legend.
-
-    Raises
-    ------
-    TypeError
-        If `axes` is not None and not `count` axes.
+    Given axes keep their own style and get no legend. Otherwise they are in a new figure in the
+    common style, `height` inches high, which gets a legend with `columns` columns at the
+    end; with 0 none.
     """
     if axes is not None:
         given = list(np.ravel(np.array(axes, object)))
@@ -79,7 +55,8 @@ def sheet(axes, count=1, height=3.6, columns=3):
         size = COLUMNS["double"], height
         drawn, panels = pyplot.subplots(1, count, figsize=size, layout="constrained", squeeze=False)
         yield list(panels[0])
-        legend(drawn, columns)
+        if columns:
+            legend(drawn, columns)
         # In a notebook the first figure makes matplotlib interactive. This must outlive the style;
         # otherwise the notebook would show only the first figure.
         interactive = matplotlib.is_interactive()

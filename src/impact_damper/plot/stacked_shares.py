@@ -34,16 +34,13 @@ LOOKS = {
     "chaotic": (ORANGE, "...."),
     "others": (BLACK, ""),
 }
-# Kinds of settled motions by period, and of others by outcome.
-PERIODS = {1: "period 1", 2: "period 2", 3: "period 3"}
+# Kinds of motions that have not settled, by outcome.
 OUTCOMES = {
     "quasi_periodic": "quasi-periodic",
     "non_colliding": "no contact",
     "drifting": "no contact",
     "chaotic": "chaotic",
 }
-# Hatching of further motions of kinds without hatching. Pale blue alone resembles another kind.
-FURTHER = {"period 1": "----"}
 # Fractions of white mixed into the colours of the first, second, third ... motion of a kind.
 PALER = (0.0, 0.45, 0.7)
 EDGE = {"fill": True, "edgecolor": WHITE, "linewidth": 0.4}
@@ -84,11 +81,8 @@ def shares(data, axes=None):
             label = once(axes, kind)
             axes.stairs(below + share, edges, baseline=below, label=label, **_look(kind, rank))
             row, column = np.nonzero(chosen & (below + share < 1)[:, None])
-            ends = [
-                below[row] + found[name].values[row, column]
-                for name in ("share_lower", "share_upper")
-            ]
-            axes.vlines(places[row], *ends, **INTERVAL)
+            low, high = (found[f"share_{end}"].values[row, column] for end in ("lower", "upper"))
+            axes.vlines(places[row], below[row] + low, below[row] + high, **INTERVAL)
             below = below + share
         axes.set(
             xlabel=axis_label(found[dimension]),
@@ -102,22 +96,25 @@ def shares(data, axes=None):
 def _look(kind, rank):
     """Return the look of a motion, the `rank`-th of its kind counted from 0."""
     colour, hatch = LOOKS[kind]
+    if rank and kind == "period 1":
+        hatch = "----"  # pale blue alone resembles another kind
     white = PALER[min(rank, len(PALER) - 1)]
     face = [white + (1 - white) * part for part in to_rgb(colour)]
-    return EDGE | {"facecolor": face, "hatch": FURTHER.get(kind, hatch) if rank else hatch}
+    return EDGE | {"facecolor": face, "hatch": hatch}
 
 
 def _ranked_motions(data):
-    """Return the motions that random starts lead to, in the order of their kinds in `LOOKS`.
+    """Return kind, rank and mask of the motions that random starts lead to, by kind.
 
-    Each has its kind; its rank among the motions of its kind, 0 for the motion with most starts;
-    and a mask of its entries in the variables of the sweep, shape (value, motion). A chaotic motion
-    that is a transient at some values is listed twice, with the same rank.
+    Of each kind the motion with most starts has the rank 0. A chaotic motion that is a transient at
+    some values is listed twice, with the same rank.
     """
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:
-            kind = _kind(each)
+            kind = OUTCOMES.get(each.outcome, "others")
+            if each.outcome == "settled":
+                kind = f"period {each.period}" if each.period < 4 else "other periods"
             for name, places in _parts(data, kind, each.places).items():
                 if data["motion_starts"].values[places].any():
                     found[name].append((ranks[kind], places))
@@ -131,10 +128,3 @@ def _parts(data, kind, places):
         return {kind: places}
     ended = data["life_ends"].values > 0
     return {"chaotic transient": places & ended, kind: places & ~ended}
-
-
-def _kind(motion):
-    """Return the key in `LOOKS` of a motion."""
-    if motion.outcome == "settled":
-        return PERIODS.get(motion.period, "other periods")
-    return OUTCOMES.get(motion.outcome, "others")

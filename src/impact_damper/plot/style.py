@@ -4,8 +4,6 @@ The colours are the palette of Okabe and Ito, which colour-blind readers can dis
 occur in the same figure also differ in marker or line style, for print without colours.
 """
 
-import json
-import math
 import re
 import string
 
@@ -13,7 +11,6 @@ import matplotlib.style
 from cycler import cycler
 from matplotlib.figure import Figure
 
-from impact_damper.data.datasets import parameters_of
 from impact_damper.data.whole_files import whole
 from impact_damper.model.parameters import SYMBOLS
 
@@ -23,8 +20,6 @@ BLUE, VERMILION, PURPLE = "#0072B2", "#D55E00", "#CC79A7"
 PALE_SKY, PALE_YELLOW, PALE_ORANGE = "#D9EDFA", "#FAF6C4", "#FAE7C3"
 
 COLUMNS = {"single": 3.4, "double": 7.0}  # widths in inches
-STROKES = {"outline": 1.1, "detail": 0.8, "fine": 0.5}  # points, for drawings
-LETTER_SIZE = 10.0  # points, for symbols in drawings
 
 STYLE = {
     "font.family": "STIXGeneral",
@@ -55,89 +50,70 @@ STYLE = {
     "savefig.dpi": 300,
     "pdf.fonttype": 42,
 }
+# Patterns of dashes.
+DASHED, DOTTED, DASH_DOTTED = (0, (4, 2)), (0, (1, 1.5)), (0, (5, 1.5, 1, 1.5))
 
 
-def _line(label, color, **keywords):
-    """Return the role of a line."""
-    return {"label": label, "color": color, **keywords}
+def line(label, color, **look):
+    """Return the look of a line: keywords of `plot`."""
+    return {"label": label, "color": color, **look}
 
 
-def _points(label, color, marker, filled=False, **keywords):
-    """Return the role of markers, open unless `filled`."""
-    look = {"linestyle": "none", "markerfacecolor": color if filled else "none"}
-    return {"label": label, "color": color, "marker": marker, **look, **keywords}
+def markers(label, color, marker, **look):
+    """Return the look of markers without a line, open unless `look` fills them."""
+    look = {"linestyle": "none", "markerfacecolor": "none"} | look
+    return {"label": label, "color": color, "marker": marker, **look}
 
 
-def _shading(label, color):
-    """Return the role of a shaded range."""
+def shading(label, color):
+    """Return the look of a shaded range: keywords of `axvspan`."""
     return {"label": label, "facecolor": color, "linewidth": 0, "zorder": 0}
 
 
-# Keywords of `plot` for each role, the meaning of a curve; of `axvspan` for "damper_on" and "band".
+# Look of each role, the meaning of a curve in a frequency response.
 ROLES = {
-    "free_stable": _line("free, stable", BLACK, zorder=2.2),
-    "free_unstable": _line("free, unstable", GREY, linestyle=(0, (4, 2)), zorder=2.1),
-    "free_higher": _line(
+    "free_stable": line("free, stable", BLACK, zorder=2.2),
+    "free_unstable": line("free, unstable", GREY, linestyle=DASHED, zorder=2.1),
+    "free_higher": line(
         "free, other periods", BLACK, marker="|", markersize=4.2, linewidth=0.6, zorder=2.2
     ),
-    "harmonic_balance": _line(
+    "harmonic_balance": line(
         "damper, stable (harmonic balance)", SKY, linewidth=2.6, solid_capstyle="butt", zorder=2
     ),
-    "period_1": _points("damper, period 1", BLUE, "o"),
-    "higher_period": _points("damper, other periods", GREEN, "s"),
-    "subharmonic_free": _points(
-        "free, one-third subharmonic",
-        PURPLE,
-        "^",
-        filled=True,
-        markevery=0.025,
-        linestyle="-",
-        linewidth=0.5,
+    "period_1": markers("damper, period 1", BLUE, "o"),
+    "higher_period": markers("damper, other periods", GREEN, "s"),
+    "subharmonic_free": line(
+        "free, one-third subharmonic", PURPLE, marker="^", markevery=0.025, linewidth=0.5
     ),
-    "subharmonic_unstable": _line(
+    "subharmonic_unstable": line(
         "free, one-third subharmonic, unstable",
         PURPLE,
-        linestyle=(0, (5, 1.5, 1, 1.5)),
+        linestyle=DASH_DOTTED,
         linewidth=0.8,
         zorder=2.1,
     ),
-    "unstable_orbit": _line(
-        "damper, unstable orbit of period 1",
-        BLUE,
-        linestyle=(0, (1, 1.5)),
-        linewidth=0.8,
-        zorder=1.9,
+    "unstable_orbit": line(
+        "damper, unstable orbit of period 1", BLUE, linestyle=DOTTED, linewidth=0.8, zorder=1.9
     ),
-    "subharmonic_damped": _points("damper, subharmonic (period $3n$)", PURPLE, "v"),
-    "chaotic": _points("damper, chaotic", ORANGE, ".", filled=True),
-    "chaotic_transient": _points("damper, chaotic transient", ORANGE, ".", markersize=4.6),
-    "non_colliding": _points("damper, no contact", BLACK, "D", markersize=2.6),
-    "quasi_periodic": _points("damper, quasi-periodic", SKY, "P", filled=True, markersize=4.2),
-    "unresolved": _points("damper, unresolved", BLACK, "x"),
-    "optimum": _points(
-        "smallest, on the exact orbit", BLACK, "*", filled=True, markersize=5.5, zorder=3
+    "subharmonic_damped": markers("damper, subharmonic (period $3n$)", PURPLE, "v"),
+    "chaotic": markers("damper, chaotic", ORANGE, ".", markerfacecolor=ORANGE),
+    "chaotic_transient": markers("damper, chaotic transient", ORANGE, ".", markersize=4.6),
+    "non_colliding": markers("damper, no contact", BLACK, "D", markersize=2.6),
+    "quasi_periodic": markers(
+        "damper, quasi-periodic", SKY, "P", markerfacecolor=SKY, markersize=4.2
     ),
-    "near_optimum": _line("at most 10 % larger", GREY, marker="|", linewidth=0.6, zorder=3),
-    "non_resonance": _points("released to the non-resonance motion", BLUE, ".", filled=True),
-    "subharmonic": _points("released to the one-third subharmonic", VERMILION, "^"),
-    "resonance": _points("released to the resonance motion", BLACK, "+"),
-    "other": _points("released to another motion", GREEN, "d"),
-    "lost": _points("not settled after the release", ORANGE, "*"),
-    "switched_on": _line("switched on", VERMILION),
-    "switched_off": _line("switched off", BLUE, linestyle=(0, (3, 1.5))),
-    "damper_on": _shading("damper on", PALE_SKY),
-    "band": _shading("suppression band (harmonic balance)", PALE_YELLOW),
+    "unresolved": markers("damper, unresolved", BLACK, "x"),
+    "band": shading("suppression band (harmonic balance)", PALE_YELLOW),
 }
 
 # Colour, dashes and marker of curves that differ in the value of a parameter only.
 CURVES = [
     (BLUE, "-", "o"),
     (VERMILION, (0, (5, 2)), "s"),
-    (GREEN, (0, (5, 1.5, 1, 1.5)), "^"),
+    (GREEN, DASH_DOTTED, "^"),
     (PURPLE, (0, (1, 1.2)), "D"),
     (BLACK, (0, (8, 2)), "v"),
 ]
-
 
 # Mathtext (matplotlib's version of TeX) of symbols that `tex` cannot translate.
 MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
@@ -149,20 +125,27 @@ def style(*changes):
 
 
 def figure(column, height) -> Figure:
-    """Return an empty figure, `height` inches high, with the width of "single" or "double" columns.
-
-    Raises
-    ------
-    ValueError
-        If `column` is another word.
-    """
-    if column not in COLUMNS:
-        raise ValueError(f"column = {column!r}: must be one of {', '.join(COLUMNS)}")
+    """Return an empty figure as wide as a "single" or "double" column, `height` inches high."""
     return Figure(figsize=(COLUMNS[column], height), layout="constrained")
 
 
+def grid(count, row, rest, columns=2, **shared):
+    """Return a figure and its `count` lettered axes, at most `columns` side by side.
+
+    A row is `row` inches high, all else `rest`; `shared` are options of `subplots`.
+    """
+    columns = min(columns, count)
+    rows = -(-count // columns)
+    drawn = figure("double", rest + row * rows)
+    panels = drawn.subplots(rows, columns, squeeze=False, **shared).ravel()
+    for axes in panels[count:]:
+        axes.remove()
+    letter_panels(panels[:count])
+    return drawn, panels[:count]
+
+
 def curve(index) -> dict:
-    """Return keywords of `plot` for the line of the curve `index` in `CURVES`, counted from 0."""
+    """Return keywords of `plot` for the line of the curve `index` in `CURVES`."""
     color, dashes, _ = CURVES[index]
     return {"color": color, "linestyle": dashes}
 
@@ -173,14 +156,14 @@ def points(index) -> dict:
     return {"color": color, "linestyle": "none", "marker": marker, "markerfacecolor": "none"}
 
 
-def once(axes, label):
-    """Return a label, or None if an artist of the axes has it: `axes.legend()` lists it once."""
-    return None if label in axes.get_legend_handles_labels()[1] else label
-
-
 def draw(axes, x, y, *, label=None, **look) -> None:
     """Plot a line, without its label if the axes have it already."""
     axes.plot(x, y, label=once(axes, label), **look)
+
+
+def once(axes, label):
+    """Return a label, or None if an artist of the axes has it: `axes.legend()` lists it once."""
+    return None if label in axes.get_legend_handles_labels()[1] else label
 
 
 def parameter_label(parameters, *names, separator=", ") -> str:
@@ -193,10 +176,7 @@ def parameter_label(parameters, *names, separator=", ") -> str:
 
 
 def axis_label(variable, words=None) -> str:
-    """Return an axis label: description, symbol, units, such as "Forcing frequency, $\\Omega$".
-
-    `variable` is a DataArray with the attributes of the registry; `words` replace its description.
-    """
+    """Return the description (or other `words`), symbol and units of a DataArray as a label."""
     words, units = words or variable.attrs["long_name"], variable.attrs["units"]
     label = words[0].upper() + words[1:]
     if "symbol" in variable.attrs:
@@ -214,33 +194,20 @@ def tex(symbol) -> str:
     return symbol.replace("  |", r"\,|")
 
 
-def forcing_period(data) -> float:
-    """Return the period of the forcing in the unit of the times of a dataset."""
-    scale = json.loads(data.attrs.get("scales", '{"time": 1}'))["time"]
-    return 2 * math.pi / parameters_of(data)["frequency"] * scale
-
-
 def letter_panels(panels) -> None:
-    """Label the axes (a), (b), ... at their upper left corners, outside the frame."""
-    for letter, axes in zip(string.ascii_lowercase, panels, strict=False):
-        axes.set_title(f"({letter})", loc="left")
+    """Label several axes (a), (b), ... at their upper left corners, outside the frame."""
+    if len(panels) > 1:
+        for letter, axes in zip(string.ascii_lowercase, panels, strict=False):
+            axes.set_title(f"({letter})", loc="left")
 
 
-def legend(figure, columns, order=(), place=None) -> None:
-    """Add one legend that lists each label once, the labels in `order` first.
-
-    The legend stands below all axes, or in the empty axes `place`.
-    """
+def legend(figure, columns) -> None:
+    """Add a legend below all axes that lists each label once."""
     entries = {}
     for axes in figure.axes:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
-    first = [label for label in order if label in entries]
-    entries = {label: entries[label] for label in [*first, *entries]}
-    if place is not None:
-        place.set_axis_off()
-        place.legend(entries.values(), entries.keys(), loc="center", ncols=columns)
-    elif entries:
+    if entries:
         figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
 
 

@@ -1,23 +1,31 @@
 """Displacement against clearance, with the optimum."""
 
+import json
+
 import numpy as np
 
 from impact_damper.data.datasets import parameters_of
+from impact_damper.model.units import Scales
 from impact_damper.plot.sheets import datasets_in, sheet
 from impact_damper.plot.style import (
     BLACK,
     CURVES,
     GREY,
-    ROLES,
     axis_label,
     curve,
+    line,
+    markers,
     parameter_label,
     points,
 )
 
-BALANCE = "lines: $|a|$ by equations (7)"
-STAR = ROLES["optimum"] | {"markeredgewidth": 0.5, "markersize": 7.5}
-# Parameters that the legend names if they differ between the curves.
+OPTIMUM = markers(
+    "smallest, on the exact orbit", BLACK, "*", markerfacecolor=BLACK, markersize=5.5, zorder=3
+)
+STAR = OPTIMUM | {"markeredgewidth": 0.5, "markersize": 7.5}
+NEAR = line("at most 10 % larger", GREY, marker="|", linewidth=0.6, zorder=3)
+BALANCE = line("lines: $|a|$ by equations (7)", GREY)
+# Parameters that the legend names if they differ between the curves; the last one always.
 VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 
 
@@ -48,17 +56,16 @@ def sweep(data, axes=None):
     sweeps = datasets_in(data, lambda each: "quiet_displacement" in each, "clearance_sweep")
     if len(sweeps) > len(CURVES):
         raise TypeError(f"data = {len(sweeps)} datasets: must be at most {len(CURVES)}")
-    balanced = [bool(np.isfinite(each["analytical_optimum"])) for each in sweeps]
     with sheet(axes) as (axes,):
         # Legend: each curve with its own line; entries that hold for all curves are grey.
         for index, words in enumerate(_titles(sweeps)):
             axes.plot([], [], **points(index) | curve(index), label=words)
-        if any(balanced):
-            axes.plot([], [], color=GREY, label=BALANCE)
+        if any(map(_balanced, sweeps)):
+            axes.plot([], [], **BALANCE)
         axes.plot([], [], **STAR | {"color": GREY})
-        axes.plot([], [], **ROLES["near_optimum"])
-        for index, (each, by_balance) in enumerate(zip(sweeps, balanced, strict=True)):
-            _draw_sweep(axes, each, by_balance, index)
+        axes.plot([], [], **NEAR)
+        for index, each in enumerate(sweeps):
+            _draw_sweep(axes, each, index)
         axes.set(
             xlabel=axis_label(sweeps[0]["clearance"]),
             ylabel=axis_label(sweeps[0]["quiet_displacement"]),
@@ -67,35 +74,48 @@ def sweep(data, axes=None):
     return axes
 
 
-def _draw_sweep(axes, sweep, by_balance, index):
-    """Draw a sweep: points, line, optimum, and the range of clearances near it."""
+def _balanced(sweep):
+    """Return whether a sweep has amplitudes by harmonic balance."""
+    return bool(np.isfinite(sweep["analytical_optimum"]))
+
+
+def _draw_sweep(axes, sweep, index):
+    """Draw a sweep: points, line with the optimum inserted, and the range of clearances near it."""
+    clearance, size = sweep["clearance"].values, sweep["quiet_displacement"].values
+    best, least = float(sweep["optimum_clearance"]), float(sweep["optimum_displacement"])
     color = {"color": curve(index)["color"], "label": None}
-    axes.plot(sweep["clearance"], sweep["quiet_displacement"], **points(index))
-    axes.plot(*_line_of(sweep, by_balance), **curve(index))
-    near = sweep["near_clearance"], sweep["optimum_displacement"].values.repeat(2)
-    axes.plot(*near, **ROLES["near_optimum"] | color)
-    filled = {"markerfacecolor": color["color"], "markeredgecolor": BLACK}
-    axes.plot(sweep["optimum_clearance"], sweep["optimum_displacement"], **STAR | color | filled)
-
-
-def _line_of(sweep, by_balance):
-    """Return clearances and ordinates of the line of a sweep, its optimum inserted."""
-    if by_balance:
-        names, least = ("analytical_amplitude", "analytical_optimum"), 0
+    axes.plot(clearance, size, **points(index))
+    if _balanced(sweep):
+        at, values, lowest = float(sweep["analytical_optimum"]), sweep["analytical_amplitude"], 0
     else:
-        names = "quiet_displacement", "optimum_clearance"
-        least = sweep["optimum_displacement"]
-    clearance, values, best = (sweep[name].values for name in ("clearance", *names))
-    place = np.searchsorted(clearance, best)
-    return np.insert(clearance, place, best), np.insert(values, place, least)
+        at, values, lowest = best, size, least
+    place = np.searchsorted(clearance, at)
+    axes.plot(np.insert(clearance, place, at), np.insert(values, place, lowest), **curve(index))
+    axes.plot(sweep["near_clearance"], [least, least], **NEAR | color)
+    filled = {"markerfacecolor": color["color"], "markeredgecolor": BLACK}
+    axes.plot(best, least, **STAR | color | filled)
 
 
 def _titles(sweeps):
-    """Return legend texts: the mass ratio, and all parameters that differ between sweeps."""
-    parameters = [parameters_of(sweep) for sweep in sweeps]
-    names = [
-        name
-        for name in VARIED
-        if name == "mass_ratio" or len({values[name] for values in parameters}) > 1
+    """Return legend texts: the damper's mass, and all parameters that differ between sweeps."""
+    *others, masses = zip(*map(_parameters, sweeps), strict=True)
+    return [", ".join(words) for words in zip(*filter(_differ, others), masses, strict=True)]
+
+
+def _differ(texts):
+    """Return whether texts differ."""
+    return len(set(texts)) > 1
+
+
+def _parameters(sweep):
+    """Return the parameters that may differ between sweeps as text, the damper's mass last."""
+    values = parameters_of(sweep)
+    if "machine" not in sweep.attrs:
+        return [parameter_label(values, name) for name in VARIED]
+    machine, scales = (json.loads(sweep.attrs[name]) for name in ("machine", "scales"))
+    return [
+        f"damping ratio {machine['damping_ratio']:.4g}",
+        f"{Scales(**scales, si=True).to_si(values['frequency'], 'frequency'):.4g} Hz",
+        f"restitution {values['restitution']:.4g}",
+        f"loose mass {values['mass_ratio'] * machine['mass']:.4g} kg",
     ]
-    return [parameter_label(values, *names) for values in parameters]

@@ -12,6 +12,8 @@ from helpers.made_up_design import made_up_design
 from matplotlib.figure import Figure
 
 import impact_damper as idm
+from impact_damper.data.datasets import dataset
+from impact_damper.data.variables import OUTCOME
 from impact_damper.plot.sheets import sheet
 
 matplotlib.use("Agg")
@@ -130,14 +132,43 @@ def test_labels_have_the_units_of_the_machine(results):
     assert idm.plot.response(results["machine_response"]).get_xlabel().endswith("(Hz)")
 
 
-def test_a_thousand_cycles_are_drawn_as_their_envelope(results):
-    run = results["migration"]
-    axes = idm.plot.migration(run)
-    (envelope,) = axes.collections
-    low, high = np.sort(envelope.get_paths()[0].vertices[:, 1])[[0, -1]]
-    assert low >= run["displacement"].min() and high <= run["displacement"].max()
-    part = idm.plot.migration(run, span=(0, 60))
-    assert not part.collections and part.get_xlim() == (0, 60)
+def test_curves_of_a_machine_are_named_in_its_units():
+    """Its mass is 12 kg; the loose mass is a twentieth of it. 21 Hz is 131.9 rad/s."""
+    varied = [
+        idm.clearance_sweep(
+            MACHINE, MACHINE_DAMPER, frequency, [1e-3, 2e-3], method="harmonic_balance"
+        )
+        for frequency in (21.0, 22.0)
+    ]
+    sizes = {
+        "quiet_displacement": varied[0]["clearance"],
+        "optimum_clearance": 1.5,
+        "optimum_displacement": 1.0,
+        "near_clearance": ("edge", [1.4, 1.6]),
+    }
+    axes = idm.plot.sweep([each.assign(sizes) for each in varied])
+    found = [each.get_label() for each in axes.lines[:2]]
+    assert found == ["21 Hz, loose mass 0.6 kg", "22 Hz, loose mass 0.6 kg"]
+
+
+def test_branches_reach_to_their_ends_and_split_where_the_period_changes():
+    """The branch doubles its period at W = 3; its ends lie between two frequencies."""
+    data = {
+        "maximum_displacement": np.array([[9.0], [1.0], [2.0], [3.0], [9.0]]),
+        "outcome": np.array([[OUTCOME["absent"]]] + 3 * [[1]] + [[OUTCOME["absent"]]]),
+        "contacts": np.full((5, 1), 2.0),
+        "branch": np.array([[-1], [4], [4], [4], [-1]]),
+        "period": np.array([[0], [1], [1], [2], [0]]),
+        "end_branch": [4, 4],
+        "end_direction": [-1, 1],
+        "end_value": [0.75, 3.25],
+        "end_displacement": [0.5, 3.5],
+    }
+    made = {"mass_ratio": 0.1, "clearance": 1.0}
+    axes = idm.plot.response(dataset(data, {"frequency": np.arange(5.0)}, made, "made up"))
+    found = [line.get_xydata() for line in axes.lines]
+    found = [line[np.isfinite(line).all(axis=1)].tolist() for line in found]
+    assert found == [[[0.75, 0.5], [1, 1], [2, 2]], [[3, 3], [3.25, 3.5]]]
 
 
 def test_shares_are_stacked_with_intervals():

@@ -8,7 +8,7 @@ from helpers.made_up import matched_sweep
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from chatterjee1995.figures.clearance import draw_optimum
-from chatterjee1995.figures.migration import draw_migration, draw_release
+from chatterjee1995.figures.migration import DESTINATIONS, draw_migration, draw_release
 from chatterjee1995.figures.responses import (
     draw_branches,
     draw_free,
@@ -19,7 +19,9 @@ from chatterjee1995.figures.responses import (
 )
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION, OUTCOME
+from impact_damper.plot.motions import DAMPER_ON, SWITCHED
 from impact_damper.plot.style import COLUMNS, ROLES, style
+from impact_damper.plot.sweeps import NEAR, OPTIMUM
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -181,15 +183,15 @@ DRAWINGS = {
     "motion": (lambda: draw_motion(motion=[motion()]), []),
     "optimum": (
         lambda: draw_optimum(optimum=[optimum(0.12, 1), optimum(0.18, 1)]),
-        ["optimum", "near_optimum"],
+        [OPTIMUM, NEAR],
     ),
     "migration": (
         lambda: draw_migration(migration=[migration()]),
-        ["damper_on", "switched_on", "switched_off"],
+        [DAMPER_ON, *SWITCHED.values()],
     ),
     "release": (
         lambda: draw_release(migration=[migration()]),
-        ["non_resonance", "subharmonic", "resonance", "other", "lost"],
+        [*DESTINATIONS.values()],
     ),
 }
 
@@ -206,7 +208,8 @@ def drawn_once(name):
 def drawing(request):
     _, roles = DRAWINGS[request.param]
     with style():
-        yield drawn_once(request.param), {ROLES[role]["label"] for role in roles}
+        looks = [ROLES[role] if isinstance(role, str) else role for role in roles]
+        yield drawn_once(request.param), {look["label"] for look in looks}
 
 
 def words(drawn):
