@@ -38,12 +38,6 @@ def test_verdicts_follow_from_the_restitution():
     assert (verdict[0, middle] == flag("contact_verdict", "close")).all()
 
 
-def test_loads_are_symmetric_and_reach_the_largest():
-    loads = spread_loads(10, 81)
-    assert_allclose(loads, -loads[::-1], atol=1e-18)
-    assert loads[-1] == pytest.approx(10)
-
-
 def test_logged_contacts_are_those_of_the_simulation():
     scene = polished_orbit("inelastic")
     seen = contacts_of(PAPER, INELASTIC, 2.0, scene.state, 3)

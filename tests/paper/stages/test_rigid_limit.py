@@ -43,15 +43,6 @@ def test_orders(damper, name):
     assert_allclose(orders, [0.5, 1.0], atol=0.02)
 
 
-def test_an_orbit_repeats_and_is_symmetric():
-    orbit, _ = rigid_orbit(PAPER, INELASTIC, 2.0, polished_orbit("inelastic").state, NEAR)
-    again, _ = rigid_orbit(PAPER, INELASTIC, 2.0, orbit.state + 1e-3, NEAR)
-    assert_allclose(again.state, orbit.state, atol=1e-10)
-    mirrored, _ = rigid_orbit(PAPER, INELASTIC, 2.0, -orbit.state, NEAR)
-    # The mirror image at the same phase of the forcing belongs to no orbit.
-    assert mirrored is None
-
-
 @pytest.fixture(scope="module")
 def limit():
     return rigid_limit(
