@@ -52,8 +52,7 @@ same-bytes: $(READY)
 benchmark: $(READY)
 	PYTHONPATH=tests $(BIN)/python -m benchmarks
 
-# Test whether a run recovers from kills, damaged files, full disks and so on. The outcomes are
-# written into results/faults/.
+# Test whether a run recovers from kills, damaged files, full disks and so on.
 faults: $(READY)
 	PYTHONPATH=tests $(BIN)/python -m faults
 

@@ -37,16 +37,13 @@ def wait_for_end_of_orphans(folder):
 
     A job must end soon after Snakemake was killed, even if it has not finished.
     """
-    end = time.monotonic() + 10
-    while time.monotonic() < end:
-        if not any(_within(folder, process) for process in psutil.process_iter(["cmdline"])):
-            return
+    scripts, end = f"{folder}/.snakemake/scripts", time.monotonic() + 10
+    while any(
+        scripts in " ".join(process.info["cmdline"] or [])
+        for process in psutil.process_iter(["cmdline"])
+    ):
+        expect(time.monotonic() < end, "jobs still run 10 s after their run was killed")
         time.sleep(WAIT)
-    expect(False, "jobs still run 10 s after their run was killed")
-
-
-def _within(folder, process):
-    return f"{folder}/.snakemake/scripts" in " ".join(process.info["cmdline"] or [])
 
 
 def kill_snakemake(context):

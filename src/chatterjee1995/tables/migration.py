@@ -29,7 +29,6 @@ def migration(datasets) -> pd.DataFrame:
         for k in range(case.sizes["damped"]):
             kind = reading.meaning("damped_kind", case.damped_kind[k])
             shares = case.release_share.isel(damped=k)
-            goal = shares.sel(free_motion="non_resonance")
             rows.append(
                 {"case": name}
                 | parameter_columns(case, "frequency")
@@ -46,8 +45,6 @@ def migration(datasets) -> pd.DataFrame:
                     "period": int(case.damped_period[k]),
                     "displacement max |Z1|": float(case.damped_displacement[k]),
                     _destination("other"): float(shares.sel(free_motion="other", bound="share")),
-                    "to the non-resonance, at least": float(goal.sel(bound="lower")),
-                    "to the non-resonance, at most": float(goal.sel(bound="upper")),
                 }
             )
     return pd.DataFrame(rows)

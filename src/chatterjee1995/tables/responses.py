@@ -8,7 +8,6 @@ from chatterjee1995.reading import orbits
 from chatterjee1995.reading.bands import high_motions
 from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.columns import DAMPER, parameter_columns
-from impact_damper.data.datasets import flag
 from impact_damper.data.variables import OUTCOME
 
 # Stages with the outcome of each start, and their names in the table `outcomes`.
@@ -17,7 +16,6 @@ SWEPT = {
     "subharmonic": "starts on the free subharmonic",
     "optimum": "clearance sweeps",
 }
-NEUTRAL = 3.0  # number of standard errors within which a Lyapunov exponent counts as 0
 
 
 def outcomes(datasets) -> pd.DataFrame:
@@ -26,7 +24,7 @@ def outcomes(datasets) -> pd.DataFrame:
     for stage, words in SWEPT.items():
         for name, data in reading.damped(datasets, stage).items():
             counts = {each: np.sum(data.run_outcome == OUTCOME[each]) for each in OUTCOME}
-            rows.append(_outcomes(words, name, counts) | _reasons(data))
+            rows.append(_outcomes(words, name, counts))
     for name, data in datasets.get("studies", {}).items():
         counts = data.outcome_count
         totals = counts.sum([dim for dim in counts.dims if dim != "counted_outcome"]).to_series()
@@ -56,19 +54,6 @@ def _outcomes(stage, name, counts):
         ),
         "starts": starts,
         "unresolved of 2000 starts": 2000 * counts["unresolved"] / starts if starts else np.nan,
-    }
-
-
-def _reasons(data):
-    """Return the numbers of unresolved starts by the sign of the Lyapunov exponent."""
-    dims = data.run_motion.dims
-    chosen = {"motion": data.run_motion}
-    size = data.lyapunov_exponent.isel(chosen) / data.lyapunov_error.isel(chosen)
-    lost = data.run_outcome == flag("run_outcome", "unresolved")
-    return {
-        "unresolved, growing": int((lost & (size > NEUTRAL)).sum(dims)),
-        "unresolved, neutral": int((lost & (np.abs(size) <= NEUTRAL)).sum(dims)),
-        "unresolved, shrinking": int((lost & ~(size >= -NEUTRAL)).sum(dims)),
     }
 
 

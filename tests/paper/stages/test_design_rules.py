@@ -102,7 +102,7 @@ def test_table_counts(grid, sweeps):
         cell = grid.sel(criterion="displacement", rule=rule)
         error = 100 * np.abs(cell.rule_ratio / cell.best_ratio - 1).values
         assert row["number of designs"] == 4 and row["optima found"] == 4
-        for most in (1, 2, 5, 10):
+        for most in (1, 10):
             assert row[f"optima within {most} %"] == np.sum(error <= most)
         assert_allclose(row["largest error of d0 [%]"], np.nanmax(error))
     assert rows.loc["all grids, e = 1", "max |Z1|", RULE_NAMES["flight"]]["number of designs"] == 2

@@ -8,17 +8,15 @@ import re
 import reprlib
 
 import pytest
-import yaml
-from helpers.broken import GONE, MAPPINGS, SMALL, at, broken, changed, junk, places
+from helpers.broken import GONE, SMALL, at, broken, changed, junk, places
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatterjee1995.sections.configuration import configuration
 from impact_damper.command.messages import dotted
-from impact_damper.command.yaml_files import LOADER, ConfigurationError, check_file
+from impact_damper.command.yaml_files import ConfigurationError, check_file
 
 ALLOWED = re.compile(r"(: must |: name must be |: unknown key; known: \w|: missing; needed )")
-TEXT = yaml.safe_dump(SMALL)
 
 
 def problems(config):
@@ -55,30 +53,6 @@ def test_nothing_at_any_place_is_worse_than_rejected(path, value):
         assert all(ALLOWED.search(line) for line in str(error).split("\n"))
     else:
         assert type(value) is type(at(path)) or {type(value), type(at(path))} == {int, float}
-
-
-@settings(max_examples=50)
-@given(junk)
-def test_no_junk_is_a_configuration(value):
-    assert all(ALLOWED.search(line) for line in problems(value))
-
-
-@settings(max_examples=15)
-@given(data=st.data())
-def test_a_key_that_stands_twice_is_told(data, tmp_path_factory):
-    """The second key stands in any mapping of the file, with the same value or another."""
-    path = data.draw(st.sampled_from([path for path in MAPPINGS if at(path)]))
-    root = node = yaml.compose(TEXT, Loader=LOADER)
-    for key in path:
-        node = next(value for name, value in node.value if name.value == key)
-    key, value = data.draw(st.sampled_from(node.value))
-    node.value.append((key, data.draw(st.sampled_from([value, root.value[0][0]]))))
-    file = tmp_path_factory.mktemp("twice") / "mine.yaml"
-    file.write_text(yaml.serialize(root))
-    with pytest.raises(
-        ConfigurationError, match=rf"^mine.yaml, line \d+: {key.value} stands twice"
-    ):
-        check_file(file)
 
 
 @settings(max_examples=200)

@@ -60,17 +60,12 @@ def test_the_paper_is_accepted_and_so_are_valid_extremes(path, value):
     ("path", "value", "told"),
     [
         ("curves/figure_05a/massratio", 0.12, "unknown key; known: clearance, mass_ratio, osc"),
-        ("settling/patients", 300, "; did you mean patience?"),
         ("studies/design_plane/clearance/frist", 1, "first, last, points; did you mean first?"),
         ("figures/figure_05a/data", ["figure_5a"], "; did you mean figure_05a?"),
         ("contact_stiffness", "2000", "a finite number"),
-        ("points/simulated", 45.0, "a whole number"),
-        ("curves/3", 3, "keys with values"),
         ("curves", {}, "with 1 or more entries"),
-        ("curves/a b", PAPER["curves"]["figure_10"], "a file name"),
         ("results", "../results", "folder below the working directory"),
         ("scenes/chaos/accuracy/quantity", "state", "the motion is chaotic"),
-        ("scenes/chaos/periods", 39, "at least twice comparison.batch = 20"),
         ("comparison/taylor", [1.0e-6, 1.0e-3], "must decrease"),
         ("comparison/scipy_periods", 39, "at least twice batch = 20"),
         ("settling/limit", 200, "at least settling.patience = 300"),
@@ -110,16 +105,9 @@ def test_each_problem_has_its_line():
     config = changed("seed", -1)
     config["contact_stiffness"] = -2000
     del config["curves"]["figure_10"]["oscillator"]
-    assert [line.split(" ")[0].rstrip(":") for line in problems(config)] == [
-        "contact_stiffness",
-        "curves.figure_10.oscillator",
-        "seed",
-    ]
-
-
-@pytest.mark.parametrize("config", [None, [], 3])
-def test_a_configuration_without_keys_is_rejected(config):
-    assert problems(config) == [f"configuration = {config!r}: must be keys with values"]
+    told = [line.split(" ")[0].rstrip(":") for line in problems(config)]
+    assert told == ["contact_stiffness", "curves.figure_10.oscillator", "seed"]
+    assert problems(None) == ["configuration = None: must be keys with values"]
 
 
 def test_repeated_keys_are_rejected_with_their_lines(tmp_path):
@@ -163,13 +151,6 @@ def test_entries_set_to_null_are_left_out_with_what_only_they_are_drawn_for():
     kept = without_left_out(config)
     assert kept["curves"] == {"a": {"mass_ratio": 0.1}}
     assert kept["figures"] == {"both": {"kind": "harmonic_balance", "data": ["a"]}}
-
-
-@pytest.mark.parametrize("figures", [5, [1], {"a": 5}, {"a": {"kind": "harmonic_balance"}}])
-@pytest.mark.parametrize("curves", [5, {"b": {}}])
-def test_leaving_out_passes_on_what_the_check_refuses(figures, curves):
-    config = {"figures": figures, "curves": curves}
-    assert without_left_out(config) == config
 
 
 def bounds():

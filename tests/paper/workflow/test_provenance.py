@@ -38,7 +38,10 @@ def test_versions_and_the_lock_file_count(project):
 
 
 @pytest.mark.skipif(not shutil.which("git"), reason="git is not installed")
-def test_the_commit_is_told_and_whether_files_were_changed_since(project):
+def test_the_commit_and_whether_files_were_changed_since(project, monkeypatch):
+    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(project.parent))
+    made = provenance({}, project)
+    assert (made["commit"], made["modified"]) == (None, None)
     git(project, "init", "--quiet")
     git(project, "add", "requirements.lock")
     git(project, "commit", "--quiet", "--message", "All")
@@ -46,9 +49,3 @@ def test_the_commit_is_told_and_whether_files_were_changed_since(project):
     assert (made["commit"], made["modified"]) == (git(project, "rev-parse", "HEAD"), False)
     (project / "requirements.lock").write_text("")
     assert provenance({}, project)["modified"]
-
-
-def test_without_a_repository_there_is_no_commit(project, monkeypatch):
-    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(project.parent))
-    made = provenance({}, project)
-    assert (made["commit"], made["modified"]) == (None, None)

@@ -40,21 +40,12 @@ VALUES = {
         *(f"{s}/figure_08" for s in ("harmonic_balance", "response", "subharmonic", "branches")),
         *chapters("design", "responses", "claims"),
     },
-    ("curves", "free_h150", "oscillator"): {
-        *(f"{stage}/free_h150" for stage in ("harmonic_balance", "response", "branches")),
-        *chapters("design", "responses", "claims"),
-    },
     ("points", "clearances"): {"optimum/*", *chapters("clearance", "responses", "claims")},
     ("collisions", "figure_05a", "mass_ratio"): {"collisions", *chapters("claims")},
     ("comparison", "harmonics"): {"accuracy/*", *chapters("methods")},
     ("oscillators", "l100", "damping"): {
         *(f"{stage}/free_l100" for stage in ("harmonic_balance", "response", "branches")),
         *("harmonic_balance/figure_03b*", "design_orbit"),
-        *chapters("design", "responses", "claims"),
-    },
-    ("oscillators", "l150", "frequencies", "last"): {
-        *(f"{stage}/free_l150" for stage in ("harmonic_balance", "response", "branches")),
-        *("harmonic_balance/figure_03a", "harmonic_balance/figure_03a_rule"),
         *chapters("design", "responses", "claims"),
     },
     ("comparison", "orders"): {"accuracy/*", *chapters("methods")},
@@ -67,7 +58,6 @@ FILES = {
     "src/impact_damper/plot/pages/templates/design.jinja": {"pages/machines"},
     "src/chatterjee1995/tables/migration.py": chapters("migration"),
     "src/chatterjee1995/claims/claims.yaml": chapters("claims"),
-    "src/chatterjee1995/figures/migration.py": chapters("migration"),
     "workflow/scripts/machine_pages.py": {"pages/machines"},
     "src/chatterjee1995/stages/studies.py": {
         *("study_chunks/design_plane", "studies/design_plane"),

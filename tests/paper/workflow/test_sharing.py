@@ -111,18 +111,13 @@ def test_what_differs_is_not_shared(shared, edit):
     assert found == [str(second)] * 3 + [str(first)]
 
 
-def test_nothing_is_shared_between_versions_of_packages(shared, edit):
+def test_nothing_is_shared_between_versions_of_packages_or_without_the_option(shared, edit):
     _, second, cache = shared
     edit("requirements.lock", lambda text: text + "# A word.\n")
     assert run(second, cache, DESIGN) == [str(second)]
-
-
-def test_without_the_option_nothing_is_shared(shared):
-    _, second, _ = shared
-    (second / DESIGN).unlink(missing_ok=True)
+    (second / DESIGN).unlink()
     result = snakemake(second, DESIGN)
-    assert result.returncode == 0
-    assert computed_in(second / DESIGN) == str(second)
+    assert result.returncode == 0 and computed_in(second / DESIGN) == str(second)
     assert json.loads((second / "results/provenance.json").read_text())["versions"]["numpy"]
 
 
