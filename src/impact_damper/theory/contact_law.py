@@ -18,13 +18,11 @@ EXIT_RULES = ("zero_penetration", "no_tension")
 class Exit(NamedTuple):
     """End of a contact.
 
-    outcome: "released" if the loose mass separates from the wall. "falls_back" if the rule
-        `no_tension` ends the contact, but the load drives the loose mass back before u = 0.
-        "no_release" if the contact does not end.
+    outcome: "released"; "falls_back" if the rule `no_tension` ends the contact, but the load drives
+        the loose mass back before u = 0; or "no_release".
     duration: s = wn t at the end of the contact, infinite if the contact does not end.
-    departure: The realised restitution: speed at u = 0 divided by approach speed. If the contact
-        ends before u = 0, the loose mass flies under the load until u = 0. NaN unless the outcome
-        is "released".
+    departure: The realised restitution, speed at u = 0 divided by approach speed; NaN unless
+        released.
     """
 
     outcome: str
@@ -35,9 +33,7 @@ class Exit(NamedTuple):
 class Tension(NamedTuple):
     """Pull of the wall on the loose mass at the end of a contact; NaN if the contact does not end.
 
-    time: Time in which the wall pulls divided by the duration of the contact.
-    impulse: Impulse of the pull divided by the impulse of the push.
-    peak: Largest pull divided by the largest push.
+    The time is divided by the duration of the contact, impulse and peak by those of the push.
     """
 
     time: float
@@ -91,10 +87,7 @@ def damping_ratio(restitution) -> float:
 
 
 def natural_frequency(damper) -> float:
-    """Return wn = sqrt(r1 (1 + 1/rm)) of a `Damper`.
-
-    An elastic contact without load lasts pi/wn.
-    """
+    """Return wn = sqrt(r1 (1 + 1/rm)) of a `Damper`; an elastic contact lasts pi/wn."""
     return math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
 
 

@@ -18,10 +18,9 @@ ROUNDING = 1e-9
 
 
 class FreeSolutions(NamedTuple):
-    """Solutions without the damper at one frequency.
+    """Solutions without the damper at one frequency: a > 0, ascending, and t1; shape (count,).
 
-    amplitude: a > 0, ascending. Without forcing the only solution is 0; shape (count,).
-    phase: t1 in (-pi, pi], phase of Z1 relative to the forcing; shape (count,).
+    Without forcing the only solution is 0.
     """
 
     amplitude: np.ndarray
@@ -38,8 +37,7 @@ class Point(NamedTuple):
 class Resonance(NamedTuple):
     """The free resonance branch at one frequency.
 
-    amplitude: a. At a frequency beyond the end of the branch, the amplitude at this end.
-    phase: t1. None at a frequency beyond the end of the branch.
+    Beyond the end of the branch the amplitude is that at the end, and the phase is None.
     """
 
     amplitude: float
@@ -77,10 +75,7 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def balance_amplitudes(oscillator, frequency):
-    """Return the amplitudes of `main_solutions`, ascending.
-
-    If a softening spring has no resonance peak, only the smallest of all amplitudes is returned.
-    """
+    """Return the amplitudes of `main_solutions`; without a peak the smallest amplitude only."""
     try:
         return main_solutions(oscillator, frequency).amplitude
     except ValueError:
@@ -90,9 +85,8 @@ def balance_amplitudes(oscillator, frequency):
 def resonance(oscillator, frequency) -> Resonance:
     """Return the free resonance branch, the branch of the response curve on which the peak lies.
 
-    With a hardening spring the branch extends to low frequencies and ends at the upper fold. With a
-    softening spring it extends to high frequencies and ends at the fold next to the peak. Without
-    folds it is the whole curve.
+    With a hardening spring the branch ends at the upper fold, with a softening spring at the fold
+    next to the peak. Without folds it is the whole curve.
     """
     free = main_solutions(oscillator, frequency)
     folds = _folds(oscillator)
@@ -105,16 +99,13 @@ def resonance(oscillator, frequency) -> Resonance:
 
 
 def maximum_response(oscillator) -> Point:
-    """Return the maximum of the free response curve over W.
+    """Return the maximum of the free response curve over W, with V > 0 the one at resonance.
 
-    It is exact within single-term harmonic balance. The frequencies at which the curve has the
-    amplitude a are the roots of a quadratic equation in W^2,
+    The frequencies at which the curve has the amplitude a are the roots of
 
         (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2 + m^2 - F^2/a^2 = 0,   m = wl^2 + g a^2.
 
-    At the maximum the two roots coincide, so the discriminant of this equation is zero. The
-    discriminant is a quadratic polynomial in a^2. With V > 0 the response also grows without limit
-    towards W = 0, and the function returns the local maximum at resonance.
+    At the maximum the discriminant of this equation, quadratic in a^2, is zero.
     """
     if oscillator.shaker:
         return _peak_on_a_shaker(oscillator)
@@ -169,14 +160,10 @@ def _peak_on_a_shaker(oscillator):
 def free_folds(oscillator) -> list[Point]:
     """Return the folds of the free response curve, by ascending amplitude.
 
-    A hardening spring has two folds or none. The curve is the zero set of a quadratic polynomial in
-    s = W^2, see `maximum_response`. At a fold the derivative of this polynomial by u = a^2, which
-    is also quadratic in s, vanishes too. The resultant of both is a polynomial of degree five in u.
-    For U = 0 their common root is
-
-        s = wl^2 + g u - h^2/2 + (F^2/u^2 + g h^2)/(2 g).
-
-    With a softening spring the list also contains the folds of the second part of the curve.
+    The curve is the zero set of a quadratic polynomial in s = W^2, see `maximum_response`. At a
+    fold the derivative of this polynomial by u = a^2, which is also quadratic in s, vanishes too.
+    The resultant of both is a polynomial of degree five in u. With a softening spring the list also
+    contains the folds of the second part of the curve.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening
