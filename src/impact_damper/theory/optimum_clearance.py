@@ -34,9 +34,7 @@ RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 def straight_flight_ratio(mass_ratio, restitution=1.0) -> float:
     """Return rm W^2 d0 at which max |Z1| is smallest, for high frequency and rigid walls.
 
-    In this limit the spring and the damping of the primary mass are negligible, and the loose mass
-    flies at constant velocity (see `straight_flight.Flight`). For e = 1 the result is
-    1.1382 + 0.1382 rm.
+    For e = 1 the result is 1.1382 + 0.1382 rm.
     """
     return least_displacement_ratio(Flight(mass_ratio, restitution))
 
@@ -58,10 +56,7 @@ def _analytical(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return the amplitude of Z1 by harmonic balance (7) over a sweep of the clearance.
-
-    The clearance at which this amplitude is zero is returned too.
-    """
+    """Return |a| by harmonic balance (7) over a sweep of the clearance, and where it is zero."""
     signed, status = zip(
         *(_analytical(oscillator, each, frequency) for each in dampers), strict=True
     )
@@ -88,9 +83,7 @@ def analytical_table(oscillator, dampers, frequency):
 def excess_table(ratio, damper):
     """Return the fraction of the optimum's excess over rule (18) that each closed form explains.
 
-    The excess is (rm W^2 d0 at the optimum) - 1. A closed form with the ratio c explains the
-    fraction (c - 1)/excess. The two closed forms are FIRST_HARMONIC_RATIO and
-    `straight_flight_ratio`.
+    `ratio` is rm W^2 d0 at the optimum, and the excess is ratio - 1.
     """
     straight = straight_flight_ratio(damper.mass_ratio, damper.restitution)
     harmonic = FIRST_HARMONIC_RATIO if damper.restitution == 1 else np.nan

@@ -35,12 +35,10 @@ def polynomial_roots(coefficients) -> np.ndarray:
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
     """Return the real roots of an analytic function in [lower, upper], ascending.
 
-    A double root is listed once. The extrema of the function are replaced by the extrema of a
-    Chebyshev interpolant, which are eigenvalues of a companion matrix (Trefethen, Approximation
-    Theory and Approximation Practice, 2013, chapter 18). The degree of the interpolant is doubled
-    until its last coefficients reach the rounding error. An interval in which the rounding error
-    varies by more than a factor of 1e6 is halved first. Between the extrema the roots of the
-    function itself are located.
+    A double root is listed once. `size` is a bound on the rounding error, in epsilons. The extrema
+    are those of a Chebyshev interpolant, eigenvalues of a companion matrix (Trefethen,
+    Approximation Theory and Approximation Practice, 2013, chapter 18). Between them the roots of
+    the function itself are located.
     """
     sizes = size(np.linspace(lower, upper, 17))
     if np.max(sizes) > LARGEST_RANGE * np.min(sizes):

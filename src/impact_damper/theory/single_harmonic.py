@@ -16,12 +16,7 @@ from impact_damper.theory.roots import polynomial_roots, smooth_roots
 
 
 class Solutions(NamedTuple):
-    """Solutions of the balance at one frequency, arrays of shape (count,).
-
-    amplitude: a, signed amplitude of Z1: negative in antiphase to Z2.
-    relative_amplitude: b > 0, amplitude of Z2.
-    phase: t1 in (-pi, pi], phase of Z2 relative to the forcing; also the phase of Z1 if a > 0.
-    """
+    """Solutions of the balance at one frequency: a, b and t1, arrays of shape (count,)."""
 
     amplitude: np.ndarray
     relative_amplitude: np.ndarray
@@ -29,11 +24,9 @@ class Solutions(NamedTuple):
 
 
 class RigidSolutions(NamedTuple):
-    """Solutions for rigid walls (r1 to infinity, b = d0), arrays of shape (count,).
+    """Solutions a and t1 for rigid walls (r1 to infinity, b = d0), arrays of shape (count,).
 
-    amplitude, phase: a and t1 as in `Solutions`.
-    pulling: True where a > d0. There the contact force would be tensile, so (7) has no such
-        solution.
+    Where a > d0 walls would have to pull; (7) has no such solution.
     """
 
     amplitude: np.ndarray
@@ -98,10 +91,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 def resting_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return the motions without contact, in which the loose mass is at rest.
-
-    These are the free solutions with a < d0. Z2 = Z1 and b = a, because the loose mass is at rest.
-    """
+    """Return the free solutions with a < d0, in which the loose mass is at rest and Z2 = Z1."""
     check_damper(damper)
     free = free_solutions(oscillator, frequency)
     inside = free.amplitude < damper.clearance
