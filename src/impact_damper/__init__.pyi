@@ -1,6 +1,7 @@
 from . import plot as plot
 from .data.datasets import decode as decode
 from .design.design_damper import design_damper as design_damper
+from .design.design_damper import evaluate_damper as evaluate_damper
 from .design.task import Effort as Effort
 from .model.hertz import HertzContact as HertzContact
 from .model.machine import Machine as Machine

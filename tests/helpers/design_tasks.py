@@ -1,11 +1,9 @@
-"""Design tasks of a small linear machine, and made-up comparisons of gaps."""
+"""Design tasks of a small linear machine."""
 
 from dataclasses import fields
 
-import numpy as np
-
 import impact_damper as idm
-from impact_damper.design.task import SIDES, Effort, Task, labelled
+from impact_damper.design.task import Effort, Task
 
 MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
 EFFORT = {each.name for each in fields(Effort)}
@@ -17,16 +15,3 @@ def task(**changed):
     given |= {"contact": 2e7} | changed
     effort = {name: given.pop(name) for name in EFFORT & given.keys()}
     return Task(**given, effort=Effort(**effort))
-
-
-def compared(gaps, shares, worst, limit=2.0):
-    """Return a comparison of gaps; the lower end of an interval is .04 below the share."""
-    shares, worst = np.asarray(shares, float), np.asarray(worst, float)
-    values = {
-        "start_quiet_share": shares,
-        "start_quiet_interval": np.stack([shares - 0.04, shares], axis=-1),
-        "worst_displacement": worst,
-        "displacement_limit": limit,
-    }
-    frequencies = 20.0 + np.arange(shares.shape[1])
-    return labelled(values, candidate_gap=np.asarray(gaps), frequency=frequencies, side=SIDES)

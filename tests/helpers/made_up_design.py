@@ -16,26 +16,24 @@ MACHINE = {
     "force": 40.0,
 }
 SETTLING = {"tolerance": 1e-9, "patience": 300, "limit": 1500, "watched": 50}
-# A share of 1 with its interval.
-SURE = [1.0, 0.95, 1.0]
+ADDITIONS = ["response", "orbits", "forces", "masses", "transients", "competitors"]
 
 
-def made_up_design(choice="robust", promise="robust_kept", told=None, **changed):
+def made_up_design(decision="build", told=None, **changed):
     """Return the dataset; `changed` replaces values of variables, and `told` parameters."""
     data = labelled(
-        _screening() | _comparison(choice) | _deviations(promise) | _masses(),
+        _decision(decision) | _promise() | _search() | _maps(),
         frequency=FREQUENCY,
-        screened_gap=[6.0, 7.0, 8.0],
-        coarse_gap=[5.0, 6.0, 7.0, 8.0, 9.0],
-        candidate_gap=[6.0, 7.0, 8.0, 9.0],
+        promise_frequency=FREQUENCY,
+        searched_gap=[5.0, 6.0, 7.0, 8.0, 9.0],
         side=["lower", "upper"],
+        varied=["gap", "restitution", "contact_stiffness", "stiffness", "damping", "force"],
         other_mass=[0.3, 0.6, 1.2],
         operating_frequency=FREQUENCY,
         force_share=[0.25, 0.5, 1.0, 2.0, 4.0],
-        map_gap=[4.0, 6.0, 8.0],
-        map_restitution=[0.5, 0.75, 1.0],
         competitor=["bare", "tuned"],
         detuning=[-0.1, 0.0, 0.1],
+        addition=ADDITIONS,
     )
     data = data.merge(labelled(_motions()))
     data = data.merge(labelled(_branches(), changed=["force", "gap", "unbalance"]))
@@ -50,15 +48,11 @@ def made_up_design(choice="robust", promise="robust_kept", told=None, **changed)
         "mass": 0.6,
         "restitution": 0.7,
         "band": [26.0, 34.0],
-        "starts": 73,
+        "starts": 96,
         "share": 0.95,
         "seed": 1995,
+        "gap": None,
         "tolerances": {"gap": 0.1, "restitution": 0.1},
-        "later_displacement": 1.5,
-        "holdable": 0.01,
-        "lead": 200,
-        "longest": 3000,
-        "unseen": 1000,
         "pull_free_restitution": 0.72,
         "settling": SETTLING,
         "compared_settling": SETTLING | {"patience": 150, "limit": 900},
@@ -70,41 +64,71 @@ def made_up_design(choice="robust", promise="robust_kept", told=None, **changed)
     )
 
 
-def _screening():
+def _decision(decision):
     return {
-        "balance_displacement": np.linspace(6.0, 10.0, 5),
-        "displacement_limit": 2.0,
-        "best_orbit_frequency": 34.0,
-        "best_orbit_gap": 9.0,
+        "design_gap": 7.0,
+        "decision": flag("decision", decision),
+        "displacement_limit": np.nan,
+        "limit_status": flag("limit_status", "none"),
+        "promised_displacement": 1.0,
+        "promised_frequency": 30.0,
+        "promised_set": 2,
+        "promised_share": 0.95,
+        "promise_starts": 96,
+        "promise_rank": 2,
+        "gap_promised_displacement": 0.9,
+        "confirmation": flag("confirmation", "confirmed"),
+        "peak_status": flag("peak_status", "known"),
+        "record_status": flag("record_status", "known"),
+        "largest_bare_displacement": 10.0,
+        "largest_bare_frequency": 34.0,
+        "tuned_displacement": 0.5,
+        "detuned_displacement": 0.6,
+        "least_ratio": 0.05,
+        "worst_ratio": 0.15,
+        "worst_ratio_frequency": 26.0,
+        "branch_frequency": 30.0,
+        "keeping_gap": [5.0, 8.0],
+        "keeping_end": [flag("keeping_end", "search_ends"), flag("keeping_end", "jump")],
+        "range_gap": [6.5, 7.5],
+        "best_orbit_gap": 8.8,
         "best_orbit_displacement": 0.4,
-        "best_orbit_status": flag("best_orbit_status", "smooth"),
-        "screen_motions": 320,
-        "screen_orbits": 100,
+        "best_orbit_beyond": flag("best_orbit_beyond", "yes"),
+        "addition_status": [flag("addition_status", "computed")] * len(ADDITIONS),
     }
 
 
-def _comparison(choice):
-    shares = np.ones((4, 5))
-    shares[3, 2] = 0.5
-    ends = np.stack([0.95 * shares, np.minimum(1.0, 1.1 * shares)], axis=-1)
-    worst = np.where(shares < 1, 6.0, 0.8)
+def _promise():
+    factors = np.ones((3, 6))
+    factors[1:, 0] = 0.9, 1.1
     return {
-        "coarse_displacement": [7.0, 0.9, 0.8, 0.8, 6.0],
-        "coarse_share": [0.2, 1.0, 1.0, 1.0, 0.4],
-        "start_quiet_share": shares,
-        "start_quiet_interval": ends,
-        "worst_displacement": worst,
-        "quiet_time_median": np.full((4, 5), 80.0),
-        "quiet_time_late": np.full((4, 5), [100.0, 120.0, 110.0, 100.0, 90.0]),
-        "compared_motions": 1000,
-        "design_gap": 7.0,
-        "design_choice": flag("design_choice", choice),
-        "cliff_gap": [6.0, 8.5],
-        "cliff_beyond": [np.nan, 8.6],
-        "cliff_frequency": [np.nan, 30.0],
-        "cliff_status": [flag("cliff_status", "range_ends"), flag("cliff_status", "found")],
-        "reached_quiet_share": np.ones(5),
-        "reached_quiet_interval": np.tile([0.95, 1.0], (5, 1)),
+        "promise_factor": factors,
+        "promise_displacement": np.outer([0.8, 0.9, 1.0], [0.9, 0.95, 1.0, 0.9, 0.8]),
+        "promise_bare_displacement": np.linspace(6.0, 10.0, 5),
+        "unsettled_share": np.zeros(5),
+        "settling_late": np.full(5, 100.0),
+        "balance_displacement": np.linspace(6.0, 10.0, 5),
+    }
+
+
+def _search():
+    return {
+        "searched_displacement": [0.9, 0.9, 0.8, 0.8, 6.0],
+        "searched_tolerated": [0.9, 0.9, 0.9, 6.0, 6.0],
+        "searched_frequency": np.full(5, 30.0),
+        "candidate_gap": [7.0],
+        "candidate_end": [[6.5, 7.5]],
+        "candidate_displacement": [0.9],
+    }
+
+
+def _maps():
+    """Return the map over the force, the other masses, and the costs of the largest motions."""
+    return {
+        "force_map_displacement": np.tile([0.2, 0.4, 0.8, 6.0, 9.0], (5, 1)),
+        "other_gap": [14.0, 7.0, 3.0],
+        "other_displacement": [5.0, 1.0, 0.8],
+        "other_force": [900.0, 600.0, 1500.0],
         "reached_displacement": np.linspace(0.8, 0.4, 5),
         "untouched_displacement": np.full(5, np.nan),
         "motion_rms": np.linspace(0.4, 0.2, 5),
@@ -118,34 +142,6 @@ def _comparison(choice):
         "noise_by_frequency": np.full(5, 0.25),
         "pressure_by_frequency": np.full(5, np.nan),
         "yields_by_frequency": np.full(5, flag("yields_by_frequency", "unknown")),
-    }
-
-
-def _deviations(promise):
-    shares = np.array([SURE, [0.98, 0.96, 0.99], SURE])
-    return {
-        "promise": flag("promise", promise),
-        "sample_displacement": [0.8, 5.0, 0.9],
-        "sample_share": shares,
-        "corner_displacement": [0.8, 6.0, 0.9],
-        "corner_share": shares,
-        "force_map_share": np.tile([1.0, 1.0, 1.0, 0.5, 0.0], (5, 1)),
-        "force_map_displacement": np.tile([0.2, 0.4, 0.8, 6.0, 9.0], (5, 1)),
-        "damper_map_share": np.tile([1.0, 0.9, 0.1], (3, 1)),
-        "damper_map_displacement": np.tile([0.8, 0.9, 6.0], (3, 1)),
-        "force_map_modulus": np.tile([np.nan, 0.8, 0.9, 0.95, 1.1], (5, 1)),
-        "damper_map_modulus": np.tile([0.8, 0.9, 1.1], (3, 1)),
-        "stability_force_by_frequency": np.tile([0.5, 2.8], (5, 1)),
-    }
-
-
-def _masses():
-    return {
-        "other_gap": [14.0, 7.0, 3.0],
-        "other_displacement": [5.0, 0.9, 0.8],
-        "other_share": [0.5, 1.0, 1.0],
-        "other_force": [900.0, 600.0, 1500.0],
-        "other_best": [0, 1, 1],
     }
 
 
@@ -172,7 +168,6 @@ def _branches():
         "bare_frequency": np.tile([26.0, 30.0, 34.0], 2),
         "bare_displacement": [6.0, 8.0, 10.0, 5.0, 7.0, 9.0],
         "bare_stability": [1, 1, 1, -1, -1, -1],
-        "branch_frequency": 30.0,
         "displacement_change": [2.6, -1.6, 0.0],
         "modulus_change": [0.2, -0.2, 0.0],
         "gap_of_orbit": [6.0, 7.0, 8.0, 9.0],

@@ -34,58 +34,75 @@ competitor_status | competitor | | | whether the displacements are exact, for a 
   : not_possible -1, exact 0, one_harmonic 1
 absorber_stiffness | competitor detuning | stiffness | | stiffness of the absorber's spring
 absorber_damping | competitor detuning | damping | | coefficient of the absorber's dashpot
-# screening
-orbit_limit | | displacement | | provisional quiet limit
+# decision
+design_gap | | displacement | | gap of the damper, the full play
+decision | | | | whether the damper takes at least a quarter off the largest displacement
+  : build 0, do_not_build 1
+displacement_limit | | displacement | | displacement with which the promised one is compared
+limit_status | | | | whether the promised displacement is at most the limit
+  : none 0, met 1, missed 2
+promised_displacement | | displacement | | displacement below which the machine stays from a share
+  of the starts, for the worst frequency and the worst values within the tolerances
+promised_frequency | | frequency | | frequency of the promised displacement
+promised_set | | | | index of the factors, in promise_factor, of the promised displacement
+promised_share | | | | share of the starts for which the displacement is promised
+promise_starts | | | | number of new starts at each frequency and set of factors
+promise_rank | | | | rank, from the largest, of the start whose displacement is the bound
+gap_promised_displacement | | displacement | | promised displacement if the gap alone deviates
+confirmation | | | | whether no other gap of the search promised less by over 10 per cent
+  : confirmed 0, rounds_ended 1, given 2
+peak_status | | | | whether the peak between frequencies is known to 1 %
+  : known 0, not_known 1
+record_status | | | | whether records of motions that do not settle still grew by 1 % at last
+  : known 0, still_grows 1
+largest_bare_displacement | | displacement | | largest displacement without damper over the band
+largest_bare_frequency | | frequency | | frequency of the largest displacement without damper
+tuned_displacement | | displacement | | largest displacement over the band with a tuned absorber of
+  the same mass
+detuned_displacement | | displacement | | largest displacement over the band with this absorber
+  detuned by 10 per cent
+least_ratio | | | | least displacement with the damper divided by the one without it, over the band
+worst_ratio | | | | greatest displacement with the damper divided by the one without it
+worst_ratio_frequency | | frequency | | frequency of worst_ratio
+side | side | | | lower or upper end
+keeping_gap | side | displacement | | ends of the gaps around design_gap at which the largest
+  displacement exceeds the promised one by at most 10 %
+keeping_end | side | | | what ends these gaps
+  : jump 0, growth 1, search_ends 2
+range_gap | side | displacement | | ends of the range of nominal gaps of which design_gap is the
+  middle
+best_orbit_gap | | displacement | | gap of the smallest stable quiet orbit at branch_frequency
+best_orbit_displacement | | displacement | | largest displacement of this orbit
+best_orbit_beyond | | | | whether its gap lies beyond keeping_gap
+  : no 0, yes 1, no_orbit 2
+# promise
+varied | varied | | | quantity that deviates from its nominal value
+promise_factor | factor_set varied | | | value divided by the nominal one; the first set is nominal
+promise_frequency | promise_frequency | frequency | | forcing frequency of the confirmation
+promise_displacement | factor_set promise_frequency | displacement | | displacement below which the
+  machine stays from a share of the starts; NaN where the frequency was not run
+promise_bare_displacement | promise_frequency | displacement | | largest displacement without
+  damper
+unsettled_share | promise_frequency | | | share of motions at nominal values that do not settle
+  to an orbit
+settling_late | promise_frequency | | | cycles in which 95 % of the motions that settle have settled
 balance_displacement | frequency | displacement | | largest displacement without damper by
   harmonic balance
-displacement_limit | | displacement | | quiet limit: largest displacement of a quiet motion
-screened_gap | screened | displacement | | gap of a quiet orbit
-screened_displacement | screened frequency | displacement | | largest displacement of the quiet
-  orbit
-screened_modulus | screened frequency | | | modulus of the largest multiplier of the quiet orbit
-  over half a period
-best_orbit_frequency | | frequency | | frequency at which the machine alone moves most, among
-  those with a stable quiet orbit
-best_orbit_gap | | displacement | | gap of the smallest stable quiet orbit, the best orbit, at
-  best_orbit_frequency
-best_orbit_displacement | | displacement | | largest displacement of the best orbit
-best_orbit_status | | | | how the best orbit was found
-  : absent 0, smooth 1, kink 2, stability_ends 3, range_ends 4, not_refined 5
-screen_motions | | | | number of motions that the screening ran
-screen_orbits | | | | number of exact orbits that the screening computed
-# comparison of gaps
-coarse_gap | coarse | displacement | | gap of the coarse comparison
-coarse_displacement | coarse | displacement | | largest displacement over the band
-coarse_share | coarse | | | share of starts that lead to quiet motions, at the worst frequency of
-  the band
-candidate_gap | candidate | displacement | | gap of a candidate
-start_count | candidate frequency | | | number of random starts; smaller where few starts show
-  that the gap is not quiet
-start_quiet_share | candidate frequency | | | share of random starts that lead to quiet motions
-start_quiet_interval | candidate frequency side | | | 95 % interval of start_quiet_share
-worst_displacement | candidate frequency | displacement | | largest displacement of all motions
-  that starts lead to
-quiet_time_median | candidate frequency | | | median of the cycles in which quiet motions settle
-quiet_time_late | candidate frequency | | | cycles in which 95 % of the quiet motions settle
-design_gap | | displacement | | gap chosen, the full play
-design_choice | | | | why the gap design_gap was chosen
-  : robust 0, needs_tolerance 1, least_worst 2
-tried_restitution | tried | | | restitution that was tried, where it is free within a range
-tried_gap | tried | displacement | | best gap with this restitution
-tried_displacement | tried | displacement | | largest displacement with this restitution over
-  band, starts and tolerated gaps
-tried_choice | tried | | | why the gap tried_gap was chosen
-  : robust 0, needs_tolerance 1, least_worst 2
-compared_motions | | | | number of motions that the comparison of gaps ran
-# cliff
-side | side | | | lower or upper end
-cliff_gap | side | displacement | | last quiet gap
-cliff_beyond | side | displacement | | first gap that is not quiet
-cliff_status | side | | | how the end of the quiet gaps was found
-  : found 0, range_ends 1, no_quiet_gap 2
-cliff_frequency | side | frequency | | frequency at which quiet gaps end first
-life_gap | life | displacement | | gap at which the lives of violent motions were observed
-life_rate | life bound | | | rate at which violent motions become quiet, per cycle
+# search
+searched_gap | searched | displacement | | gap of the search
+searched_displacement | searched | displacement | | largest displacement of the starts over some
+  frequencies
+searched_tolerated | searched | displacement | | largest of searched_displacement within the
+  tolerance of the gap
+searched_frequency | searched | frequency | | frequency of searched_displacement
+candidate_gap | candidate | displacement | | middle of a range of nominal gaps that do nearly as
+  well as the best
+candidate_end | candidate side | displacement | | ends of this range
+candidate_displacement | candidate | displacement | | least of searched_tolerated in this range
+# additions
+addition | addition | | | result that was computed in addition to the decision
+addition_status | addition | | | whether it was computed
+  : computed 0, failed 1
 branch_frequency | | frequency | | frequency at which the quiet orbit is followed
 gap_of_orbit | gap_point | displacement | | gap of an orbit
 displacement_by_gap | gap_point | displacement | | largest displacement of the orbit at
@@ -98,38 +115,15 @@ changed | changed | | | parameter that grows by 1 per cent
 displacement_change | changed | | | change of the largest displacement of the quiet orbit, per
   cent
 modulus_change | changed | | | change of the modulus of the orbit's largest multiplier, per cent
-# deviations
-varied | varied | | | quantity that deviates from its nominal value
-sample_factor | sample varied | | | value divided by the nominal one
-sample_displacement | sample | displacement | | largest displacement over the band
-sample_share | sample bound | | | share of starts over the band that lead to quiet motions
-corner_factor | corner varied | | | value divided by the nominal one
-corner_displacement | corner | displacement | | largest displacement over the band
-corner_share | corner bound | | | share of new starts that lead to quiet motions
-promise | | | | promise of the design, and whether new starts confirmed it
-  : none_made 0, nominal_kept 1, robust_kept 2, broken 3
-map_gap | map_gap | displacement | | gap of a cell of the map
-map_restitution | map_restitution | | | restitution of a cell of the map
+# maps
 operating_frequency | operating_frequency | frequency | | frequency of a cell of the map
-damper_map_share | map_gap map_restitution | | | share of starts that lead to quiet motions
-damper_map_displacement | map_gap map_restitution | displacement | | largest displacement
-force_map_share | operating_frequency force_share | | | share of starts that lead to quiet motions
-force_map_displacement | operating_frequency force_share | displacement | | largest displacement
-force_map_modulus | operating_frequency force_share | | | modulus of the largest multiplier of the
-  quiet orbit over half a period
-damper_map_modulus | map_gap map_restitution | | | modulus of the largest multiplier of the quiet
-  orbit over half a period
-stability_force_by_frequency | operating_frequency side | | | multiples of the nominal force
-  between which the quiet orbit is stable
+force_map_displacement | operating_frequency force_share | displacement | | displacement below
+  which the machine stays from a share of the starts
 # masses
 other_mass | other | mass | | loose mass
 other_gap | other | displacement | | gap chosen for this loose mass
-other_displacement | other | displacement | | largest displacement within the tolerance of the gap
-other_share | other | | | share of starts that lead to quiet motions, at the worst frequency of
-  the band
-other_force | other | force | | largest contact force over the band
-other_best | other | | | whether no other mass is better in mass, displacement and force together
-  : no 0, yes 1
+other_displacement | other | displacement | | promised displacement with this loose mass
+other_force | other | force | | largest contact force at the worst frequency
 # transients
 sweep_envelope | direction equipment sweep_window | displacement | | largest displacement in a cycle
 sweep_status | direction equipment | | | how the sweep ended
@@ -147,8 +141,6 @@ reached_displacement | frequency | displacement | | largest displacement of all 
   starts lead to
 untouched_displacement | frequency | displacement | | largest displacement of a motion in which
   the loose mass touches no wall and to which no random start leads
-reached_quiet_share | frequency | | | share of random starts that lead to quiet motions
-reached_quiet_interval | frequency side | | | 95 % interval of reached_quiet_share
 impact_rate_by_frequency | frequency | rate | | impacts per time
 contact_force_by_frequency | frequency | force | | largest force in a contact
 penetration_by_frequency | frequency | displacement | | largest penetration of a wall

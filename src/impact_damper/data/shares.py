@@ -1,9 +1,9 @@
-"""Binomial shares and escape rates with 95 % confidence intervals."""
+"""Binomial shares, bounds of quantiles, and escape rates, with 95 % confidence."""
 
 import math
 
 import numpy as np
-from scipy.special import gammaincinv  # `scipy.stats` takes half a second to import
+from scipy.special import bdtr, gammaincinv  # `scipy.stats` takes half a second to import
 
 from impact_damper.model.bounds import LEAD
 
@@ -11,6 +11,8 @@ from impact_damper.model.bounds import LEAD
 BOUNDS = ["share", "lower", "upper"]
 # Quantile of the normal distribution of a two-sided 95 % interval.
 QUANTILE = 1.959963984540054
+# Probability with which a bound at 95 % confidence is wrong.
+DOUBT = 0.05
 
 
 def wilson_intervals(successes, total):
@@ -33,23 +35,19 @@ def wilson(successes, total):
     return np.concatenate([[successes / total], wilson_intervals(successes, total)])
 
 
+def bounding_rank(share, total) -> int:
+    """Return the rank k such that the k-th largest of `total` values bounds a share of all values.
+
+    It does so with 95 % confidence and without any assumption on the distribution (S. S. Wilks,
+    Ann. Math. Stat. 12, 1941): k is the largest number that at least k of the values exceed the
+    true quantile with a probability of at least 95 %. It is 0 if there are too few values.
+    """
+    return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= DOUBT))
+
+
 def starts_needed(share) -> int:
-    """Return the least number of trials that, if all succeed, prove a share at 95 % confidence.
-
-    The lower end of Wilson's 95 % interval of n successes in n trials is n/(n + QUANTILE^2).
-    """
-    return math.ceil(share / (1 - share) * QUANTILE**2)
-
-
-def failures_allowed(share, total) -> int:
-    """Return the largest number of failures in `total` trials that still proves a share.
-
-    With this number of failures the lower end of Wilson's 95 % interval is at least the share.
-
-    Return -1 if `total` trials are too few even without a failure.
-    """
-    lower = wilson_intervals(np.arange(total, -1, -1), total)[:, 0]
-    return int(np.sum(lower >= share)) - 1
+    """Return the least number of values of which the largest bounds a share of all values."""
+    return math.ceil(math.log(DOUBT) / math.log(share))
 
 
 def escape_rate(lives, horizon, lead=LEAD):

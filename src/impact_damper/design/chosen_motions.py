@@ -6,10 +6,9 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import flag, from_si, shown_variable, touches_no_wall
-from impact_damper.data.shares import wilson_intervals
+from impact_damper.design.cells import Cell
 from impact_damper.design.costs import measured_costs, pressure_costs
-from impact_damper.design.outcomes import Case, are_quiet
-from impact_damper.design.task import SIDES, labelled
+from impact_damper.design.task import labelled
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import Settling
@@ -41,10 +40,16 @@ COSTS = {
 }
 
 
+def response_and_costs(task, decision, progress=None) -> xr.Dataset:
+    """Return the response with and without the damper, and the costs of the largest motions."""
+    response = damped_response(task, decision, progress)
+    return response.merge(reached_motions(task, decision, response))
+
+
 def damped_response(task, choice, progress=None) -> xr.Dataset:
     """Return the response with and without the chosen damper: motions and branches of orbits."""
-    # Motions that have not settled after the largest number of cycles are run further. The
-    # comparisons of gaps do not do this, to save time.
+    # Motions that have not settled after the largest number of cycles are run further, to name
+    # them. The search for the gap does not do this, to save time.
     effort = task.effort
     settling = replace(effort.settling, further=Settling().further)
     searched = {"starts": effort.starts, "seed": effort.seed, "settling": settling}
@@ -61,19 +66,14 @@ def damped_response(task, choice, progress=None) -> xr.Dataset:
     return motions.merge(orbits.rename_dims(branch="curve")).merge(xr.Dataset(bare))
 
 
-def reached_motions(task, choice, response, progress=None) -> xr.Dataset:
+def reached_motions(task, choice, response) -> xr.Dataset:
     """Return the largest motion to which starts lead at each frequency of the band, with its costs.
 
-    `choice` is the dataset of `cliff.choose_gap`, and `response` that of `damped_response`. A
-    motion in which the loose mass touches no wall lasts only if the loose mass does not drift at
+    A motion in which the loose mass touches no wall lasts only if the loose mass does not drift at
     all. It counts as reached only if random starts lead to it. The largest one that does not count
     is stored as `untouched_displacement`.
     """
     sizes = response["maximum_displacement"].values
-    limit = float(choice["displacement_limit"])
-    quiet = are_quiet(sizes, response["outcome"].values, limit)
-    counts = np.where(quiet, response["motion_starts"].values, 0).sum(axis=1)
-    total = response.sizes["start"]
     placed = response["origin"].values == flag("origin", "placed_start")
     alone = touches_no_wall(response)
     by_chance = response["motion_starts"].values > 0
@@ -85,15 +85,13 @@ def reached_motions(task, choice, response, progress=None) -> xr.Dataset:
     for k, (column, frequency) in enumerate(zip(columns, task.grid, strict=True)):
         settled = response["outcome"].values[k, column] == flag("outcome", "settled")
         periods = int(response["period"].values[k, column]) if settled else WATCHED
-        case = Case(1e-3 * float(choice["design_gap"]), frequency)
+        case = Cell(1e-3 * float(choice["design_gap"]), frequency)
         rows.append(_measured(task, case, sizes[k, column], states[k, column], periods))
     values = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     values |= {
-        "reached_quiet_share": counts / total,
-        "reached_quiet_interval": wilson_intervals(counts, total),
         "untouched_displacement": np.where(untouched > 0, untouched, np.nan),
     }
-    return labelled(values, frequency=task.grid, side=SIDES)
+    return labelled(values, frequency=task.grid)
 
 
 def _measured(task, case, size, state, periods):

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import flag
-from impact_damper.design.outcomes import Case, run
+from impact_damper.design.cells import Cell, run
 from impact_damper.design.task import SIDES, labelled
 from impact_damper.model.families import family_of
 from impact_damper.model.packed import CONTACT_STIFFNESS, DESIGN, INVERSE_MASS_RATIO, SIMPLE
@@ -24,32 +24,36 @@ LOST = ("fold", "symmetry_breaking", "neimark_sacker")
 def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
     """Return the quiet orbit over the gap, where it is stable, and its derivatives.
 
-    `choice` is the dataset of `cliff.choose_gap`; the orbit has the critical frequency.
+    `choice` is the dataset of the decision; the orbit has its `branch_frequency`.
     """
     gap, frequency = float(choice["design_gap"]), float(choice["branch_frequency"])
     orbit = quiet_orbit(task, gap, frequency)
-    return over_gap(task, gap, frequency, orbit).merge(dependence(task, orbit))
+    keeping = choice["keeping_gap"].values
+    return over_gap(task, gap, frequency, orbit, keeping).merge(dependence(task, orbit))
 
 
 def quiet_orbit(task, gap, frequency) -> Orbit | None:
     """Return the smallest quiet orbit to which starts lead at a gap (mm) and frequency (Hz)."""
-    case = Case(1e-3 * gap, frequency)
-    records = run(task, [case], task.effort.starts, "orbit")[0]
+    cell = Cell(1e-3 * gap, frequency)
+    records = run(task, [cell], task.effort.starts, ("orbit",)).records[0]
     pairs = records[is_symmetric_pair(records)]
     if len(pairs) == 0:
         return None
     state = pairs["state"][np.argmin(pairs["maximum_displacement"])]
-    orbit = find_orbit(task.packed(*case), state, 1, STROBE)
+    orbit = find_orbit(task.packed(*cell), state, 1, STROBE)
     return orbit if orbit.converged else None
 
 
-def over_gap(task, gap, frequency, orbit) -> xr.Dataset:
+def over_gap(task, gap, frequency, orbit, keeping) -> xr.Dataset:
     """Return the branch of a quiet orbit over the gap, and the gaps between which it is stable."""
     if orbit is None:
         unknown, names = np.empty(0), ("gap_of_orbit", "displacement_by_gap", "modulus_by_gap")
         values = dict.fromkeys(names, unknown) | {
             "stability_gap": np.full(2, np.nan),
             "stability_gap_event": [flag("stability_gap_event", "no_orbit")] * 2,
+            "best_orbit_gap": np.nan,
+            "best_orbit_displacement": np.nan,
+            "best_orbit_beyond": flag("best_orbit_beyond", "no_orbit"),
         }
         return labelled(values, side=SIDES)
     oscillator, damper, turning = task.system(1e-3 * gap, frequency)
@@ -62,10 +66,20 @@ def over_gap(task, gap, frequency, orbit) -> xr.Dataset:
     def millimetres(logarithms):
         return 2e3 * task.scales.to_si(np.exp(logarithms), "clearance")
 
+    gaps, sizes = millimetres(branch.values), task.millimetres(branch.displacements)
+    moduli = np.array([abs(point.orbit.multipliers[0]) for point in branch.points])
+    stable = np.where(moduli < 1, sizes, np.inf)
+    best = int(np.argmin(stable))
+    beyond = "yes" if gaps[best] > keeping[1] else "no"
+    if np.isinf(stable[best]):
+        beyond = "no_orbit"
     values = {
-        "gap_of_orbit": millimetres(branch.values),
-        "displacement_by_gap": task.millimetres(branch.displacements),
-        "modulus_by_gap": [abs(point.orbit.multipliers[0]) for point in branch.points],
+        "gap_of_orbit": gaps,
+        "displacement_by_gap": sizes,
+        "modulus_by_gap": moduli,
+        "best_orbit_gap": gaps[best] if beyond != "no_orbit" else np.nan,
+        "best_orbit_displacement": sizes[best] if beyond != "no_orbit" else np.nan,
+        "best_orbit_beyond": flag("best_orbit_beyond", beyond),
         "stability_gap": millimetres(np.array([value for value, _ in ends])),
         "stability_gap_event": [flag("stability_gap_event", name) for _, name in ends],
     }

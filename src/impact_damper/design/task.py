@@ -1,4 +1,4 @@
-"""A design task: machine, loose mass, contact, band of frequencies, tolerances, confidence, effort.
+"""A task: machine, loose mass, contact, band of frequencies, tolerances, confidence, effort.
 
 All values are in SI units. Rule (18) of the paper is m2 w^2 (gap/2) = F, with the loose mass m2,
 the angular forcing frequency w and the amplitude F of the force.
@@ -40,17 +40,20 @@ NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 # Ends of a range or of a confidence interval.
 SIDES = ["lower", "upper"]
-# Least gap that a design considers, divided by the gap of rule (18).
-LEAST_GAP = 0.3
+# Least gap that a design considers: a fraction of the gap of rule (18), and of the gap that the
+# machine without damper no longer touches, twice its largest displacement.
+LEAST_GAP = 0.15
+# Greatest gap, divided by the gap of rule (18), if the machine without damper escapes.
+ESCAPING = 4.0
+# An absorber to compare with is tuned over the range from ABSORBED[0] times the lowest frequency of
+# band and resonance to ABSORBED[1] times the highest.
+ABSORBED = 0.5, 2.0
 # Comparisons of many gaps stop a chaotic motion after PATIENT decay times of the machine and any
 # other motion after LONG times as long, but not before LEAST_PATIENCE and LEAST_LIMIT cycles.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
-# Cycles over which a motion that has not settled is measured. With 50 cycles the largest peak of
-# chaos would vary by a factor of two, so that shares of quiet starts would depend on chance.
+# Cycles over which a motion that has not settled is first measured.
 WATCHED = 100
-# Largest displacement of chaos in a long run, divided by the largest one in WATCHED cycles.
-LATER = 1.5
 
 
 def labelled(values, **coordinates) -> xr.Dataset:
@@ -75,7 +78,7 @@ class Effort:
     frequencies : int
         Number of frequencies over the band; the resonances in it are added.
     candidates : int
-        Number of gaps that are compared closely.
+        Number of gaps that are compared with more starts than in the first search over all gaps.
     starts : int
         Random starts (initial states of machine and loose mass) at each gap and frequency.
     seed : int
@@ -114,17 +117,15 @@ class Effort:
         settling = replace(settling, watched=max(settling.watched, WATCHED), further=0)
         object.__setattr__(self, "settling", settling)
 
-    def lasting(self, periods) -> Settling:
-        """Return the settling with which a motion is run for `periods` unless it settles."""
-        return replace(self.settling, patience=periods, limit=periods)
-
 
 @dataclass(frozen=True, kw_only=True)
 class Task:
-    """A design task; the arguments of `design_damper`, checked before anything is computed.
+    """A task of `design_damper` or `evaluate_damper`, checked before anything is computed.
 
     Attributes
     ----------
+    gap : float or None
+        Gap of a damper that exists, m; None if it is to be found.
     contact : float or HertzContact
         Stiffness, N/m, or the contact from which it is computed.
     contact_stiffness : float
@@ -139,6 +140,7 @@ class Task:
     tolerances: Mapping = field(default_factory=lambda: dict(TOLERANCES))
     displacement_limit: float | None = None
     share: float = 0.95
+    gap: float | None = None
     effort: Effort = field(default_factory=Effort)
     contact_stiffness: float = field(init=False)
 
@@ -159,7 +161,7 @@ class Task:
         self._set("tolerances", checked_tolerances(self.tolerances))
         check_number("share", self.share, least=0.5, most=0.999)
         least, effort = starts_needed(self.share), self.effort
-        why = f"a share of {self.share:g} at 95 % confidence needs {least}, all quiet"
+        why = f"a share of {self.share:g} at 95 % confidence needs {least}"
         check_count("starts", effort.starts, least=least, most=10**5, why=why)
         check_starts(effort.starts, effort.frequencies * effort.candidates, least)
         if self.displacement_limit is not None:
@@ -203,7 +205,7 @@ class Task:
                 f"{self.restitution:g} may fall to {least:.3g}, must stay at least "
                 f"{RESTITUTION_RANGE['least']:g} ({RESTITUTION_RANGE['why']})"
             )
-        gap = LEAST_GAP * min(self.rule_gap(f) for f in self.band)
+        gap = self.gap or 1e-3 * self.gap_span[0]
         least, most = (
             [1 + sign * self.tolerances.get(name, 0.0) for name in VARIED] for sign in (-1, 1)
         )
@@ -218,6 +220,17 @@ class Task:
         return self.tolerances.get("gap", 0.0)
 
     @cached_property
+    def gap_span(self) -> tuple[float, float]:
+        """Least and greatest gap that a design considers, mm.
+
+        A loose mass at rest in a greater gap is not touched by the machine without damper.
+        """
+        rules = np.array([1e3 * self.rule_gap(f) for f in self.grid])
+        sizes = self.bare[np.isfinite(self.bare)]
+        most = 2 * sizes.max() if len(sizes) else ESCAPING * rules.max()
+        return LEAST_GAP * min(rules.min(), most), most
+
+    @cached_property
     def resonance(self) -> tuple[float, float]:
         """Lowest and highest frequency at which the machine without damper resonates, Hz."""
         return resonance_of(self.machine)
@@ -226,7 +239,7 @@ class Task:
     def hurried(self) -> Settling:
         """Settling for comparisons of many gaps: runs of a few decay times of the machine.
 
-        Some motions become quiet slowly, so `compare` runs those that are not quiet for longer.
+        A motion that settles later is found where it decides the promise (`cells.Motions.follow`).
         """
         full = self.effort.settling
         # Decay time of the machine in forcing cycles.
@@ -252,11 +265,21 @@ class Task:
 
     @cached_property
     def bare(self) -> np.ndarray:
-        """Largest displacement of the machine without damper by harmonic balance on `grid`, mm."""
-        turning = self.scales.from_si(self.grid, "frequency")
-        oscillators = [self.machine.oscillator(f) for f in self.grid]
+        """Largest displacement of the machine without damper on `grid`, mm."""
+        return self.bare_at(self.grid)
+
+    def bare_at(self, frequencies) -> np.ndarray:
+        """Return the largest displacement without damper by harmonic balance, mm."""
+        turning = self.scales.from_si(np.asarray(frequencies), "frequency")
+        oscillators = [self.machine.oscillator(f) for f in frequencies]
         sizes = map(balance_amplitudes, oscillators, turning)
         return self.millimetres(np.array([ascending[-1] for ascending in sizes]))
+
+    @property
+    def absorber_band(self) -> tuple[float, float]:
+        """Range of frequencies over which an absorber to compare with is tuned, Hz."""
+        low, high = self.resonance
+        return ABSORBED[0] * min(low, self.band[0]), ABSORBED[1] * max(high, self.band[1])
 
     @property
     def worst_frequency(self) -> float:
@@ -340,7 +363,7 @@ class Task:
             "tolerances": dict(self.tolerances),
             "displacement_limit": self.displacement_limit,
             "share": self.share,
-            "later_displacement": LATER,
+            "gap": self.gap,
             "compared_settling": asdict(self.hurried),
         }
 

@@ -40,7 +40,7 @@ REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 def transients(task, choice, progress=None) -> xr.Dataset:
     """Return a swept sine and an unforced decay, each with and without the chosen damper.
 
-    `choice` is the dataset of `cliff.choose_gap`.
+    `choice` is the dataset of the decision.
     """
     machine, damper = task.machine, task.damper(1e-3 * float(choice["design_gap"]))
     # A sweep over a nonlinear machine leads to its large motions only if it passes all its

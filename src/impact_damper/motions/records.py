@@ -263,3 +263,29 @@ def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
             t = end if length >= end - t else t + length
         largest[k], contacts[k] = farthest, begun
     return side, False
+
+
+@kernel
+def follow_peaks(parameters, states, periods, tolerance, largest, stop):
+    """Run motions in place from a strobe, and raise `largest` to the largest |Z1| of each.
+
+    It is infinite after an escape. If another thread sets `stop[0]`, the numbers are incomplete.
+    """
+    work = workspace()
+    for i in range(len(states)):
+        p, y = parameters[i], states[i].copy()
+        side = side_of(p, y)
+        for _ in range(periods):
+            if stop[0] or largest[i] == math.inf:
+                break
+            t = strobe_time(p)
+            end = t + 2.0 * math.pi / p[FREQUENCY]
+            while t < end:
+                before = side
+                length, side = step(p, y, side, t, end - t, tolerance, work)
+                order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
+                largest[i] = extremum(work[X:], order, length, largest[i])
+                t = end if length >= end - t else t + length
+            if has_escaped(p, y[0], y[1]):
+                largest[i] = math.inf
+        assign(states[i], y)

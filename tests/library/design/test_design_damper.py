@@ -12,8 +12,8 @@ import xarray as xr
 import impact_damper as idm
 from impact_damper.data.datasets import SOURCE
 from impact_damper.data.variables import VARIABLES
+from impact_damper.design import additions
 from impact_damper.design import design_damper as machines
-from impact_damper.plot import conclusion
 
 MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.02, force=40)
 SMALL = {
@@ -25,19 +25,7 @@ SMALL = {
     "share": 0.8,
 }
 EFFORT = {"frequencies": 3, "candidates": 4, "starts": 16}
-STEPS = {
-    "screening",
-    "comparison",
-    "cliff",
-    "orbits",
-    "response",
-    "motions",
-    "tolerances",
-    "maps",
-    "masses",
-    "transients",
-    "competitors",
-}
+STEPS = {"decision", *additions.ADDITIONS}
 
 
 def design(folder=None, restitution=0.6, **effort):
@@ -64,8 +52,9 @@ def test_all_steps_are_kept_and_read_again(finished, monkeypatch):
     def computes(*_, **__):
         raise AssertionError("a step was computed again")
 
-    for name in ("screen", "reached_motions", "other_masses", "competitors", "transients"):
-        monkeypatch.setattr(machines, name, computes)
+    monkeypatch.setattr(machines, "find_gap", computes)
+    for name in additions.ADDITIONS:
+        monkeypatch.setitem(additions.ADDITIONS, name, computes)
     assert design(folder=folder).identical(data)
 
 
@@ -77,7 +66,7 @@ def test_an_interrupted_design_continues_after_its_kept_steps(finished, tmp_path
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
-        patch.setattr(machines, "other_masses", interrupt)
+        patch.setitem(additions.ADDITIONS, "masses", interrupt)
         design(folder=tmp_path, workers=2)
     done = kept(tmp_path)
     assert done == STEPS - {"masses", "transients", "competitors"}
@@ -101,31 +90,10 @@ def test_ctrl_c_is_heard_while_motions_run(tmp_path):
 
 
 @pytest.mark.thorough
-def test_a_free_restitution_is_the_best_of_several(tmp_path):
-    data = design(restitution=(0.4, 0.8), folder=tmp_path)
-    tried = data["tried_restitution"].values
-    assert tried == pytest.approx([0.4, 0.5, 0.6, 0.7, 0.8])
-    used = json.loads(data.attrs["machine"])["restitution"]
-    kinds, worst = data["tried_choice"].values, data["tried_displacement"].values
-    assert used == tried[np.argmin(np.where(kinds == kinds.min(), worst, np.inf))]
-    assert kept(tmp_path) == STEPS | {"restitutions"}
-    assert f"{used:.3g} is best" in " ".join(conclusion(data))
-    # The candidates of the design lie around the best gap for this restitution.
-    gap = data["tried_gap"].values[list(tried).index(used)]
-    assert data["candidate_gap"].min() < gap < data["candidate_gap"].max()
-
-
-@pytest.mark.parametrize("ends", [(0.8, 0.4), (0.5,), (0.4, 1.2), ("x", 0.5)])
-def test_a_range_of_restitutions_ascends_within_bounds(ends):
-    with pytest.raises(ValueError, match="restitution = "):
-        design(restitution=ends)
-
-
-@pytest.mark.thorough
 def test_each_variable_has_its_meaning_unit_and_words(finished):
     data, _ = finished
     assert all({"long_name", "units"} <= data[name].attrs.keys() for name in data.variables)
-    assert idm.decode(data["promise"]).item() in VARIABLES["promise"].flags
+    assert idm.decode(data["decision"]).item() in VARIABLES["decision"].flags
 
 
 @pytest.mark.thorough
@@ -133,12 +101,14 @@ def test_the_dataset_agrees_with_itself(finished):
     """Gap, deviations and attributes of the dataset agree with each other."""
     data, _ = finished
     gap, asked = float(data["design_gap"]), json.loads(data.attrs["parameters"])
-    assert data["candidate_gap"].min() <= gap <= data["candidate_gap"].max()
-    factors = data["corner_factor"].values
+    factors = data["promise_factor"].values
     assert np.allclose(factors[1:, 0], [0.95, 1.05]) and (factors[0] == 1).all()
     assert asked["mass"] == 1.2 and asked["band"] == [20.4, 20.7]
     assert json.loads(data.attrs["machine"])["gap"] == pytest.approx(1e-3 * gap)
-    assert f"{gap:.3g} mm" in conclusion(data)[0]
+    table = data["promise_displacement"]
+    assert float(table.max()) == float(data["promised_displacement"])
+    low, high = data["keeping_gap"].values
+    assert low <= 0.95 * gap * (1 + 1e-9) and high >= 1.05 * gap * (1 - 1e-9)
 
 
 class Computing:

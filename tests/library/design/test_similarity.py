@@ -9,9 +9,8 @@ import pytest
 from helpers import design_tasks
 
 import impact_damper as idm
-from impact_damper.data.datasets import flag
-from impact_damper.design.compare import compare
-from impact_damper.design.screen import screen
+from impact_damper.design.promise import Promise
+from impact_damper.design.task import NOMINAL
 
 # Dimensions of the values of a machine: powers of mass, length and time.
 DIMENSIONS = {
@@ -68,25 +67,17 @@ def test_the_dimensionless_problem_is_the_same(name, factors):
     np.testing.assert_allclose(other.rule_gap(one.worst_frequency / factors[2]), factors[1] * gap)
 
 
-def test_the_first_look_finds_the_scaled_gap():
-    one, other = screen(task("force")), screen(task("force", ANY))
-    status = one["best_orbit_status"]
-    assert status == other["best_orbit_status"] != flag("best_orbit_status", "absent")
-    np.testing.assert_allclose(other["screened_modulus"], one["screened_modulus"], rtol=1e-6)
-    for name in ("screened_gap", "screened_displacement", "best_orbit_gap", "orbit_limit"):
-        np.testing.assert_allclose(other[name], ANY[1] * one[name], rtol=1e-6)
-
-
-def test_the_same_starts_end_quiet():
+def test_the_same_starts_have_the_same_bounds():
     """All numbers are equal to the last bit."""
     one, other = task("base"), task("base", TON)
-    gaps = 1e3 * one.rule_gap(20.5) * np.array([0.8, 1.2])
-    limit = one.bare.max() / 2
-    found, large = (
-        compare(each, scale * gaps, each.grid, scale * limit, 16, "candidates")
+    gap = 0.8e3 * one.rule_gap(20.5)
+    sizes = [
+        Promise(each, 1e-3 * scale * gap, [NOMINAL], ("search",)).bounds
         for each, scale in ((one, 1.0), (other, TON[1]))
-    )
-    assert 0 < found["start_quiet_share"].mean()
-    for name in found.data_vars:
-        scale = TON[1] if name.startswith(("worst", "displacement")) else 1.0
-        np.testing.assert_array_equal(large[name], scale * found[name])
+    ]
+    np.testing.assert_array_equal(sizes[1], TON[1] * sizes[0])
+
+
+def test_the_gaps_of_a_search_scale():
+    one, other = task("force"), task("force", ANY)
+    np.testing.assert_allclose(other.gap_span, np.multiply(ANY[1], one.gap_span), rtol=1e-9)

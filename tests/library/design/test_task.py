@@ -28,8 +28,8 @@ NATURAL = math.sqrt(2e5 / 12) / (2 * math.pi)
             {"tolerances": {"restitution": 0.855}, "restitution": 0.3},
             r"restitution 0.3 may fall to 0.0435",
         ),
-        ({"starts": 72}, r"starts = 72: must be from 73 .*share of 0.95 at 95 % confidence"),
-        ({"starts": 73, "share": 0.99}, r"starts = 73: must be from 381"),
+        ({"starts": 58}, r"starts = 58: must be from 59 .*share of 0.95 at 95 % confidence"),
+        ({"starts": 73, "share": 0.99}, r"starts = 73: must be from 299"),
         ({"frequencies": 2}, r"frequencies = 2: must be from 3"),
         ({"candidates": 3}, r"candidates = 3: must be from 4"),
         ({"displacement_limit": 0}, r"displacement_limit = 0 m: must be greater than 0 m"),
@@ -42,9 +42,9 @@ def test_a_wrong_value_is_refused_with_its_reason(changed, told):
 
 
 def test_the_number_of_starts_is_the_least_for_the_confidence():
-    """By Wilson's formula: n successes in n trials have the lower end n/(n + 1.96^2)."""
+    """All of n starts lie below a quantile with the probability share^n."""
     for share in (0.8, 0.9, 0.95, 0.99):
-        least = next(n for n in range(1, 10**4) if n / (n + 1.959964**2) >= share)
+        least = next(n for n in range(1, 10**4) if share**n <= 0.05)
         assert task(share=share, starts=least).effort.starts == least
         with pytest.raises(ValueError, match="starts"):
             task(share=share, starts=least - 1)

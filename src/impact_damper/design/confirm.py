@@ -1,0 +1,183 @@
+"""The confirmation of a gap with new starts, and the decision."""
+
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from impact_damper.data.datasets import flag
+from impact_damper.data.shares import bounding_rank
+from impact_damper.design.absorbers import DETUNINGS, absorber_responses
+from impact_damper.design.promise import Promise, factor_sets, gap_sets
+from impact_damper.design.search import Curve, score, search, search_around
+from impact_damper.design.task import SIDES, VARIED, Task, labelled
+
+# A promised displacement is confirmed once it is at most CONFIRMED times the value of any other gap
+# in the search. At most ROUNDS gaps are tried.
+CONFIRMED, ROUNDS = 1.1, 4
+# Gaps around the chosen one keep the promised displacement up to this factor.
+KEEPS = 1.1
+# A damper that takes less than this share off the largest displacement is not worth building.
+WORTH = 0.25
+
+
+class Tried(NamedTuple):
+    """A gap (mm) with its `Promise`, the promised displacement of the gap alone, and its range."""
+
+    gap: float
+    promise: Promise
+    by_gap: float
+    range: tuple
+
+
+def find_gap(task: Task, progress=None) -> xr.Dataset:
+    """Return the decision on the best gap, with the search and the confirmation."""
+    curve, tried, status = search(task, progress), [], "rounds_ended"
+    found = curve.ranges()
+    for turn in range(ROUNDS):
+        choice = curve.choose()
+        if any(each.gap == choice.gap for each in tried):
+            status = "confirmed"
+            break
+        tried.append(confirm(task, choice.gap, turn, curve, (choice.low, choice.high), progress))
+        best = min(tried, key=lambda each: each.promise.size)
+        harm = best.promise.size / best.by_gap
+        if best.promise.size <= CONFIRMED * harm * curve.choose().size:
+            status = "confirmed"
+            break
+    best = min(tried, key=lambda each: each.promise.size)
+    if len(tried) > 1:  # the smallest of several numbers is too small on average
+        best = confirm(task, best.gap, len(tried), curve, best.range, progress)
+    return conclude(task, best, curve, found, status)
+
+
+def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
+    """Return the decision on the gap of the task."""
+    gap = 1e3 * task.gap
+    curve = search_around(task, gap, progress)
+    found = confirm(task, gap, 0, curve, (gap, gap), progress)
+    return conclude(task, found, curve, [], "given")
+
+
+def confirm(task, gap, turn, curve, ends, progress=None) -> Tried:
+    """Return the promise of a gap (mm) from new starts, and put what it shows into the curve."""
+    stream = "confirmed", turn
+    promise = Promise(task, 1e-3 * gap, factor_sets(task), stream, progress=progress).refined()
+    sizes = promise.by_set()
+    few = len(gap_sets(task))
+    frequencies = [promise.over_frequency(k) for k in range(few)]
+    worst = [f[np.argmax(bounds)] for f, bounds in frequencies]
+    curve.put(gap * promise.sets[:few, 0], sizes[:few], worst, replace=True)
+    by_gap = float(sizes[:few].max())
+    # The worst frequency may lie between those of the search, or the motion may be rare.
+    reach = 1.1 * (1 + task.gap_tolerance)
+    near = curve.gaps[(curve.gaps > gap / reach) & (curve.gaps < gap * reach)]
+    critical = np.unique(worst)
+    stream = "compared", 100 + turn
+    curve.put(near, *score(task, near, critical, task.effort.starts, stream, progress))
+    return Tried(gap, promise, by_gap, ends)
+
+
+def conclude(task, found, curve, ranges, status) -> xr.Dataset:
+    """Return the decision and everything it was drawn from."""
+    promise = found.promise
+    frequencies = np.unique([f for _, f in promise.cells])
+    table = np.full((len(promise.sets), len(frequencies)), np.nan)
+    for (k, f), bound in zip(promise.cells, promise.bounds, strict=True):
+        table[k, np.searchsorted(frequencies, f)] = bound
+    worst_set, worst_frequency = promise.worst
+    bare = task.bare_at(frequencies)
+    most = float(task.bare.max())
+    ratio = table[0] / bare
+    k = int(np.nanargmax(ratio))
+    limit = np.nan if task.displacement_limit is None else 1e3 * task.displacement_limit
+    ends, beyond = curve.keeping(found.gap, KEEPS * promise.size)
+    built = promise.size <= (1 - WORTH) * most
+    limit_status = "none" if np.isnan(limit) else "met" if promise.size <= limit else "missed"
+    few = gap_sets(task)
+    nominal = [place for place, cell in enumerate(promise.cells) if cell[0] == 0]
+    order = np.argsort([promise.cells[place][1] for place in nominal])
+    records = promise.motions.records[nominal][order]
+    settled = promise.motions.settled[nominal][order]
+    late = np.where(settled, records["periods_run"], np.nan)
+    known = np.isin(frequencies, [promise.cells[place][1] for place in nominal])
+    unsettled, waits = np.full((2, len(frequencies)), np.nan)
+    unsettled[known] = 1 - settled.mean(axis=1)
+    waits[known] = [
+        np.quantile(row[np.isfinite(row)], 0.95) if np.isfinite(row).any() else np.nan
+        for row in late
+    ]
+    values = {
+        "design_gap": found.gap,
+        "decision": flag("decision", "build" if built else "do_not_build"),
+        "displacement_limit": limit,
+        "limit_status": flag("limit_status", limit_status),
+        "promised_displacement": promise.size,
+        "promised_frequency": worst_frequency,
+        "promised_set": int(worst_set),
+        "promised_share": task.share,
+        "promise_starts": promise.count,
+        "promise_rank": bounding_rank(task.share, promise.count),
+        "gap_promised_displacement": found.by_gap,
+        "confirmation": flag("confirmation", status),
+        "peak_status": flag("peak_status", "known" if promise.peak_known else "not_known"),
+        "record_status": flag(
+            "record_status", "still_grows" if promise.motions.grows() else "known"
+        ),
+        "largest_bare_displacement": most,
+        "largest_bare_frequency": task.worst_frequency,
+        "least_ratio": float(np.nanmin(ratio)),
+        "worst_ratio": float(ratio[k]),
+        "worst_ratio_frequency": float(frequencies[k]),
+        "branch_frequency": float(frequencies[np.nanargmax(table[0])]),
+        "keeping_gap": ends,
+        "keeping_end": [flag("keeping_end", _end(each, promise.size)) for each in beyond],
+        "promise_factor": promise.sets,
+        "promise_displacement": table,
+        "promise_bare_displacement": bare,
+        "unsettled_share": unsettled,
+        "settling_late": waits,
+        "balance_displacement": task.bare,
+        "searched_displacement": curve.sizes,
+        "searched_frequency": curve.worst,
+        "searched_tolerated": _tolerated(task, curve),
+        "candidate_gap": [each.gap for each in ranges],
+        "candidate_end": np.array([(each.low, each.high) for each in ranges]).reshape(-1, 2),
+        "candidate_displacement": [each.size for each in ranges],
+        "range_gap": found.range,
+    }
+    assert len(few) <= len(promise.sets)
+    return labelled(
+        values,
+        frequency=task.grid,
+        promise_frequency=frequencies,
+        searched_gap=curve.gaps,
+        side=SIDES,
+        varied=list(VARIED),
+    ).merge(rivals(task))
+
+
+def rivals(task) -> xr.Dataset:
+    """Return the largest displacement with a tuned absorber of the same mass, and with it detuned.
+
+    NaN if the machine has no linear stiffness to which an absorber can be tuned.
+    """
+    band = task.absorber_band
+    found = absorber_responses(task.machine, task.mass, task.grid, [1.0], band=band)
+    sizes = found["competitor_displacement"].sel(competitor="tuned", force_share=1.0)
+    worst = sizes.max("frequency", skipna=False).values
+    at = list(DETUNINGS).index(0.0)
+    return labelled({"tuned_displacement": worst[at], "detuned_displacement": worst.max()})
+
+
+def _end(beyond, size):
+    """Return the name of the flag `keeping_end` for the displacement beyond an end."""
+    if np.isnan(beyond):
+        return "search_ends"
+    return "jump" if beyond > 1.5 * KEEPS * size else "growth"
+
+
+def _tolerated(task, curve: Curve):
+    """Return the largest displacement within the tolerance of each searched gap."""
+    t = task.gap_tolerance
+    return curve.within(curve.gaps * (1 - t), curve.gaps * (1 + t))

@@ -1,0 +1,188 @@
+"""The search for the gap: a curve of largest displacements over the gap, refined where it is small.
+
+Few starts at few frequencies give the curve. The value of a nominal gap is the largest displacement
+within the tolerance of the gap.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from impact_damper.data.sweeps import runs_of_true
+from impact_damper.design.cells import Cell, run
+from impact_damper.design.task import Task
+
+# First search over all gaps: largest number of gaps, of frequencies, and starts.
+GAPS, FREQUENCIES, STARTS = 40, 9, 12
+# Comparison near the best gaps: frequencies, starts, and rounds of at most `candidates` gaps.
+CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 13, 32, 4
+# Typical record of a regime divided by the record of few motions over a short time.
+RECORD = 1.1
+# Neighbouring displacements with a larger ratio are a jump. Intervals between gaps, as logarithms,
+# are split down to SMOOTH, or FINE at a jump.
+JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
+# Ranges of gaps whose value is at most CANDIDATE times the best are candidates. The gap is chosen
+# from the widest range among those within ALIKE of the best, in the middle of its gaps within LEVEL
+# of its least value.
+CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
+NOMINAL_GAPS = 4001
+# Significant digits of a gap: usual number, and largest number.
+DIGITS, MOST_DIGITS = 3, 9
+# Displacement in place of infinity, mm.
+HUGE = 1e9
+
+
+class Range(NamedTuple):
+    """Nominal gaps that do nearly as well: ends and middle, mm, and the least value, mm."""
+
+    low: float
+    high: float
+    gap: float
+    size: float
+
+
+class Curve:
+    """Largest displacements over the gap: ascending gaps (mm), displacements (mm), frequencies."""
+
+    def __init__(self, task: Task):
+        self.task = task
+        self.gaps, self.sizes, self.worst = np.empty((3, 0))
+        self.close = np.empty(0, bool)
+
+    def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
+        """Add values at gaps; at a known gap the larger value stays unless replaced."""
+        for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
+            k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
+            if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
+                if replace or size > self.sizes[k]:
+                    self.sizes[k], self.worst[k] = size, frequency
+                self.close[k] |= close
+            else:
+                self.gaps = np.insert(self.gaps, k, gap)
+                self.sizes = np.insert(self.sizes, k, size)
+                self.worst = np.insert(self.worst, k, frequency)
+                self.close = np.insert(self.close, k, close)
+
+    def within(self, lows, highs) -> np.ndarray:
+        """Return the largest displacement between each pair of gaps.
+
+        Next to a jump it is the larger of the displacements on both sides.
+        """
+        logs, values = np.log(self.gaps), np.log(self.sizes)
+        found = np.full(len(lows), -np.inf)
+        for ends in (lows, highs):
+            k = np.clip(np.searchsorted(self.gaps, ends) - 1, 0, len(logs) - 2)
+            low, high = values[k], values[k + 1]
+            share = np.clip((np.log(ends) - logs[k]) / (logs[k + 1] - logs[k]), 0, 1)
+            jump = (np.abs(high - low) > np.log(JUMP)) & (share > 0) & (share < 1)
+            value = np.where(jump, np.maximum(low, high), low + share * (high - low))
+            found = np.maximum(found, value)
+        inside = (self.gaps >= np.reshape(lows, (-1, 1))) & (
+            self.gaps <= np.reshape(highs, (-1, 1))
+        )
+        return np.exp(np.maximum(found, np.where(inside, values, -np.inf).max(axis=1)))
+
+    def nominal(self) -> tuple:
+        """Return many nominal gaps, and the largest displacement within the tolerance of each."""
+        t = self.task.gap_tolerance
+        first, last = self.gaps[0] / (1 - t), self.gaps[-1] / (1 + t)
+        gaps = np.geomspace(first, max(last, first), NOMINAL_GAPS)
+        return gaps, self.within(gaps * (1 - t), gaps * (1 + t))
+
+    def ranges(self) -> list:
+        """Return the candidates, `Range`s of nominal gaps that do nearly as well as the best."""
+        gaps, values = self.nominal()
+        found = []
+        for first, after in runs_of_true(values <= CANDIDATE * values.min()):
+            least = first + int(np.argmin(values[first:after]))
+            level = runs_of_true(values[first:after] <= LEVEL * values[least])
+            begin, end = next(each for each in level if each[0] <= least - first < each[1])
+            low, high = gaps[first + begin], gaps[first + end - 1]
+            found.append(Range(low, high, middle_gap(low, high), float(values[least])))
+        return found
+
+    def choose(self) -> Range:
+        """Return the widest range among those nearly as good as the best."""
+        ranges = self.ranges()
+        best = min(each.size for each in ranges)
+        good = [each for each in ranges if each.size <= ALIKE * best]
+        return max(good, key=lambda each: each.high / each.low)
+
+    def keeping(self, gap, size) -> tuple:
+        """Return the ends of the gaps around `gap` with at most a size, and the sizes beyond."""
+        k = int(np.argmin(np.abs(np.log(self.gaps / gap))))
+        ends, beyond = [], []
+        for step in (-1, 1):
+            j = k
+            while 0 <= j + step < len(self.gaps) and self.sizes[j + step] <= size:
+                j += step
+            ends.append(float(self.gaps[j]))
+            beyond.append(self.sizes[j + step] if 0 <= j + step < len(self.gaps) else np.nan)
+        return ends, beyond
+
+    def unclear(self) -> np.ndarray:
+        """Return gaps at which the curve is to be computed next, those that matter most first."""
+        t, (gaps, values) = self.task.gap_tolerance, self.nominal()
+        good = values <= CANDIDATE * values.min()
+        low, high = gaps[good] * (1 - t), gaps[good] * (1 + t)
+        widths = np.diff(np.log(self.gaps))
+        jumps = np.abs(np.diff(np.log(self.sizes))) > np.log(JUMP)
+        matters = np.array(
+            [
+                np.any((low <= after) & (high >= begin))
+                for begin, after in zip(self.gaps[:-1], self.gaps[1:], strict=True)
+            ]
+        )
+        # A narrow range of small motions may lie beside a gap with a small motion.
+        small = self.sizes <= CANDIDATE * values.min()
+        matters |= small[:-1] | small[1:]
+        middles = np.sqrt(self.gaps[:-1] * self.gaps[1:])
+        split = matters & (widths > np.where(jumps, FINE, SMOOTH))
+        again = np.array([np.any((low <= g) & (high >= g)) for g in self.gaps]) & ~self.close
+        order = np.argsort(-widths[split] * np.where(jumps[split], 4, 1), kind="stable")
+        return np.concatenate([self.gaps[again], middles[split][order]])
+
+
+def middle_gap(first, last) -> float:
+    """Return a gap inside a range, near its middle, with as few digits as possible."""
+    middle = float(np.sqrt(first * last))
+    for digits in range(DIGITS, MOST_DIGITS):
+        gap = float(f"{middle:.{digits}g}")
+        if first <= gap <= last:
+            return gap
+    return middle
+
+
+def score(task, gaps, frequencies, starts, stream, progress=None) -> tuple:
+    """Return the largest displacement (mm) of few motions at each gap (mm), and its frequency.
+
+    Motions that have not settled count with RECORD times their largest displacement so far.
+    """
+    cells = [Cell(1e-3 * gap, f) for gap in gaps for f in frequencies]
+    motions = run(task, cells, starts, stream, progress)
+    sizes = (motions.peaks * np.where(motions.settled, 1.0, RECORD)).max(axis=1)
+    table = task.millimetres(sizes).reshape(len(gaps), len(frequencies))
+    return table.max(axis=1), np.asarray(frequencies)[table.argmax(axis=1)]
+
+
+def search(task, progress=None) -> Curve:
+    """Return the curve over all gaps, refined at its jumps and where it is small."""
+    curve, few = Curve(task), task.few(FREQUENCIES)
+    gaps = np.geomspace(*task.gap_span, min(GAPS, 3 * task.effort.candidates + 4))
+    curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress), close=False)
+    for turn in range(ROUNDS):
+        gaps = curve.unclear()[: task.effort.candidates]
+        if not len(gaps):
+            break
+        few = task.few(CLOSE_FREQUENCIES, *np.unique(curve.worst))
+        stream = "compared", turn
+        curve.put(gaps, *score(task, gaps, few, CLOSE_STARTS, stream, progress))
+    return curve
+
+
+def search_around(task, gap, progress=None) -> Curve:
+    """Return a curve around a gap (mm) that is given."""
+    curve, few = Curve(task), task.few(FREQUENCIES)
+    gaps = gap * np.geomspace(0.5, 2, 2 * task.effort.candidates + 1)
+    curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress))
+    return curve
