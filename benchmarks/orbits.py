@@ -28,7 +28,7 @@ def mild_and_strong(count):
     branch = follow_branch(family, find_orbit(family(FREQUENCY), QUIET), FREQUENCY, SPAN)
     orbits = {"single": [], "multiple": []}
     for point in branch.points:
-        orbits["single" if point.orbit.chain is None else "multiple"].append(point.orbit)
+        orbits["single" if len(point.orbit.states) == 1 else "multiple"].append(point.orbit)
     return {name: found[:: max(1, len(found) // count)] for name, found in orbits.items()}
 
 

@@ -15,14 +15,13 @@ CENTRAL = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 def converged(p, state, phase, symmetric):
     """Return the orbit of period 1 near a state, converged up to rounding errors."""
     for _ in range(12):
-        orbit, end = shoot(p, state, 1, phase, symmetric=symmetric)
+        orbit = shoot(p, state, 1, phase, symmetric=symmetric)
         n = orbit.active
-        matrix = (orbit.monodromy if orbit.root is None else orbit.root)[:n, :n]
-        change = np.linalg.solve(np.eye(n) - matrix, (end - state)[:n])
+        change = np.linalg.solve(np.eye(n) - orbit.matrix[:n, :n], orbit.defects[0, :n])
         state = state + (change if n == 4 else np.tile(change, 2))
         if np.max(np.abs(change)) < 1e-13:
             break
-    orbit, _ = shoot(p, state, 1, phase, symmetric=symmetric)
+    orbit = shoot(p, state, 1, phase, symmetric=symmetric)
     assert orbit.converged
     return orbit
 

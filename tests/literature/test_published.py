@@ -55,8 +55,8 @@ def test_rigid_walls_are_the_limit_of_stiff_contacts(restitution, mass, gap, fre
 def _symmetric(p, state, phase):
     """Return the symmetric orbit near a state, by Newton's method."""
     for _ in range(15):
-        orbit, end = shoot(p, state, 1, phase, symmetric=True)
-        state = state + np.linalg.solve(np.eye(4) - orbit.root, end - state)
+        orbit = shoot(p, state, 1, phase, symmetric=True)
+        state = state + np.linalg.solve(np.eye(4) - orbit.root, orbit.defects[0])
     assert orbit.residual < 1e-9 * np.max(np.abs(state))
     return orbit
 

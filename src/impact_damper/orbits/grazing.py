@@ -36,11 +36,11 @@ def at_height(problem, x, turn, height, direction, exact=True):
     """Return the point of a branch at which an extremum has a given height, and the extremum."""
     x = x.copy()
     for _ in range(NEWTON):
-        orbit, defect = problem.shoot(x)
+        orbit = problem.shoot(x)
         if exact:
             reached = nearest(turns_of(problem, x, orbit, turn.segment), turn)
         else:
-            reached = moved(problem, x, orbit, turn)
+            reached = moved(orbit, turn)
         if reached is None:
             return None
         turn, missing = reached, height - reached.height
@@ -52,7 +52,7 @@ def at_height(problem, x, turn, height, direction, exact=True):
                 tangent = direction * np.linalg.solve(matrix, last)
                 tangent /= problem.length(tangent)
                 return Point(x[-1], orbit, x, tangent, problem), turn
-            change = np.linalg.solve(matrix, np.append(-defect, missing))
+            change = np.linalg.solve(matrix, np.append(-orbit.defects.ravel(), missing))
         except np.linalg.LinAlgError:
             return None
         if not np.max(np.abs(change)) < LARGEST:
@@ -184,15 +184,6 @@ SHIFT = 1e-10
 MOVED = 0.1
 
 
-class Found(NamedTuple):
-    """An extremum of Z2 without its derivatives: the first four attributes of a `Turn`."""
-
-    segment: float
-    phase: float
-    outer: float
-    height: float
-
-
 class Turn(NamedTuple):
     """An extremum of Z2.
 
@@ -201,7 +192,7 @@ class Turn(NamedTuple):
     outer: True if |Z2| has a maximum, False if it has a minimum.
     height: |Z2| - d0.
     gradient: Derivative of the height by the unknowns: the states at the beginnings of the m
-        segments, and the parameter; shape (4 m + 1,).
+        segments, and the parameter; shape (4 m + 1,). It may be unknown.
     by_parameter: Derivative of the state at the end of the segment by the parameter, without the
         change of sign at the end of a symmetric orbit's half period; shape (4,).
     """
@@ -210,8 +201,13 @@ class Turn(NamedTuple):
     phase: float
     outer: bool
     height: float
-    gradient: np.ndarray
-    by_parameter: np.ndarray
+    gradient: np.ndarray | None = None
+    by_parameter: np.ndarray | None = None
+
+
+def _listed(orbit):
+    """Return all extrema of an orbit without their derivatives."""
+    return [Turn(int(row[0]), row[1], bool(row[2]), row[3]) for row in orbit.turns()]
 
 
 def turns_of(problem, x, orbit, segment=None):
@@ -223,7 +219,7 @@ def turns_of(problem, x, orbit, segment=None):
     rate = problem.rate(x[-1])
     turns = []
     for k in range(len(problem.phases) - 1) if segment is None else [segment]:
-        path = path_of(orbit) if orbit.chain is None else orbit.chain.path(k)
+        path = path_of(orbit, k)
         steps, sizes, weights, times = path.turns(1)
         if not len(steps):
             continue
@@ -260,28 +256,23 @@ def nearest(turns, turn):
     return min(near, key=lambda each: abs(each.phase - turn.phase), default=None)
 
 
-def moved(problem, x, orbit, turn):
-    """Return an extremum with its phase and height on another orbit nearby, or None.
-
-    x are the unknowns of the other orbit. The derivatives of the extremum are kept.
-    """
-    chain = orbit.chain or problem.flow(x)
-    found = nearest([Found(*row) for row in chain.turns(turn.segment)], turn)
-    return found and turn._replace(phase=found.phase, outer=bool(found.outer), height=found.height)
+def moved(orbit, turn):
+    """Return an extremum with its phase and height on another orbit nearby, or None."""
+    found = nearest([each for each in _listed(orbit) if each.segment == turn.segment], turn)
+    return found and turn._replace(phase=found.phase, outer=found.outer, height=found.height)
 
 
 def next_grazing(point, reach):
     """Return the extremum that first reaches its wall along the tangent of a point, or None."""
     problem, candidates = point.problem, []
-    here, ahead = (problem.flow(point.x + shift * point.tangent).turns() for shift in (0.0, SHIFT))
-    for row in here:
-        turn = Found(*row)
-        moved = nearest([Found(*other) for other in ahead[ahead[:, 0] == turn.segment]], turn)
-        distance = SHIFT * turn.height / (turn.height - moved.height or np.inf) if moved else 0.0
+    ahead = problem.shoot(point.x + SHIFT * point.tangent)
+    for turn in _listed(point.orbit):
+        near = moved(ahead, turn)
+        distance = SHIFT * turn.height / (turn.height - near.height or np.inf) if near else 0.0
         if 0 < distance < 2 * reach:
             candidates.append((distance, turn))
     for _, turn in sorted(candidates):
-        turn = nearest(turns_of(problem, point.x, point.orbit, int(turn.segment)), turn)
+        turn = nearest(turns_of(problem, point.x, point.orbit, turn.segment), turn)
         rate = turn.gradient @ point.tangent if turn else 0.0
         if rate and 0 < -turn.height / rate < reach:
             return turn

@@ -1,107 +1,132 @@
-"""A periodic orbit, stable or unstable: its multipliers, contacts, motion and flights.
-
-Its state is stored at a phase at which the loose mass is in flight, so that the map over the period
-is smooth and well scaled.
-"""
+"""A periodic orbit, stable or unstable: its multipliers, contacts, motion and flights."""
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 
 import numpy as np
 
-from impact_damper.kernel.single import side_of, workspace
-from impact_damper.kernel.tangents import advance
+from impact_damper.kernel.single import side_of
 from impact_damper.model.packed import DAMPING, DASHPOT, FREQUENCY, INVERSE_MASS_RATIO
-from impact_damper.motions import records, traces
+from impact_damper.motions import records
+from impact_damper.motions.segment_runs import flow_all, list_turns, survey
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 
 # Phases W T, radian: a forcing cycle, and the strobe, at which states are compared.
 TURN = 2 * math.pi
 STROBE = math.pi / 2
+# Largest residual of a converged orbit, relative to its states.
+RESIDUAL = 1e-12
 # The phase of an orbit is kept if the nearest contact is further away than MARGIN (radian).
 MARGIN = 0.15
-# Largest number of contacts in a forcing cycle that can be listed.
-CONTACTS = 64
+# Largest number of contacts in a forcing cycle, and of extrema of Z2 in a segment.
+CONTACTS, TURNS = 64, 256
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """A periodic orbit.
+    """A periodic orbit, or an approximation of one, in m segments that begin and end in flight.
 
     p: Packed parameters; shape (packed.COUNT,).
     periods: Period n in forcing cycles.
-    phase: Phase W T of the state, radian, with the forcing frequency W.
-    state: Z1, Z1', Z2, Z2' at this phase. Z1 is the displacement of the primary mass, and Z2 its
-        displacement relative to the loose mass; shape (4,).
-    monodromy: Derivative of the map over n cycles; shape (4, 4).
-    root: For a symmetric orbit of odd n, the derivative of the map over n/2 cycles followed by a
-        change of sign. It is called root because its square is the monodromy matrix; shape (4, 4).
-    residual: Largest difference between the state and the state a period later.
-    touching: Time in contact during a period.
-    converged: Whether the residual is at most `segments.RESIDUAL` times the largest component of
-        the state, or times 1 if all components are smaller. If not, the state is the best state
-        that Newton's method found.
-    maps: How often Newton's method integrated over the period.
-    chain: Segments of an orbit that was found by multiple shooting. The state is that at the
-        beginning of the first segment. The monodromy matrix and its root are products of the
-        derivatives of the segments. Their small entries are inaccurate, because rounding errors are
-        relative to the largest entry. All other properties are computed from the segments, without
-        this loss.
+    phases: Phases W T at which the segments begin, and at which the last one ends; shape (m + 1,).
+    states: Z1, Z1', Z2, Z2' at the beginnings of the segments; shape (m, 4).
+    sign: -1 if the segments cover half the period of a symmetric orbit, else 1.
+    ends: States at the ends of the segments, by integration from `states`; shape (m, 4).
+    factors: Derivatives of the ends by the states; the last one is multiplied by `sign`;
+        shape (m, 4, 4).
+    contact_time: Time in contact in all segments.
+    maps: How often Newton's method integrated over the segments.
     """
 
     p: np.ndarray
     periods: int
-    phase: float
-    state: np.ndarray
-    monodromy: np.ndarray
-    root: np.ndarray | None
-    residual: float
-    touching: float
-    converged: bool
+    phases: np.ndarray
+    states: np.ndarray
+    sign: int
+    ends: np.ndarray
+    factors: np.ndarray
+    contact_time: float
     maps: int = 1
-    chain: segments.Chain | None = None
+
+    @property
+    def phase(self):
+        """Phase W T of the first state, radian."""
+        return float(self.phases[0])
+
+    @property
+    def state(self):
+        """First state, shape (4,)."""
+        return self.states[0]
 
     @property
     def cycle(self):
-        """Length of a cycle of the orbit, radian.
+        """Length of all segments, radian: the period, or half of it for a sign of -1."""
+        return self.phases[-1] - self.phases[0]
 
-        A cycle is the period or, for an orbit with a root, half the period, after which the motion
-        repeats with a change of sign.
-        """
-        return self.periods * TURN * (1.0 if self.root is None else 0.5)
+    @cached_property
+    def defects(self):
+        """Ends minus the beginnings of the next segments, shape (m, 4); zero for an orbit."""
+        defects = np.empty_like(self.ends)
+        defects[:-1] = self.ends[:-1] - self.states[1:]
+        defects[-1] = self.sign * self.ends[-1] - self.states[0]
+        return defects
+
+    @cached_property
+    def residual(self):
+        """Largest defect."""
+        return float(np.abs(self.defects).max())
 
     @property
-    def factors(self):
-        """Derivatives of the m segments of a cycle, shape (m, 4, 4); m is 1 without a chain."""
-        if self.chain is not None:
-            return self.chain.factors
-        return (self.monodromy if self.root is None else self.root)[None]
+    def converged(self):
+        """Whether the residual is a rounding error of the states."""
+        return bool(self.residual <= RESIDUAL * max(1.0, np.abs(self.states).max()))
+
+    @cached_property
+    def matrix(self):
+        """Derivative over a cycle, times the sign, shape (4, 4).
+
+        Rounding errors are relative to its largest entry; `multipliers` does not use it.
+        """
+        return reduce(lambda product, factor: factor @ product, self.factors)
+
+    @property
+    def root(self):
+        """The `matrix` of half the period, whose square is the monodromy matrix, or None."""
+        return self.matrix if self.sign < 0 else None
+
+    @property
+    def monodromy(self):
+        """Derivative of the map over the period, shape (4, 4)."""
+        return self.matrix @ self.matrix if self.sign < 0 else self.matrix
 
     @property
     def amplification(self):
-        """Norm of the derivative of the map over a cycle."""
-        matrix = self.monodromy if self.root is None else self.root
-        return np.linalg.norm(matrix, 2) if np.all(np.isfinite(matrix)) else np.inf
+        """Norm of the `matrix`."""
+        return np.linalg.norm(self.matrix, 2) if np.all(np.isfinite(self.matrix)) else np.inf
+
+    @property
+    def touching(self):
+        """Time in contact during a period."""
+        return self.contact_time * (2 if self.sign < 0 else 1)
 
     @property
     def active(self):
         """Number of unknowns: 4, or 2 (Z1, Z1') if the loose mass touches no wall and rests."""
-        return 4 if self.touching > 0 else 2
+        return 4 if self.contact_time > 0 else 2
 
     @cached_property
     def multipliers(self):
         """Floquet multipliers by descending modulus, shape (4,); two are NaN without contacts."""
         values = np.full(4, complex(np.nan, np.nan))
-        n = self.active
-        active = self.cycle_multipliers if self.root is None else self.cycle_multipliers**2
-        values[:n] = active[np.lexsort((-active.imag, -np.abs(active)))]
+        active = self.cycle_multipliers ** (2 if self.sign < 0 else 1)
+        values[: self.active] = active[np.lexsort((-active.imag, -np.abs(active)))]
         return values
 
     @cached_property
     def cycle_multipliers(self):
-        """Eigenvalues of the derivative of the map over a cycle, shape (active,)."""
+        """Eigenvalues of the `matrix`, shape (active,)."""
         n = self.active
         return segments.multipliers(self.factors[:, :n, :n])
 
@@ -114,15 +139,30 @@ class Orbit:
     def liouville_error(self):
         """Relative error of the determinant of the monodromy matrix.
 
-        By Liouville's theorem the determinant is exp(-h n 2 pi/W - c (1 + 1/rm) t_c), with the
-        damping h, the mass ratio rm, the time in contact t_c and the coefficient c of the dashpot
-        of a wall.
+        By Liouville's theorem it is exp(-h t - c (1 + 1/rm) t_c), with the damping h, the period t,
+        the dashpot's coefficient c, the mass ratio rm and the time in contact t_c.
         """
         p = self.p
-        contact_damping = p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO])
-        rate = p[DAMPING] * self.periods * TURN / p[FREQUENCY] + contact_damping * self.touching
-        cycles = 1 if self.root is None else 2
-        return abs(math.expm1(cycles * segments.log_determinant(self.factors) + rate))
+        rate = p[DAMPING] * self.cycle / p[FREQUENCY]
+        rate += p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO]) * self.contact_time
+        logarithm = np.sum(np.linalg.slogdet(self.factors)[1]) + rate
+        return abs(math.expm1((2 if self.sign < 0 else 1) * logarithm))
+
+    @cached_property
+    def _surveyed(self):
+        """Contacts of a cycle, largest |Z1|, and complex first harmonics of Z1 and Z2."""
+        states, phases = self.states.copy(), self.phases
+        if side_of(self.p, states[0]) != 0:
+            # The contact of the first state has no beginning in the cycle, but in the next one.
+            phases = self.phases[0] + np.array([0.0, 2 * self.cycle])
+        log, sums = np.empty((2 * CONTACTS * (self.periods + len(states)), 5)), np.empty((2, 2))
+        count, largest = survey(self.p, states, phases, POLISH_TOLERANCE, log, sums)
+        if count > len(log):
+            raise ArithmeticError(
+                f"{count} contacts in an orbit: more than {CONTACTS} in a forcing cycle"
+            )
+        within = log[:count, 1] < self.phases[-1] / self.p[FREQUENCY]
+        return log[:count][within], largest, sums @ [1, 1j]
 
     @cached_property
     def contacts(self):
@@ -130,32 +170,17 @@ class Orbit:
 
         A row holds the wall (-1 or 1), the times of beginning and end, and Z2' at both.
         """
-        if self.chain is not None:
-            log = self.chain.surveyed[0]
-            if self.root is None:
-                return log
-            shift = self.cycle / self.p[FREQUENCY]
-            return np.concatenate([log, log * [-1, 1, 1, -1, -1] + [0, shift, shift, 0, 0]])
-        begin = self.phase / self.p[FREQUENCY]
-        end = begin + self.periods * TURN / self.p[FREQUENCY]
-        # If the first state lies in a contact, the end of this contact is reached at once, but its
-        # beginning only a period later.
-        touching = side_of(self.p, self.state) != 0
-        last = end + touching * (end - begin)
-        _, log = traces.trace(self.p, self.state, begin, [last], POLISH_TOLERANCE)
-        if len(log) > (1 + touching) * self.periods * CONTACTS:
-            raise ArithmeticError(
-                f"{len(log)} contacts in an orbit: more than {CONTACTS} in a forcing cycle"
-            )
-        log = log[touching:]
-        return log[log[:, 1] < end]
+        log = self._surveyed[0]
+        if self.sign > 0:
+            return log
+        shift = self.cycle / self.p[FREQUENCY]
+        return np.concatenate([log, log * [-1, 1, 1, -1, -1] + [0, shift, shift, 0, 0]])
 
     @cached_property
     def sequence(self):
         """Walls touched in the order of time, such as "+-" for one contact with each wall.
 
-        Of all cyclic shifts of these signs the first in alphabetical order is taken, so that the
-        sequence does not depend on the first contact.
+        Of all cyclic shifts the first in alphabetical order, whichever contact is the first.
         """
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
@@ -173,25 +198,35 @@ class Orbit:
 
     def at(self, phase):
         """Return the state, shape (4,), at a phase W T (radian) not before the orbit's phase."""
-        if self.chain is not None:
-            return self.chain.at(phase)
-        y = self.state.copy()
-        begin = self.phase / self.p[FREQUENCY]
-        end = begin + (phase - self.phase) / self.p[FREQUENCY]
-        side = side_of(self.p, y)
-        advance(self.p, y, np.empty((0, 4)), side, begin, end, POLISH_TOLERANCE, workspace())
-        return y
+        # From an approximate orbit of one segment the motion goes on; it is not repeated.
+        turns = int((phase - self.phases[0]) // self.cycle) if len(self.states) > 1 else 0
+        local = phase - turns * self.cycle
+        k = min(max(int(np.searchsorted(self.phases, local, "right")) - 1, 0), len(self.states) - 1)
+        state = self.states[k].copy()
+        segments.run(self.p, state, np.empty((0, 4)), self.phases[k], max(local, self.phases[k]))
+        return self.sign**turns * state
+
+    def turns(self):
+        """Return a row for each extremum of Z2 in a cycle, shape (n, 4).
+
+        A row holds the segment, the phase, 1 for a maximum of |Z2| or 0 for a minimum, and |Z2|
+        minus the clearance.
+        """
+        turns = np.empty((TURNS * len(self.states), 4))
+        count = list_turns(self.p, self.states.copy(), self.phases, POLISH_TOLERANCE, turns)
+        if count > len(turns):
+            raise ArithmeticError(f"{count} extrema of Z2 in an orbit: more than {len(turns)}")
+        return turns[:count]
 
     @cached_property
     def deviation(self):
         """Difference, shape (4,), between the state and its image half a period later.
 
-        For odd n the image is mirrored, so the difference is 0 for a symmetric orbit. For even n
-        it is 0 for an orbit of half the period. A branch of orbits meets a branch of such orbits
-        of more symmetry where the difference changes sign. A symmetric orbit has no such branch to
-        meet; its difference is replaced by ones.
+        For odd n the image is mirrored, so the difference is 0 for a symmetric orbit; for even n
+        it is 0 for an orbit of half the period. It changes sign where a branch of orbits meets a
+        branch of such orbits of more symmetry. For a symmetric orbit it is replaced by ones.
         """
-        if self.root is not None:
+        if self.sign < 0:
             return np.ones(4)
         half = self.at(self.phase + self.periods * np.pi)
         return self.state + half if self.periods % 2 else self.state - half
@@ -205,21 +240,13 @@ class Orbit:
     @cached_property
     def record(self):
         """Largest |Z1|, contacts, asymmetry and first harmonics: a `records.MOTION`."""
-        if self.chain is not None:
-            return self._record_of_chain()
-        return records.measured(self.p, self.strobe_states[0], self.periods, POLISH_TOLERANCE)
-
-    def _record_of_chain(self):
-        """Return the `record` from the segments."""
         record = np.zeros(1, records.MOTION)[0]
-        _, largest, harmonics = self.chain.surveyed
+        _, largest, harmonics = self._surveyed
         record["maximum_displacement"] = largest
         record["contacts"] = len(self.contacts) / self.periods
         begin = self.phase + (STROBE - self.phase) % TURN
         sums = self.at(begin) + self.at(begin + self.periods * TURN / 2)
         record["asymmetry"] = np.max(np.abs(sums)) if self.periods % 2 else np.nan
-        # The first harmonic is a mean over the period. A symmetric orbit has the same mean over
-        # half the period.
         record["harmonic_displacement"], record["harmonic_relative"] = harmonics
         return record
 
@@ -259,3 +286,13 @@ class Orbit:
         flights = (begins - ends) % (self.periods * TURN)
         k = np.argmax(flights)
         return self.phase + (ends[k] + flights[k] / 2 - self.phase) % (self.periods * TURN)
+
+
+def integrate(p, periods, phases, states, sign=1) -> Orbit:
+    """Return the orbit with given states, which need not be periodic; arguments as in `Orbit`."""
+    ends, tangents = np.array(states, float), np.tile(np.eye(4), (len(states), 1, 1))
+    phases = np.asarray(phases, float)
+    touching = flow_all(p, ends, tangents, phases / p[FREQUENCY], POLISH_TOLERANCE)
+    factors = tangents.transpose(0, 2, 1).copy()
+    factors[-1] *= sign
+    return Orbit(p, periods, phases, np.array(states, float), sign, ends, factors, touching)

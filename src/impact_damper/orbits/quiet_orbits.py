@@ -135,7 +135,7 @@ def quiet_orbits(parameters, states, *, shortest=SHORTEST) -> Grid:
         )
     grid = Grid(parameters, find_quiet_orbit, shortest=shortest, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
-        at_strobe, _ = shoot(parameters[cell], states[cell], 1, STROBE)
+        at_strobe = shoot(parameters[cell], states[cell], 1, STROBE)
         orbit, _ = find_quiet_orbit(parameters[cell], at_strobe.at(PHASE))
         if orbit is not None:
             grid.put(cell, orbit)
@@ -145,7 +145,7 @@ def quiet_orbits(parameters, states, *, shortest=SHORTEST) -> Grid:
 
 def find_quiet_orbit(p, guess):
     """Find the quiet orbit near a guess of its state at W T = 3 pi/4 by Newton's method."""
-    orbit = newton(p, guess, 1, PHASE, symmetric=True, reach=REACH)
+    orbit = newton(shoot(p, guess, 1, PHASE, symmetric=True), REACH)
     if not orbit.converged:
         return None, "not_converged"
     return (orbit, "found") if orbit.record["contacts"] == CONTACTS else (None, "contacts_change")

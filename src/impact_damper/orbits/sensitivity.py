@@ -27,7 +27,7 @@ from impact_damper.model.packed import (
     INVERSE_MASS_RATIO,
     design_slopes,
 )
-from impact_damper.orbits.orbit import TURN, Orbit
+from impact_damper.orbits.orbit import Orbit
 from impact_damper.orbits.paths import INTEGRALS, POINTS, Path, follow_path
 
 
@@ -219,11 +219,13 @@ class Sensitivity:
         return dict(zip(DESIGN, np.moveaxis(values, -1, 0), strict=True))
 
 
-def path_of(orbit) -> Path:
-    """Return the motion of an orbit over its period, or over half the period if it has a root."""
-    begin = orbit.phase / orbit.p[FREQUENCY]
-    turns = orbit.periods * (1.0 if orbit.root is None else 0.5)
-    return follow_path(orbit.p, orbit.state, begin, begin + turns * TURN / orbit.p[FREQUENCY])
+def path_of(orbit, segment=None) -> Path:
+    """Return the motion of an orbit over its cycle, or over a segment."""
+    k = 0 if segment is None else segment
+    end = orbit.phases[-1 if segment is None else k + 1]
+    return follow_path(
+        orbit.p, orbit.states[k], *np.array([orbit.phases[k], end]) / orbit.p[FREQUENCY]
+    )
 
 
 def sensitivity(orbit) -> Sensitivity:
@@ -232,7 +234,7 @@ def sensitivity(orbit) -> Sensitivity:
         raise ValueError(f"orbit: must have converged, its residual is {orbit.residual:.1e}")
     path, n = path_of(orbit), orbit.active
     variations = Variations(path)
-    matrix, sign = (orbit.monodromy, 1) if orbit.root is None else (orbit.root, -1)
+    matrix, sign = orbit.matrix, orbit.sign
     state = np.linalg.solve(np.eye(n) - matrix[:n, :n], sign * variations.slopes()[:n])
     if n == 2:  # the loose mass does not move
         state = np.vstack([state, state])
@@ -240,7 +242,7 @@ def sensitivity(orbit) -> Sensitivity:
     slopes = sign * variations.matrix_changes(state, along)[:, :n, :n]
     largest, by_parameters, alone = _displacement(path, variations.changes(state, along)[0])
     modulus, relative, simple = _modulus(matrix[:n, :n], slopes)
-    power = 1 if orbit.root is None else 2
+    power = 2 if sign < 0 else 1
     return Sensitivity(
         orbit,
         state,

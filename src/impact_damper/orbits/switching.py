@@ -69,7 +69,7 @@ def met_branch(point, kind) -> Point | None:
     """Return the point of the branch of more symmetry at which another branch ends."""
     orbit, symmetric = point.orbit, kind == "symmetry_breaking"
     periods = orbit.periods // (1 if symmetric else 2)
-    orbit, _ = shoot(orbit.p, orbit.state, periods, orbit.phase, symmetric=symmetric)
+    orbit = shoot(orbit.p, orbit.state, periods, orbit.phase, symmetric=symmetric)
     problem = Problem.of(point.problem.family, orbit, symmetric=symmetric)
     x = problem.unknowns(orbit, point.value)
     found = problem.correct(x, np.eye(len(x))[-1])
@@ -118,7 +118,7 @@ def _at_heights(leaving):
     problem, x, direction = leaving
     # Only the first half of the segments is searched, because the second half has the same extrema.
     half = (len(problem.phases) - 1) // 2 if problem.damped else 0
-    orbit = problem.shoot(x)[0]
+    orbit = problem.shoot(x)
     turns = [turn for k in range(half) for turn in turns_of(problem, x, orbit, k)]
     if not turns:
         return

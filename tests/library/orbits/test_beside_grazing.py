@@ -112,7 +112,7 @@ def test_slopes_beside_a_grazing_are_the_integrated_ones(twice):
             continue
         slopes = problem.rows(point.x, orbit)[:, -1].reshape(-1, 4)
         for k, slope in enumerate(slopes):
-            path = path_of(orbit) if orbit.chain is None else orbit.chain.path(k)
+            path = path_of(orbit, k)
             expected = Variations(path).slopes()[:, FREQUENCY]
             assert_allclose(slope, expected, rtol=0, atol=0.03 * np.max(np.abs(expected)))
     assert min(heights) < 1e-7

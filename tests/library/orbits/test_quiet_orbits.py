@@ -45,7 +45,7 @@ def seeded(parameters, state, column=-1):
 
 def at_phase(p, state):
     """State at `PHASE` of the orbit through a state at the strobe."""
-    return shoot(p, state, 1, STROBE)[0].at(PHASE)
+    return shoot(p, state, 1, STROBE).at(PHASE)
 
 
 def orbit_at(damper, frequency, design_orbit):

@@ -17,6 +17,7 @@ from references import extended
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import STROBE
+from impact_damper.orbits.sensitivity import path_of
 from impact_damper.orbits.shooting import find_orbit, polish, shoot
 
 # A state of a chaotic motion at W = 1.55 that nearly repeats after 12 forcing cycles.
@@ -26,7 +27,7 @@ RETURNING = (0.8012827850447051, -2.722120432592939, -0.22602951074616787, -3.91
 @pytest.fixture(scope="module")
 def saddle():
     """Return an orbit of period 12 whose largest multiplier is about 1.6e11."""
-    guess, _ = shoot(pack(PAPER, DESIGN, 1.55), np.array(RETURNING), 12, STROBE)
+    guess = shoot(pack(PAPER, DESIGN, 1.55), np.array(RETURNING), 12, STROBE)
     return polish(guess)
 
 
@@ -100,10 +101,10 @@ def test_chain_is_the_orbit_of_single_shooting(name, symmetric, monkeypatch):
     if symmetric and single.record["asymmetry"] > 1e-6:
         pytest.skip("the orbit is not symmetric")
     if symmetric:
-        single, _ = shoot(single.p, single.state, 1, single.phase, symmetric=True)
+        single = shoot(single.p, single.state, 1, single.phase, symmetric=True)
     monkeypatch.setattr(segments, "AMPLIFIED", 0.0)
     chain = polish(single)
-    assert len(chain.chain.states) >= len(single.contacts) // (2 if symmetric else 1)
+    assert len(chain.states) >= len(single.contacts) // (2 if symmetric else 1)
     assert chain.converged and chain.sequence == single.sequence
     for phase in single.phase + np.linspace(7, 19, 9):
         assert_allclose(chain.at(phase), single.at(phase), atol=1e-10)
@@ -126,7 +127,7 @@ def test_strongly_unstable_orbit_in_80_bit(saddle):
     """
     if extended.obstacle():
         pytest.skip(extended.obstacle())
-    chain, factors = saddle.chain, []
+    chain, factors = saddle, []
     for k, state in enumerate(chain.states):
         begin, end = chain.phases[k : k + 2] / chain.p[FREQUENCY]
         run = extended.run(chain.p, state, begin, [end])
@@ -140,9 +141,9 @@ def test_strongly_unstable_orbit_in_80_bit(saddle):
 
 def test_turns_are_those_of_the_taylor_series(saddle):
     """Each zero of Z2' between points of the series of a segment is listed, with its height."""
-    chain, found = saddle.chain, saddle.chain.turns()
+    chain, found = saddle, saddle.turns()
     for k in range(len(chain.states)):
-        _, sizes, _, times = chain.path(k).turns(1)
+        _, sizes, _, times = path_of(chain, k).turns(1)
         own = found[found[:, 0] == k]
         assert_allclose(own[:, 1], chain.p[FREQUENCY] * times, rtol=0, atol=1e-9)
         assert_allclose(own[:, 3], np.abs(sizes) - chain.p[CLEARANCE], rtol=0, atol=1e-11)
