@@ -6,7 +6,7 @@ import numpy as np
 
 from impact_damper.model.arguments import read_span
 from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
-from impact_damper.model.packed import DASHPOT, FORCE, SHAKER, UNBALANCE, pack
+from impact_damper.model.packed import FORCE, SHAKER, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
 # Parameters that can vary along a branch, each with the dataclass that holds it. No dataclass holds
@@ -125,20 +125,8 @@ def _pack_by(oscillator, damper, frequency, parameter):
     def pack_at(value):
         if parameter == "frequency":
             return pack(oscillator, damper, value)
-        if parameter in FORCING:
-            # Central differences at 0 need negative values. `Oscillator` does not allow these, so
-            # the value is written into the packed array.
-            p = pack(oscillator, damper, frequency)
-            p[FORCING[parameter]] = value
-            return p
-        if parameter in ("damping", "cubic"):
+        if PARAMETERS[parameter] is Oscillator:
             return pack(replace(oscillator, **{parameter: value}), damper, frequency)
-        if parameter == "restitution":
-            # Central differences at e = 1 need values e > 1. For these the dashpot coefficient is
-            # the negative of the coefficient for 2 - e.
-            p = pack(oscillator, replace(damper, restitution=min(value, 2 - value)), frequency)
-            p[DASHPOT] *= np.sign(1 - value)
-            return p
         return pack(oscillator, replace(damper, **{parameter: value}), frequency)
 
     return pack_at

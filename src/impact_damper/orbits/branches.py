@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from impact_damper.motions.segment_runs import NUDGE
 from impact_damper.orbits.bifurcations import Event, bifurcations_between, events_between
 from impact_damper.orbits.continuation import (
     FIRST_STEP,
@@ -33,6 +34,8 @@ SAME = 1e-5
 # `Branch.holds` compares an orbit with a step of the branch only if max |Z1| on the step comes
 # within NEARBY of max |Z1| of the orbit.
 NEARBY = 0.02
+# A family without values beyond the span is continued linearly to this distance.
+EXTENDED = 1e-3
 # If a branch cannot be followed further and all speeds at the beginnings of contacts are below
 # WEAK, it has reached a motion without contacts.
 WEAK = 0.02
@@ -110,6 +113,7 @@ def _at_value(point, ahead, value):
 
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
     """Follow a branch from an orbit in both directions of a parameter."""
+    family = _extended(family, span)
     problem = Problem.of(family, orbit)
     walks = []
     for direction in (-1, 1):
@@ -125,6 +129,27 @@ def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
     events += [(count + k, event) for k, event in up.events]
     points = down.points[:0:-1] + up.points
     return Branch(family, points, events, (down.ends[1], up.ends[1]), down.lost + up.lost)
+
+
+def _extended(family, span):
+    """Return the family, continued linearly by EXTENDED beyond the span where it has no values.
+
+    Steps and differences need these values if the span ends at a bound of the parameter.
+    """
+
+    def extended(value):
+        try:
+            return family(value)
+        except ValueError:
+            end = float(np.clip(value, *span))
+            if not 0 < abs(value - end) <= EXTENDED:
+                raise
+            inside = np.copysign(NUDGE, value - end)
+            last, before = family(end), family(end - inside)
+            change = np.subtract(last, before, out=np.zeros(len(last)), where=last < np.inf)
+            return last + (value - end) / inside * change
+
+    return extended
 
 
 def _reversed(event):

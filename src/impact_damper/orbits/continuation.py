@@ -17,8 +17,8 @@ from impact_damper.model.packed import CLEARANCE
 from impact_damper.motions.segment_runs import FINE_NUDGE, NUDGE, correction, slopes_of_ends
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
-from impact_damper.orbits.orbit import TURN, Orbit
-from impact_damper.orbits.shooting import AMPLIFYING, orbit_of
+from impact_damper.orbits.orbit import TURN, Orbit, integrate
+from impact_damper.orbits.shooting import AMPLIFYING
 
 # Newton's method. The size of a correction is the largest change of an unknown.
 # NEWTON: largest number of corrections.
@@ -67,7 +67,7 @@ class Point(NamedTuple):
     tangent: Tangent of the branch, of length 1 in the metric of the problem; shape (m n + 1,).
     problem: The equations that the unknowns solve.
     bend, twist: Estimates of the first and second derivative of the tangent with respect to the
-        length of the branch. They improve the first guess of the next point; shape (m n + 1,).
+        length of the branch, for the first guess of the next point; shape (m n + 1,).
     """
 
     value: float
@@ -81,21 +81,18 @@ class Point(NamedTuple):
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations that the orbits of a branch solve.
+    """The equations that the orbits of a branch solve: each segment ends where the next begins.
 
-    They state that each segment ends where the next begins. The metric of the problem defines the
-    distance of two points: its square is the mean over the segments of the squared distance of
-    their states, plus the squared difference of the parameter.
+    The square of the distance of two points is the mean over the segments of the squared distance
+    of their states, plus the squared difference of the parameter.
 
     family: Maps the parameter to packed parameters.
-    periods: Period of the orbits in forcing cycles.
-    phases: Phases W T at which the segments begin, and at which the last segment ends, radian;
-        shape (m + 1,).
+    periods, phases: As in `Orbit`.
     loose: Z2 - Z1 and Z2' - Z1'. Without a damper they have no effect and are kept constant; shape
         (2,).
     damped: Whether there is a damper.
     symmetric: If True, only symmetric orbits are found, by the map over half the period. This map
-        is regular where an orbit loses its symmetry. The map over the whole period is singular
+        is regular where an orbit loses its symmetry; the map over the whole period is singular
         there.
     rough: Largest norm of the derivative of a segment at the time when the orbit was cut.
     """
@@ -110,34 +107,40 @@ class Problem:
 
     @classmethod
     def of(cls, family, orbit, *, symmetric=None):
-        """Return the problem that an orbit solves.
-
-        `family` and `symmetric` are attributes of the problem. By default `symmetric` is True if
-        the orbit is symmetric.
-        """
+        """Return the problem of an orbit; `symmetric` by default if the orbit is symmetric."""
         if symmetric is None:
             symmetric = bool(orbit.record["asymmetry"] < SYMMETRIC)
         cycle = orbit.periods * TURN * (0.5 if symmetric else 1.0)
-        cutting = orbit.chain is not None
+        several = len(orbit.states) > 1
         return cls(
             family,
             orbit.periods,
-            segments.cut(orbit, cycle) if cutting else orbit.phase + np.array([0.0, cycle]),
+            segments.cut(orbit, cycle) if several else orbit.phase + np.array([0.0, cycle]),
             orbit.state[2:] - orbit.state[:2],
             bool(np.isfinite(orbit.p[CLEARANCE])),
             symmetric,
         )
 
     @property
+    def size(self):
+        """Number n of unknowns of a segment: 4, or 2 without a damper."""
+        return 4 if self.damped else 2
+
+    @property
+    def sign(self):
+        """`Orbit.sign` of the orbits."""
+        return -1 if self.symmetric else 1
+
+    @property
     def cycle(self):
-        """Length of the chain, radian: the period or, for symmetric orbits, half the period."""
+        """Length of all segments, radian: the period or, for symmetric orbits, half the period."""
         return self.phases[-1] - self.phases[0]
 
     @cached_property
     def metric(self):
         """Weights of squared differences of unknowns in a squared distance, shape (m n + 1,)."""
         m = len(self.phases) - 1
-        return np.append(np.full(m * (4 if self.damped else 2), 1 / m), 1.0)
+        return np.append(np.full(m * self.size, 1 / m), 1.0)
 
     def length(self, vector):
         """Return the length of a vector of differences of unknowns, in the metric."""
@@ -145,8 +148,7 @@ class Problem:
 
     def unknowns(self, orbit, value):
         """Return the unknowns, shape (m n + 1,), of an orbit at a value of the parameter."""
-        size = 4 if self.damped else 2
-        return np.append([orbit.at(phase)[:size] for phase in self.phases[:-1]], value)
+        return np.append([orbit.at(phase)[: self.size] for phase in self.phases[:-1]], value)
 
     def states(self, x):
         """Return the states at the beginning of the segments, shape (m, 4)."""
@@ -154,28 +156,10 @@ class Problem:
             return x[:-1].reshape(-1, 4)
         return np.concatenate([x[:2], x[:2] + self.loose])[None]
 
-    def flow(self, x):
-        """Return the `segments.Chain` at the unknowns x, of one segment or of several."""
-        sign = -1 if self.symmetric else 1
-        return segments.chain_of(self.family(x[-1]), self.phases, self.states(x), sign)
-
-    def orbit_of(self, chain):
-        """Return the `Orbit` of a chain. It holds the chain only if there are several segments."""
-        orbit = orbit_of(chain, self.periods)
-        return orbit if len(chain.states) > 1 else replace(orbit, chain=None)
-
     def shoot(self, x):
-        """Return the `Orbit` at the unknowns x, without iteration, and its defect, shape (m n,).
-
-        The defect holds for each segment the state at its end minus the state at which the next
-        segment begins. It is zero for a periodic orbit.
-        """
-        chain = self.flow(x)
-        return self.orbit_of(chain), self._defect(chain)
-
-    def _defect(self, chain):
-        """Return the defects of a chain, shape (m n,), in the components that are unknown."""
-        return chain.defects[:, : 4 if self.damped else 2].ravel()
+        """Return the orbit at the unknowns x, without iteration."""
+        states = self.states(x)
+        return integrate(self.family(x[-1]), self.periods, self.phases, states, self.sign)
 
     def rate(self, value):
         """Return the derivative of the packed parameters by the parameter, shape (COUNT,)."""
@@ -185,28 +169,23 @@ class Problem:
             2 * NUDGE
         )
 
-    def rows(self, x, orbit, rate=None, known=None):
-        """Return the derivative of the defect by the unknowns, shape (m n, m n + 1)."""
-        rate = self.rate(x[-1]) if rate is None else rate
-        states, n = self.states(x), 4 if self.damped else 2
-        chain, sign = orbit.chain or self.flow(x), -1 if self.symmetric else 1
-        slopes = np.empty((len(states), n))
-        slopes_of_ends(
-            orbit.p, rate, self.phases, states, chain.ends, sign, POLISH_TOLERANCE, slopes
-        )
-        if known is not None:
-            last = known[0] == len(states) - 1
-            slopes[known[0]] = known[1] * (sign if last else 1)
-        return self._matrix(orbit.factors, slopes)
+    def rows(self, x, orbit, known=None):
+        """Return the derivative of the defects by the unknowns, shape (m n, m n + 1).
 
-    def _matrix(self, factors, slopes):
-        """Return the derivative of the defect by the unknowns, shape (m n, m n + 1).
-
-        It is put together from the derivatives of the states at the ends of the segments: `factors`
-        by the states at the beginnings, `slopes` by the parameter.
+        `known` is a segment and the derivative of its end by the parameter, without the sign.
         """
-        n = 4 if self.damped else 2
-        return np.column_stack([segments.cyclic(factors[:, :n, :n]), slopes.ravel()])
+        slopes = np.empty((len(orbit.states), self.size))
+        given = orbit.p, self.rate(x[-1]), self.phases, orbit.states, orbit.ends, self.sign
+        slopes_of_ends(*given, POLISH_TOLERANCE, slopes)
+        if known is not None:
+            last = known[0] == len(slopes) - 1
+            slopes[known[0]] = known[1] * (self.sign if last else 1)
+        return self._matrix(orbit, slopes)
+
+    def _matrix(self, orbit, slopes):
+        """Return the result of `rows`, from the derivatives `slopes` of ends by the parameter."""
+        n = self.size
+        return np.column_stack([segments.cyclic(orbit.factors[:, :n, :n]), slopes.ravel()])
 
     def correct(self, x, border, most=np.inf):
         """Return the point that Newton's method reaches from the unknowns x, or None if it fails.
@@ -222,24 +201,14 @@ class Problem:
         expensive part, is computed for the first guess and once close to the orbit.
         """
         x, size, moved, row = x.copy(), np.inf, 0.0, self.metric * border
-        rate, m, sign = self.rate(x[-1]), len(self.phases) - 1, -1 if self.symmetric else 1
-        slopes, out = np.empty((m, 4 if self.damped else 2)), np.empty((len(x), 2))
+        slopes = np.empty((len(self.phases) - 1, self.size))
+        rate, out = None, np.empty((len(x), 2))
         for number in range(NEWTON):
             fresh = number == 0 or (size < REFINED and moved > UNMOVED)
             moved = 0.0 if fresh else moved
-            ends, tangents, states = np.empty((m, 4)), np.empty((m, 4, 4)), self.states(x)
             try:
-                p = self.family(x[-1])
-                touching, residual = correction(
-                    *(p, rate, self.phases, states, sign, row, fresh, POLISH_TOLERANCE),
-                    *(ends, tangents, slopes, out),
-                )
-                factors = tangents.transpose(0, 2, 1)
-                factors[-1] *= sign
-                chain = segments.Chain(p, self.phases, states, sign, ends, factors, touching)
-                largest = np.max(np.abs(out), axis=0)
-                if not np.all(largest < np.array([residual, 1.0]) / SINGULAR**0.5):
-                    out = self._least(chain, slopes, row)
+                rate = self.rate(x[-1]) if rate is None else rate
+                orbit, out = self._correction(x, rate, row, fresh, slopes, out)
             except (np.linalg.LinAlgError, ValueError):
                 return None
             change = out[:, 0]
@@ -249,26 +218,33 @@ class Problem:
             if not size < LARGEST or (number == 0 and self.length(change) > most):
                 return None
             settled = fresh and (size < CLOSE or last / 2 < size < ROUNDING)
-            if (last < SURE or settled) and chain.converged:
-                return self._point(x, chain, out[:, 1])
-            if size > max(SHRINKING * last, SURE) and not chain.converged:
+            if (last < SURE or settled) and orbit.converged:
+                return Point(x[-1], orbit, x, out[:, 1] / self.length(out[:, 1]), self)
+            if size > max(SHRINKING * last, SURE) and not orbit.converged:
                 return None
             x, moved = x + change, moved + size
         return None
 
-    def _least(self, chain, slopes, row):
-        """Return the array `out` of `correction`, computed with very small singular values as zero.
+    def _correction(self, x, rate, row, fresh, slopes, out):
+        """Return the orbit at x, and a correction and a vector along the branch as columns.
 
-        Its first column is the correction, its second column a vector along the branch.
+        The arguments are those of the kernel `correction`.
         """
-        matrix = np.vstack([self._matrix(chain.factors, slopes), row])
-        right = np.zeros((len(row), 2))
-        right[:-1, 0], right[-1, 1] = -self._defect(chain), 1.0
-        return np.linalg.lstsq(matrix, right, SINGULAR)[0]
-
-    def _point(self, x, chain, tangent):
-        """Return the `Point` at converged unknowns x; `tangent` is a vector along the branch."""
-        return Point(x[-1], self.orbit_of(chain), x, tangent / self.length(tangent), self)
+        p, states, m = self.family(x[-1]), self.states(x), len(self.phases) - 1
+        ends, tangents = np.empty((m, 4)), np.empty((m, 4, 4))
+        touching, residual = correction(
+            *(p, rate, self.phases, states, self.sign, row, fresh, POLISH_TOLERANCE),
+            *(ends, tangents, slopes, out),
+        )
+        factors = tangents.transpose(0, 2, 1)
+        factors[-1] *= self.sign
+        orbit = Orbit(p, self.periods, self.phases, states, self.sign, ends, factors, touching)
+        largest = np.max(np.abs(out), axis=0)
+        if not np.all(largest < np.array([residual, 1.0]) / SINGULAR**0.5):
+            matrix, right = np.vstack([self._matrix(orbit, slopes), row]), np.zeros((len(row), 2))
+            right[:-1, 0], right[-1, 1] = -orbit.defects[:, : self.size].ravel(), 1.0
+            out = np.linalg.lstsq(matrix, right, SINGULAR)[0]
+        return orbit, out
 
     def step(self, point, length):
         """Return the next point of the branch, at the distance `length`; None if a step fails."""
@@ -458,11 +434,7 @@ def recut(point, between=()):
     problem = replace(before, phases=phases - phases[0] + phases[0] % TURN, rough=rough)
     x = np.append([orbit.at(phase) for phase in phases[:-1]], point.x[-1])
     nudged = point.x + FINE_NUDGE * point.tangent
-    p, states = before.family(nudged[-1]), before.states(nudged)
-    if orbit.chain is None:
-        displaced = replace(orbit, p=p, state=states[0])
-    else:
-        displaced = replace(orbit.chain, p=p, states=states)
+    displaced = replace(orbit, p=before.family(nudged[-1]), states=before.states(nudged))
     ahead = np.append([displaced.at(phase) for phase in phases[:-1]], nudged[-1])
     border = (ahead - x) / problem.length(ahead - x)
     moved = problem.correct(x, border)

@@ -7,7 +7,13 @@ from functools import cached_property, reduce
 import numpy as np
 
 from impact_damper.kernel.single import side_of
-from impact_damper.model.packed import DAMPING, DASHPOT, FREQUENCY, INVERSE_MASS_RATIO
+from impact_damper.model.packed import (
+    CONTACT_STIFFNESS,
+    DAMPING,
+    DASHPOT,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+)
 from impact_damper.motions import records
 from impact_damper.motions.segment_runs import flow_all, list_turns, survey
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
@@ -17,7 +23,8 @@ from impact_damper.orbits import segments
 TURN = 2 * math.pi
 STROBE = math.pi / 2
 # Largest residual of a converged orbit, relative to its states.
-RESIDUAL = 1e-12
+# STIFF_RESIDUAL: divided by the natural frequency of contacts, which multiplies rounding errors.
+RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # The phase of an orbit is kept if the nearest contact is further away than MARGIN (radian).
 MARGIN = 0.15
 # Largest number of contacts in a forcing cycle, and of extrema of Z2 in a segment.
@@ -81,7 +88,11 @@ class Orbit:
     @property
     def converged(self):
         """Whether the residual is a rounding error of the states."""
-        return bool(self.residual <= RESIDUAL * max(1.0, np.abs(self.states).max()))
+        bound = RESIDUAL
+        if self.contact_time > 0:
+            stiffness = self.p[CONTACT_STIFFNESS] * (1 + self.p[INVERSE_MASS_RATIO])
+            bound = max(bound, STIFF_RESIDUAL * math.sqrt(stiffness))
+        return bool(self.residual <= bound * max(1.0, np.abs(self.states).max()))
 
     @cached_property
     def matrix(self):

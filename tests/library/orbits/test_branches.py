@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from helpers.known_orbits import DESIGN, PAPER, polished_orbit
+from helpers.known_orbits import DESIGN, INELASTIC, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 
 from impact_damper.model.packed import FREQUENCY, pack
@@ -185,6 +185,18 @@ def test_branches_over_each_parameter_end_on_an_orbit(parameter, span):
             branch["orbit_multiplier_real"].values[row],
             atol=1e-7,
         )
+
+
+@pytest.mark.parametrize(
+    ("parameter", "side", "bound"), [("contact_stiffness", 1, 1e9), ("damping", 0, 1e-9)]
+)
+def test_a_branch_ends_at_a_bound_of_its_parameter(parameter, side, bound):
+    span = (1.0, bound) if side else (bound, 1.0)
+    state = polished_orbit("inelastic").state
+    branch = orbit_branches(PAPER, INELASTIC, 2.0, state, parameter=parameter, span=span)
+    ends = branch["followed_value"].values[[0, -1]]
+    assert_allclose(ends[np.argmax(ends) if side else np.argmin(ends)], bound, rtol=1e-12)
+    assert branch["branch_end"].values.tolist() == [[0, 0]]
 
 
 @pytest.fixture(scope="module")

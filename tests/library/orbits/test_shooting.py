@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from helpers.known_orbits import DESIGN, INELASTIC, PAPER, STARTS, polished_orbit
 from numpy.testing import assert_allclose
+from references import extended
 
 from impact_damper.model.packed import pack
-from impact_damper.model.parameters import Damper
+from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import TURN
 from impact_damper.orbits.shooting import find_orbit, shoot
@@ -81,6 +82,27 @@ def test_unstable_orbit_is_found_and_left_by_simulation():
     leading = direction.eigenvectors[:, np.argmax(np.abs(direction.eigenvalues))].real
     nudged = shoot(unstable.p, unstable.state + 1e-7 * leading, 1, unstable.phase)
     assert_allclose(nudged.ends[0] - unstable.state, growth * 1e-7 * leading, atol=2e-9)
+
+
+# Damping of a hardening oscillator, damper, W, and a state at W T = pi/2 near a stable orbit, whose
+# rounding errors leave a residual above 1e-12 of the state.
+STIFF = [
+    (0.005, Damper(0.0138, 8.0, 0.683, 3.2e5), 0.836, (0.15442, -2.4314, -3.1677, 3.2239)),
+    (0.0289, Damper(0.0229, 8.73, 0.962, 6.54e5), 0.801, (0.19783, -2.2068, -0.68975, 3.6161)),
+]
+
+
+@pytest.mark.parametrize(("damping", "damper", "frequency", "state"), STIFF)
+def test_an_orbit_between_stiff_walls_is_accepted(damping, damper, frequency, state):
+    """In 80-bit arithmetic the motion from its state repeats."""
+    if extended.obstacle():
+        pytest.skip(extended.obstacle())
+    orbit = find_orbit(pack(Oscillator(damping, 1.0, 0.01), damper, frequency), state)
+    assert orbit.converged
+    begin = extended.Real(orbit.phase) / extended.Real(frequency)
+    period = 2 * np.arccos(extended.Real(-1)) / extended.Real(frequency)
+    end = extended.run(orbit.p, orbit.state, begin, [begin + period]).states[-1]
+    assert_allclose(end.astype(float), orbit.state, rtol=0, atol=1e-10)
 
 
 def test_without_an_orbit_the_result_has_not_converged():
