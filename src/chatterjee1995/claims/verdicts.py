@@ -57,10 +57,8 @@ PRINTED = {"omega_l": "ωl", r"\bpi\b": "π", r"\^2\b": "²", r"\bsqrt\b": "√"
 def claims(datasets) -> pd.DataFrame:
     """Return the table of verdicts, with a row for each claim and each misprint or omission.
 
-    Parameters
-    ----------
-    datasets : dict of dict of xarray.Dataset
-        Keyed by stage, then by name. A claim whose datasets are missing is not decidable.
+    `datasets` are keyed by stage, then by name. A claim whose datasets are missing is not
+    decidable.
     """
     return pd.DataFrame([claim.judge(datasets) for claim in CLAIMS])
 
@@ -68,15 +66,9 @@ def claims(datasets) -> pd.DataFrame:
 def document(frame, picture=None, drawn=None) -> str:
     """Return the page of the claims in Markdown: a summary, then a section for each claim.
 
-    Parameters
-    ----------
-    frame : pandas.DataFrame
-        As `claims` returns it, or as read from its file.
-    picture : callable, optional
-        Maps the name of a figure to the Markdown that shows it. By default this is an image in
-        the folder `figures`, which lies beside the folder of the page.
-    drawn : container of str, optional
-        Names of the figures that exist; others are left out. By default all exist.
+    `frame` is the table of verdicts, also as read from its file. `picture` maps the name of a
+    figure to the Markdown that shows it, by default from the folder `figures` beside the folder of
+    the page. Figures that are not in `drawn` are left out; by default all exist.
     """
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     rows = frame.to_dict("records")

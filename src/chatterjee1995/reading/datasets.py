@@ -135,12 +135,3 @@ def largest_multiplier(orbit):
     """Return the largest modulus of the Floquet multipliers of each orbit."""
     modulus = np.hypot(orbit.orbit_multiplier_real, orbit.orbit_multiplier_imaginary)
     return modulus.max("multiplier").values
-
-
-def stable_from(orbit):
-    """Return the damping h above which the orbit of a dataset of `design_orbit` is stable."""
-    value, events = orbit.followed_value.values, orbit.event_value.values
-    last = np.max(value[largest_multiplier(orbit) >= 1], initial=value.min())
-    if last == value.min():
-        return float(last)
-    return float(np.min(events[events >= last], initial=value.max()))

@@ -62,7 +62,6 @@ def _exact_orbit(orbit):
         return columns
     columns |= {
         "largest multiplier": np.nan,
-        "stable from h": np.nan,
         "starts that settle": float(np.mean(is_settled({"outcome": orbit.design_run_outcome}))),
         "largest max |Z1| of starts": float(orbit.design_run_displacement.max()),
     }
@@ -75,7 +74,6 @@ def _exact_orbit(orbit):
         "max |Z1| at Ωp, exact orbit": float(quiet.orbit_displacement),
         "stability of the exact orbit": "stable" if multiplier < 1 else "unstable",
         "largest multiplier": multiplier,
-        "stable from h": reading.stable_from(orbit),
     }
 
 

@@ -7,10 +7,10 @@ from functools import partial
 import numpy as np
 
 from impact_damper.data.whole_files import whole
+from impact_damper.model.text import number
 
 # Significant digits of numbers in CSV and in Markdown files.
 DIGITS, FEW_DIGITS = 6, 4
-LARGE = 1e7
 SHOWN = 9  # columns of a table that its page shows
 
 
@@ -76,12 +76,7 @@ def _write(path, content):
 
 
 def _rounded(value, digits=DIGITS):
-    """Return the text of a table cell for its value; numbers below 1e7 have no exponent."""
-    if isinstance(value, str):
-        return value
-    if isinstance(value, numbers.Integral):
+    """Return the text of a table cell for its value."""
+    if isinstance(value, str | numbers.Integral) or np.isinf(value or 0):
         return str(value)
-    if value is None or np.isnan(value):
-        return ""
-    text = f"{value:.{digits}g}"
-    return f"{value:.0f}" if "e+" in text and abs(value) < LARGE else text
+    return "" if value is None or np.isnan(value) else number(value, digits)
