@@ -4,7 +4,7 @@ import yaml
 
 from chatterjee1995.sections.configuration import configuration
 from helpers.running import ROOT
-from impact_damper.command.yaml_files import LOADER
+from impact_damper.command.section import LOADER
 
 
 def read(path=ROOT / "config/config.yaml"):

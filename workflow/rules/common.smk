@@ -14,7 +14,7 @@ from chatterjee1995.sections.configuration import configuration
 from chatterjee1995.sections.registry import CHAPTERS, PAPER, STAGES, TABLES
 from chatterjee1995.sections import selection
 from chatterjee1995.workflow.kernels import compiled_kernels
-from impact_damper.command.yaml_files import ConfigurationError, check_file
+from impact_damper.command.section import ConfigurationError, check_file
 from impact_damper.kernel.sources import KERNEL, module_file, sources
 
 # Planning makes many small objects, none of which becomes garbage. Collecting garbage less often

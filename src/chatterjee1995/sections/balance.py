@@ -18,7 +18,7 @@ from chatterjee1995.sections.system import (
     range_of,
 )
 from chatterjee1995.variables import MAPPED
-from impact_damper.command.messages import missing, problem
+from impact_damper.command.section import missing, problem
 from impact_damper.command.values import choice, count, number
 from impact_damper.model.bounds import FREQUENCY_RANGE, HARMONIC_RANGE
 from impact_damper.model.text import plain

@@ -21,8 +21,7 @@ from chatterjee1995.sections.system import (
     keys_of,
     range_of,
 )
-from impact_damper.command.messages import dotted, problem
-from impact_damper.command.section import increasing
+from impact_damper.command.section import dotted, increasing, problem
 from impact_damper.command.values import number_or_range, several, starts_of
 from impact_damper.model.bounds import MOST_RUNS
 

@@ -5,8 +5,16 @@ from pydantic import ValidationError, create_model
 from chatterjee1995.sections.methods import Comparison
 from chatterjee1995.sections.registry import KINDS, SECTIONS, TABLES, section_of
 from chatterjee1995.sections.system import CONTACT_STIFFNESS, RADIUS, Oscillators, too_many
-from impact_damper.command.messages import dotted, missing, one_of, problem
-from impact_damper.command.section import Section, parts
+from impact_damper.command.section import (
+    ConfigurationError,
+    Section,
+    dotted,
+    missing,
+    one_of,
+    parts,
+    problem,
+    problems_of,
+)
 from impact_damper.command.values import (
     choice,
     count,
@@ -17,7 +25,6 @@ from impact_damper.command.values import (
     starts_of,
     text,
 )
-from impact_damper.command.yaml_files import ConfigurationError, problems_of
 from impact_damper.model.bounds import (
     FURTHER_RANGE,
     LIFETIME_RANGE,

@@ -7,7 +7,7 @@ from chatterjee1995.sections.system import (
     MaybeWithDamper,
     WithDamper,
 )
-from impact_damper.command.messages import dotted, problem
+from impact_damper.command.section import dotted, problem
 from impact_damper.command.values import choice, several
 
 # Stages of an entry of `curves`, and which of them need a damper.

@@ -2,7 +2,7 @@
 
 from chatterjee1995.sections.records import Kind, Table, stage
 from chatterjee1995.sections.system import too_many
-from impact_damper.command import machine_entry
+from impact_damper.command import machine_file
 
 # Names of the figures of a machine's page, the keys of `plot.machine_figures.figures.FIGURES`.
 PAGE = tuple(
@@ -10,7 +10,7 @@ PAGE = tuple(
 )
 
 
-class Machine(machine_entry.MachineEntry):
+class Machine(machine_file.MachineEntry):
     """Machines for which a damper is designed, in SI units: numbers, or texts with units."""
 
     def contradictions(self, path, config):

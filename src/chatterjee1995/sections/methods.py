@@ -22,8 +22,7 @@ from chatterjee1995.sections.system import (
     keys_of,
     range_of,
 )
-from impact_damper.command.messages import problem
-from impact_damper.command.section import Section, increasing
+from impact_damper.command.section import Section, increasing, problem
 from impact_damper.command.values import choice, count, number, points_of, several
 from impact_damper.model.bounds import (
     FARTHEST,

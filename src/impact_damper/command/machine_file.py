@@ -1,23 +1,210 @@
-"""Reader of the YAML file that describes a machine for the command `impact-damper`.
+"""Machines for which a damper is designed: an entry of the configuration, or a file of its own.
 
-The file has the same keys as an entry of the section `machines` in the workflow's configuration. A
-start is a random initial state, and a motion is quiet if it is below a displacement limit.
+Quantities are numbers in SI units, or texts with a unit such as "12 kg".
 """
 
 import re
+from dataclasses import MISSING, fields
 from pathlib import Path
+from typing import Annotated, Any, ClassVar
 
 import yaml
-from pydantic import ValidationError
+from pydantic import ValidationError, create_model
+from pydantic_core import core_schema
 
-from impact_damper.command.machine_entry import MachineEntry
-from impact_damper.command.messages import SCIENTIFIC
-from impact_damper.command.yaml_files import (
+from impact_damper.command.section import (
     LOADER,
+    SCIENTIFIC,
     ConfigurationError,
+    Section,
     check_file,
+    dotted,
+    missing,
+    problem,
     problems_of,
 )
+from impact_damper.command.values import Allowed, count, number, points_of, starts_of
+from impact_damper.model.bounds import RESTITUTION_RANGE, range_words
+from impact_damper.model.hertz import HertzContact
+from impact_damper.model.machine import Machine
+from impact_damper.model.units import QUANTITIES, check_si, si_value
+
+
+class AllowedQuantity(Allowed):
+    """The allowed values of a physical quantity; the value stays as the user wrote it."""
+
+    def __init__(self, quantity, bounds, meaning):
+        unit = QUANTITIES[quantity].unit
+        allowed = range_words(**bounds)
+        kind = f'a number in {unit}, or text such as "2 {unit}"' if unit else "a number"
+        super().__init__(", ".join([kind, *allowed]), meaning, bounds.get("why", ""))
+        self.quantity, self.bounds = quantity, bounds
+
+    def __get_pydantic_core_schema__(self, source, handler):
+        return core_schema.with_info_plain_validator_function(self._quantity)
+
+    def _quantity(self, value, info):
+        # Reading units takes a third of a second, which a job of a checked configuration can save.
+        if info.context:
+            return value
+        try:
+            check_si("", value, self.quantity, **self.bounds)
+        except (TypeError, ValueError) as error:
+            remark = re.search(r" \([^)]* unit\)$| \(.* converted to .*\)$", str(error))
+            raise self._error(remark[0] if remark else "") from None
+        return value
+
+
+def quantity_of(quantity, meaning="", **bounds):
+    """Return the type of a physical quantity within bounds in SI units."""
+    return Annotated[Any, AllowedQuantity(quantity, bounds, meaning)]
+
+
+def fields_of(part, *, optional=False):
+    """Return the fields of a model for a dataclass with quantities in SI units.
+
+    A field with a default, or any with `optional`, may be left out.
+    """
+    found = {}
+    for each in fields(part):
+        facts = each.metadata
+        kind = quantity_of(facts["quantity"], facts["meaning"], **facts["bounds"])
+        needed = each.default is MISSING and not optional
+        found[each.name] = kind if needed else (kind, None)
+    return found
+
+
+class Given(Section):
+    """Base of the models whose keys are the arguments of a dataclass in SI units."""
+
+    def values(self) -> dict:
+        """Return the values that are given."""
+        return {key: value for key, value in self if value is not None}
+
+
+class Span(Section):
+    """Evenly spaced values of a physical quantity; the first value is less than the last."""
+
+    def contradictions(self, path, config):
+        quantity = type(self).model_fields["first"].metadata[-1].quantity
+        first, last = (si_value("", end, quantity) for end in (self.first, self.last))
+        if first >= last:
+            reason = f"must be less than last = {self.last!r} (a range ascends)"
+            yield problem((*path, "first"), self.first, reason)
+
+
+def span_of(quantity, meaning):
+    """Return the model of evenly spaced values of a physical quantity."""
+    end = quantity_of(quantity, meaning, above=0)
+    return create_model(
+        "Span", __base__=Span, first=end, last=end, points=points_of("points of the grid")
+    )
+
+
+Damper = create_model(
+    "Damper",
+    __base__=Given,
+    mass=quantity_of("mass", "loose mass, at most the mass of the machine", above=0),
+    restitution=quantity_of("number", "coefficient of restitution", **RESTITUTION_RANGE),
+    contact_stiffness=(
+        quantity_of(
+            "stiffness",
+            "stiffness of the contact (without it computed from `contact` after Hertz)",
+            above=0,
+        ),
+        None,
+    ),
+)
+Body = create_model("Body", __base__=Given, **fields_of(Machine))
+
+
+def share_of(what, meaning="largest relative deviation of"):
+    """Return an optional field for a relative deviation."""
+    return quantity_of("number", f"{meaning} {what}", least=0, most=0.9), None
+
+
+Tolerances = create_model(
+    "Tolerances",
+    __base__=Given,
+    gap=share_of("the gap"),
+    restitution=share_of("the restitution"),
+    contact_stiffness=share_of("the contact stiffness"),
+    stiffness=share_of("both stiffnesses of the spring"),
+    damping=share_of("the damping of the machine"),
+    force=share_of("the excitation"),
+)
+Ball = create_model("Ball", __base__=Given, **fields_of(HertzContact, optional=True))
+
+
+class MachineEntry(Section):
+    """Machines for which a damper is designed, in SI units: numbers, or texts with units."""
+
+    machine: Body
+    damper: Damper
+    contact: Ball = Ball()
+    band: span_of("frequency", "end of the band of forcing frequencies")
+    candidates: count("gaps that are compared", least=4, most=1000)
+    starts: starts_of("at each gap and frequency")
+    share: number(
+        "least share of the starts that must lead to quiet motions", least=0.5, most=0.999
+    )
+    tolerances: Tolerances
+    displacement_limit: (
+        quantity_of(
+            "displacement", "quiet limit, the largest displacement of a quiet motion", above=0
+        )
+        | None
+    ) = None
+
+    counts: ClassVar = ("band.points", "candidates", "starts")
+
+    def contradictions(self, path, config):
+        lacking = list(self._lacking(path))
+        yield from lacking
+        try:
+            machine = Machine(**self.machine.values())
+            machine.oscillator()
+        except (TypeError, ValueError) as error:
+            yield f"{dotted((*path, 'machine'))}.{error}"
+            return
+        try:
+            if not lacking:
+                self._task(machine)
+        except (TypeError, ValueError) as error:
+            yield f"{dotted(path)}: {error}" if path else str(error)
+
+    def _lacking(self, path):
+        """Yield a line for each missing key of the contact."""
+        ball = self.contact.values()
+        for key in ("radius", "youngs_modulus", "poissons_ratio"):
+            if ball and key not in ball:
+                yield missing((*path, "contact", key), "needed for a contact after Hertz")
+        stiffness = self.damper.contact_stiffness
+        if ball and stiffness is not None:
+            reason = "must be left out: it is computed from the keys of contact"
+            yield problem((*path, "damper", "contact_stiffness"), stiffness, reason)
+        if not ball and stiffness is None:
+            reason = "needed here, or radius and material of a ball under contact in its place"
+            yield missing((*path, "damper", "contact_stiffness"), reason)
+
+    def _task(self, machine):
+        """Return the task of the design; its modules are imported here because they load SciPy."""
+        from impact_damper.design.task import Effort, Task
+
+        ball = self.contact.values()
+        return Task(
+            machine=machine,
+            mass=self.damper.mass,
+            restitution=self.damper.restitution,
+            contact=HertzContact(**ball) if ball else self.damper.contact_stiffness,
+            band=(self.band.first, self.band.last),
+            share=self.share,
+            tolerances=self.tolerances.values(),
+            displacement_limit=self.displacement_limit,
+            effort=Effort(
+                frequencies=self.band.points, candidates=self.candidates, starts=self.starts
+            ),
+        )
 
 
 class _Loader(LOADER):
@@ -36,22 +223,8 @@ POINTS = 9  # frequencies in the band
 def read_machine_file(path) -> dict:
     """Return the content of a machine's file, checked, with defaults for the keys left out.
 
-    Parameters
-    ----------
-    path : str or pathlib.Path
-        Path of the file, in which `band` may also be a list of two frequencies.
-
-    Returns
-    -------
-    dict
-        The keys of an entry of `machines` in the configuration.
-
-    Raises
-    ------
-    FileNotFoundError
-        If there is no such file.
-    ConfigurationError
-        If the file is not YAML or a value is not allowed, with a line for each problem.
+    The keys are those of an entry of `machines` in the configuration; `band` may also be a list of
+    two frequencies. A ConfigurationError has a line for each problem.
     """
     check_file(path)
     given = yaml.load(Path(path).read_bytes(), _Loader)

@@ -1,9 +1,7 @@
 """Types of values in the configuration, each with a text on the values that it allows.
 
-The functions return types for fields of pydantic models. The types are strict: 3.0 is not a whole
-number, and neither NaN, infinity nor text is a number. The argument `meaning` describes the value,
-and `why` gives the reason for its bounds. Both are shown when a value is rejected, and in the
-reference of the configuration.
+The types are strict: 3.0 is not a whole number, and neither NaN, infinity nor text is a number. The
+text is shown when a value is rejected, and in the reference of the configuration.
 """
 
 from typing import Annotated, Literal
@@ -20,17 +18,10 @@ NUMBER, RANGE = "<number>", "<range>"
 
 
 class Allowed:
-    """A text on the allowed values, which replaces the message of pydantic.
+    """A text on the allowed values, the words after "must be", which replaces pydantic's message.
 
-    Parameters
-    ----------
-    words : str
-        Kind and bounds of the value, the text after "must be".
-    meaning, why : str
-        Description of the value, and reason for its bounds.
-    test : callable, optional
-        For a list or mapping: a function that returns whether its type and length are allowed.
-        `words` is the message of this test only; values inside have their own messages.
+    `meaning` describes the value, `why` gives the reason for its bounds. For a list or mapping
+    `test` returns whether its type and length are allowed; values inside have their own messages.
     """
 
     def __init__(self, words, meaning="", why="", test=None):

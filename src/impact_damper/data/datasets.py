@@ -27,13 +27,7 @@ PIECE = 2**14
 
 
 def variable(name, data, dims=None) -> xr.Variable:
-    """Return a variable with the attributes registered for `name`; `dims` replaces its dimensions.
-
-    Raises
-    ------
-    KeyError
-        If the name is not registered.
-    """
+    """Return a variable with the attributes registered for `name`, or with other dimensions."""
     entry = VARIABLES[name]
     attributes = {"long_name": entry.long_name, "units": entry.units}
     if entry.symbol:
@@ -47,38 +41,18 @@ def variable(name, data, dims=None) -> xr.Variable:
 
 
 def shown_variable(name, values, dims=None):
-    """Return a registered variable whose values are in the unit of datasets of machines.
-
-    This is mm for displacements, otherwise the SI unit of the kind.
-    """
+    """Return a registered variable with values in mm, or in the SI unit of another kind."""
     found = variable(name, values, dims)
     found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
     return found
 
 
 def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
-    """Return a dataset of registered variables.
+    """Return a dataset of registered variables, in SI units if the `model` is a machine.
 
-    Parameters
-    ----------
-    data, coordinates : dict
-        Dimensionless arrays keyed by registered name. A value may also be a pair (dims, array),
-        where `dims` replaces the registered dimensions.
-    parameters : dict
-        Parameters from which the data were computed; stored as a JSON attribute.
-    title : str
-        One line that describes the dataset.
-    model : Model, optional
-        If it is a machine, the dataset is converted by `in_si`.
-
-    Returns
-    -------
-    xarray.Dataset
-
-    Raises
-    ------
-    KeyError
-        If a name is not registered.
+    `data` and `coordinates` hold dimensionless arrays by registered name, or pairs (dims, array)
+    with other dimensions than the registered ones. `parameters`, from which the data were computed,
+    are stored as a JSON attribute.
     """
 
     def labelled(items):
@@ -109,10 +83,9 @@ def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
 def in_si(data, machine, damper=None) -> xr.Dataset:
     """Return a dataset of the dimensionless equations in the units of a machine.
 
-    Each variable has the unit in its attribute `units`: mm, m/s, Hz, s, N and others. States are in
-    m and m/s, so that functions accept them. Clearances are on each side. The attribute `machine`
-    holds machine and damper in SI units, with `gap` as the full play; `scales` holds the scales,
-    and `parameters` the dimensionless parameters.
+    Displacements are in mm, states in m and m/s so that functions accept them; clearances are on
+    each side. The attribute `machine` holds machine and damper in SI units, with the full play
+    `gap`; `parameters` stay dimensionless.
     """
     scales = machine.scales
     found = _converted(data, lambda values, unit: values * unit, scales)
@@ -251,11 +224,7 @@ def oscillator_of(data) -> Oscillator:
 
 
 def damper_of(data, **others) -> Damper:
-    """Return the damper that a dataset was computed for.
-
-    `others` are fields that vary in the dataset, as the clearance does in a sweep, and therefore
-    are not among its parameters.
-    """
+    """Return the damper that a dataset was computed for; `others` are fields that vary in it."""
     return Damper(**pick(Damper, parameters_of(data)), **others)
 
 
@@ -265,11 +234,7 @@ def has_damper(data) -> bool:
 
 
 def save(data, path) -> None:
-    """Write a dataset to NetCDF; the file appears only when it is complete.
-
-    The attributes that `seal` returns are added. They let `load` detect that a file was replaced or
-    damaged.
-    """
+    """Write a dataset to NetCDF with the attributes of `seal`; the file appears when complete."""
     with whole_netcdf(path) as part:
         write(data.assign_attrs(seal(data.variables, path)), part)
 
@@ -312,22 +277,13 @@ def load(path) -> xr.Dataset:
 
 
 def seal(variables, path) -> dict:
-    """Return the attributes that identify a file: `id` (folder and name) and `sha256` (of arrays).
+    """Return the attributes by which `load` detects that a file was replaced or damaged.
 
-    Parameters
-    ----------
-    variables : dict of xarray.Variable
-        Keyed by name. Variables of an open file are read in pieces.
-    path : str or pathlib.Path
-        Path of the file.
+    These are `id`, the names of folder and file, and `sha256` of the variables, a dictionary;
+    variables of an open file are read in pieces.
     """
-    return {"id": _identity(path), "sha256": _digest(variables)}
-
-
-def _identity(path):
-    """Return folder and name of a results file, the same for any location of the results folder."""
     path = Path(path).absolute()
-    return f"{path.parent.name}/{path.stem}"
+    return {"id": f"{path.parent.name}/{path.stem}", "sha256": _digest(variables)}
 
 
 def _digest(variables):

@@ -54,8 +54,7 @@ def escape_rate(lives, horizon, lead=LEAD):
     """Return the rate at which runs end after the time `lead`, with its 95 % interval, shape (3,).
 
     The rate is the number of runs that end between `lead` and the horizon, divided by the time that
-    all runs last between these two, as for exponentially distributed lives; NaN if this time is 0.
-    The interval is the chi-squared interval of a Poisson count.
+    all runs last between these two; NaN if this time is 0. The interval is that of a Poisson count.
     """
     captures = np.sum((lives > lead) & (lives <= horizon))
     exposure = np.sum(np.clip(np.minimum(lives, horizon) - lead, 0, None))

@@ -12,19 +12,10 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 
 
 class Family(NamedTuple):
-    """A motion over a sweep.
+    """A motion over a sweep: name of its outcome, and period in cycles or 0.
 
-    Attributes
-    ----------
-    outcome : str
-        Name of its outcome.
-    period : int
-        In cycles; 0 for a motion without a period.
-    places : numpy.ndarray of bool, shape (value, motion)
-        Entries of the sweep's arrays that belong to the motion, at most one for each value of the
-        swept parameter.
-    starts : int
-        Number of random starts, at all values together, that lead to the motion.
+    `places` is the mask of its entries in the arrays of the sweep, shape (value, motion); `starts`
+    is the number of random starts, at all values together, that lead to it.
     """
 
     outcome: str
@@ -33,18 +24,10 @@ class Family(NamedTuple):
     starts: int
 
 
-def families(data) -> list:
+def families(data) -> list[Family]:
     """Return the motions of a sweep, by descending number of random starts that lead to them.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a sweep of frequency or clearance. Motions at different values with the same `branch` are
-        one motion (`motions.sweep`).
-
-    Returns
-    -------
-    list of Family
+    Motions at different values with the same `branch` are one motion.
     """
     branch, starts = data["branch"].values, data["motion_starts"].values
     found = []

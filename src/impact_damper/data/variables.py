@@ -8,23 +8,12 @@ BAR = re.compile(r"(?<!\S)\|(?!\S)")
 
 
 class Variable(NamedTuple):
-    """One variable of the datasets.
+    """One variable of the datasets; `long_name` is also the text of an axis label.
 
-    Attributes
-    ----------
-    dims : tuple of str
-        Default dimensions.
-    long_name : str
-        Description; also the words of an axis label.
-    symbol : str
-        Symbol of the paper, or "".
-    kind : str
-        A key of `model.units.QUANTITIES`, which decides the unit in datasets of machines; "angle";
-        "state" for displacements and velocities; "followed" for the parameter that a sweep or a
-        branch varies; "mixed" for a number that combines several kinds, such as the distance of
-        two states.
-    flags : dict of int or None
-        For a variable with named values: the stored number of each name.
+    `kind` is a key of `model.units.QUANTITIES`, which decides the unit in datasets of machines;
+    "state" for displacements and velocities; "followed" for the parameter that a sweep or a branch
+    varies; "mixed" for a number that combines several kinds, such as the distance of two states.
+    `flags` has the stored number of each name of a variable with named values.
     """
 
     dims: tuple
@@ -43,22 +32,12 @@ VARIABLES: dict[str, Variable] = {}
 
 
 def register(table, **flags) -> None:
-    """Add variables to the registry.
+    """Add variables to the registry; a name that is registered already is an error.
 
-    Parameters
-    ----------
-    table : str
-        For each variable a line "name | dimensions | kind | symbol | description", without a kind
-        for a plain number. An indented line continues the description, or names the values of the
-        variable: "  : absent 0, found 1", or "  : STATUS" for the argument STATUS. "#" begins a
-        comment.
-    flags : dict of int
-        Named values that several variables share or that code imports.
-
-    Raises
-    ------
-    ValueError
-        If a name is registered already.
+    The table has for each variable a line "name | dimensions | kind | symbol | description",
+    without a kind for a plain number. An indented line continues the description, or names the
+    values of the variable: "  : absent 0, found 1", or "  : STATUS" for the flags `STATUS`. "#"
+    begins a comment.
     """
     entries = []
     for line in table.splitlines():

@@ -24,12 +24,8 @@ class BrokenFileError(OSError):
 def whole(path):
     """Yield a temporary path to write to, which is renamed to `path` on success.
 
-    Temporary files of the same name that a killed process has left are removed first.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written; the message has its path and the reason.
+    Temporary files of the same name that a killed process has left are removed first. An OSError
+    has the path and the reason.
     """
     path = Path(path)
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
@@ -81,11 +77,6 @@ def check_length(path) -> None:
     """Raise BrokenFileError if a file is not NetCDF-4 or is truncated.
 
     Reads only the first bytes, so that all results can be checked before a run.
-
-    Raises
-    ------
-    BrokenFileError
-        Names the file.
     """
     with open(path, "rb") as file:
         start = file.read(LENGTH.stop)

@@ -24,7 +24,7 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, describe
 from impact_damper.model.units import UNITLESS, Scales
 
-# Kinds, units and bounds of the components of a state.
+# Kinds, units and largest values of the components of a state.
 STATE = ("displacement", "velocity", "displacement", "velocity")
 STATE_UNITS = "m, m/s, m, m/s"
 FARTHEST_STATE = dict(zip(STATE, (FARTHEST, FASTEST) * 2, strict=True))
@@ -33,17 +33,7 @@ PHASES = ("state_phase", "orbit_phase")
 
 
 class Model(NamedTuple):
-    """A system with or without a damper, dimensionless, as public functions compute with it.
-
-    Attributes
-    ----------
-    oscillator : Oscillator
-    damper : Damper or None
-    frequency : float or None
-        Forcing frequency W.
-    machine : Machine or None
-    machine_damper : MachineDamper or None
-    """
+    """A system with or without a damper, dimensionless; for a machine also in SI units."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -69,13 +59,7 @@ class Model(NamedTuple):
 def read_system(system, damper=None, *, needs_damper=False) -> Model:
     """Return the model of the arguments `system` and `damper` of a public function.
 
-    Parameters
-    ----------
-    system : Oscillator or Machine
-    damper : Damper, MachineDamper or None
-        The second for a machine, by `Machine.damper`.
-    needs_damper : bool
-        Whether None is refused.
+    The damper of a machine is made by `Machine.damper`. With `needs_damper` None is refused.
 
     Raises
     ------
@@ -94,22 +78,10 @@ def read_system(system, damper=None, *, needs_damper=False) -> Model:
 
 
 def read_forced(system, damper, frequency, *, exact=True, needs_damper=False) -> Model:
-    """Return the model of the arguments `system`, `damper` and `frequency` of a public function.
+    """Return the model of `system` and `damper` at a frequency, in Hz for a machine.
 
-    Parameters
-    ----------
-    system, damper, needs_damper
-        As in `read_system`.
-    frequency : float
-        W, or Hz for a machine.
-    exact : bool
-        If False, the force of a moving base is approximated by the formula that holds over a range
-        of frequencies, although one is given.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As `read_system`, or if the frequency is out of range.
+    Without `exact` the force of a moving base is approximated by the formula that holds over a
+    range of frequencies. The other arguments and the errors are as in `read_system`.
     """
     if not isinstance(system, Machine):
         model = read_system(system, damper, needs_damper=needs_damper)
@@ -132,6 +104,23 @@ def _read_machine_damper(machine, damper, needs_damper):
     return damper, damper.scaled(machine.scales)
 
 
+def read_swept_damper(system, damper, frequency) -> Model:
+    """Return the model for a sweep of the clearance, in which the damper's own one is ignored.
+
+    For an `Oscillator` the damper may be a dictionary of the arguments of `Damper` without the
+    clearance.
+    """
+    if isinstance(system, Oscillator) and isinstance(damper, dict):
+        allowed = {"mass_ratio", "restitution", "contact_stiffness"}
+        if not {"mass_ratio"} <= damper.keys() <= allowed:
+            raise TypeError(
+                f"damper = {shown(damper)}: must have mass_ratio, and may have restitution and "
+                "contact_stiffness; the clearance is swept"
+            )
+        damper = Damper(clearance=1.0, **damper)
+    return read_forced(system, damper, frequency, needs_damper=True)
+
+
 def read_numbers(scales, name, values, kind="number", **bounds) -> np.ndarray:
     """Return a number or a sequence as an array, dimensionless; the bounds are so too."""
     return np.array(
@@ -147,13 +136,7 @@ def _numbered(values):
 
 
 def read_increasing(scales, name, values, kind="number", count=1, **bounds) -> np.ndarray:
-    """Return at least `count` increasing numbers as an array, dimensionless.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If a number is not allowed, or the numbers are too few or do not increase.
-    """
+    """Return at least `count` increasing numbers as an array, dimensionless."""
     numbers = read_numbers(scales, name, values, kind, **bounds)
     if len(numbers) < count or np.any(np.diff(numbers) <= 0):
         given = shown(list(getattr(values, "values", values)))
@@ -188,13 +171,14 @@ def read_radius(scales, radius) -> float | None:
 
 def read_pair(scales, name, values) -> np.ndarray:
     """Return a displacement and a velocity as two dimensionless numbers."""
-    return _read_state_parts(scales, name, getattr(values, "values", values), STATE[:2])
+    values = getattr(values, "values", values)
+    return _components(scales, name, values, STATE[:2], "two numbers, displacement and velocity")
 
 
-def _read_state_parts(scales, name, values, kinds):
+def _components(scales, name, values, kinds, words):
+    """Return displacements and velocities as dimensionless numbers; there must be `words`."""
     numbered = list(_numbered(values))
     if len(numbered) != len(kinds):
-        words = {2: "two numbers, displacement and velocity", 4: "four numbers"}[len(kinds)]
         raise ValueError(f"{name} = {shown(values)}: must be {words}")
     return np.array(
         [
@@ -223,22 +207,25 @@ def read_state(model, state) -> np.ndarray:
         If the penetration of the loose mass into a wall exceeds the clearance.
     """
     scales, damper = model.scales, model.damper
-    units, expected = getattr(state, "attrs", {}).get("units"), STATE_UNITS if scales.si else "1"
     if hasattr(state, "coords"):
+        units, expected = state.attrs.get("units"), STATE_UNITS if scales.si else "1"
         # a dataset of one motion has dimensions of length 1
         state = np.squeeze(state.values)
         if units not in (None, expected):
-            raise ValueError(f"state = {shown(state)}: must be in {expected}, not in {units}")
-    numbered = list(_numbered(state))
-    kinds = STATE[:2] if damper is None and len(numbered) == 2 else STATE
-    if len(numbered) != len(kinds):
-        raise ValueError(
-            f"state = {shown(state)}: must be four numbers, displacement and velocity of the "
-            "primary mass and of the primary mass relative to the loose mass, or the first two "
-            "without a damper (the paper's figure 4 gives three; a state of this system has four)"
-        )
-    values = _read_state_parts(scales, "state", state, kinds)
-    if len(kinds) == 2:
+            wanted = f"in {STATE_UNITS}, and is" if scales.si else "dimensionless, and is in"
+            unit = "dimensionless" if units == "1" else units
+            raise ValueError(f"state = {shown(state)}: must be {wanted} {unit}")
+    alone = damper is None and len(list(_numbered(state))) == 2
+    values = _components(
+        scales,
+        "state",
+        state,
+        STATE[:2] if alone else STATE,
+        "four numbers, displacement and velocity of the primary mass and of the primary mass "
+        "relative to the loose mass, or the first two without a damper (the paper's figure 4 gives "
+        "three; a state of this system has four)",
+    )
+    if alone:
         values = np.concatenate([values, values])
     if damper is not None and abs(values[2]) > 2 * damper.clearance:
         _warn_of_compression(values[2], model)
@@ -269,12 +256,7 @@ def read_start(model, state, start) -> float:
     """Return the time T of a state, from the argument `start` of a public function.
 
     It is `start` if this is given, otherwise the time of the phase that a state of a dataset has,
-    otherwise 0.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If `start` is out of range, or if its phase differs from the phase of the state.
+    otherwise 0. A `start` with another phase than that of the state is an error.
     """
     phase, frequency = carried_phase(state), model.frequency
     if start is None:
@@ -283,24 +265,7 @@ def read_start(model, state, start) -> float:
     time = model.scales.read("start", start, "time", least=-farthest, most=farthest)
     if phase is not None and abs(math.remainder(frequency * time - phase, 2 * np.pi)) > 1e-6:
         raise ValueError(
-            f"start = {shown(start)}: must be at the phase W T = {phase:.6g} that the state "
-            "carries, or be left out; state.values has no phase"
+            f"{model.scales.told('start', time, 'time')}: must be at the phase W T = {phase:.6g} "
+            "that the state carries, or be left out; state.values has no phase"
         )
     return time
-
-
-def read_swept_damper(system, damper, frequency) -> Model:
-    """Return the model for a sweep of the clearance, in which the damper's own one is ignored.
-
-    For an `Oscillator` the damper may be a dictionary of the arguments of `Damper` without the
-    clearance.
-    """
-    if isinstance(system, Oscillator) and isinstance(damper, dict):
-        allowed = {"mass_ratio", "restitution", "contact_stiffness"}
-        if not {"mass_ratio"} <= damper.keys() <= allowed:
-            raise TypeError(
-                f"damper = {shown(damper)}: must have mass_ratio, and may have restitution and "
-                "contact_stiffness; the clearance is swept"
-            )
-        damper = Damper(clearance=1.0, **damper)
-    return read_forced(system, damper, frequency, needs_damper=True)

@@ -1,7 +1,6 @@
-"""Bounds of the model's parameters, and checks of single arguments.
+"""Ranges of parameters and arguments, within which every run comes to an end, and their checks.
 
-If all parameters are within these bounds, every run of the kernels (the compiled integrator) comes
-to an end. A range is a dictionary of keyword arguments of `check_number`.
+A range is a dictionary of keyword arguments of `check_number` or `check_count`.
 """
 
 import difflib
@@ -9,7 +8,7 @@ import inspect
 import math
 import numbers
 import reprlib
-from dataclasses import field, fields
+from dataclasses import fields
 from functools import wraps
 
 from impact_damper.model.text import plain, with_unit
@@ -25,12 +24,11 @@ RESTITUTION_RANGE = {
 }
 AMPLITUDE_RANGE = {"least": 0.0, "most": 1e6}
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
-# Largest ratio of the natural frequency of the contact to the forcing frequency. While the loose
-# mass stays in contact, a run takes about this number of integration steps in a forcing cycle.
+# Largest ratio of the natural frequency of the contact to the forcing frequency: about the number
+# of integration steps in a forcing cycle while the loose mass stays in contact.
 MOST_STIFF = 1e6
-# Random initial states are drawn from a ball. RADIUS_RANGE bounds its radius, and MOST_RADIUS is
-# the largest ratio of its radius to the clearance. In a larger ball hardly any state lies within
-# the gap.
+# Radius of the ball of random initial states, and its largest ratio to the clearance, beyond which
+# hardly any state lies within the gap.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 MOST_RADIUS = 1e3
 # Bounds of the fields of `settling.Settling`. All but the tolerance are in forcing cycles.
@@ -39,7 +37,7 @@ PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "motions rarely settle in 
 LIMIT_RANGE = {"least": 100, "most": 10**8}
 WATCHED_RANGE = {"least": 1, "most": 10**6}
 FURTHER_RANGE = {"least": 0, "most": 10**7}
-# Largest number of runs that one call computes; the results of all are in memory at the same time.
+# Largest number of runs of one call, whose results are all in memory.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
 # PERIODS_RANGE        forcing cycles of a run
@@ -52,8 +50,7 @@ LIFETIME_RANGE = {"least": 100, "most": 10**7}
 LEAD = 20
 SCAN_LIFETIME_RANGE = LIFETIME_RANGE | {"least": 2 * LEAD}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest displacement and velocity of an initial state. With larger ones the integration of one
-# forcing cycle takes minutes.
+# Largest displacement and velocity of an initial state; beyond, a forcing cycle takes minutes.
 FARTHEST, FASTEST = 1e3, 1e6
 # Highest harmonic N of a harmonic balance, whose memory grows as N^2 and computing time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
@@ -70,36 +67,10 @@ STEPS_RANGE = {"least": 1, "most": 10**5}
 MOST_STEPS_RANGE = {"least": 1, "most": 10**7}
 
 
-def parameter(bounds, kind, symbol, meaning, *, machine=None, **default):
-    """Return a dataclass field for a dimensionless number within `bounds`.
-
-    The field's metadata keep the facts about a parameter in one place. `check_parameters` reads the
-    bounds, errors read the kind (a key of `units.QUANTITIES`) and the name for a machine, tables
-    and captions read the symbol, and the configuration reads the bounds and the meaning.
-    """
-    metadata = {"bounds": bounds, "kind": kind, "symbol": symbol, "machine": machine}
-    metadata["meaning"] = f"{symbol}, {meaning}"
-    return field(metadata=metadata, **default)
-
-
-def check_parameters(part):
-    """Check the fields of a frozen dataclass against the bounds in their metadata.
-
-    A field that holds an array without dimensions is replaced by a float.
-    """
-    for each in fields(part):
-        if "bounds" not in each.metadata:
-            continue
-        value = getattr(part, each.name)
-        number = check_number(each.name, value, **each.metadata["bounds"])
-        if hasattr(value, "ndim"):  # a number of NumPy or xarray
-            object.__setattr__(part, each.name, number)
-
-
 def unlabelled(name, value):
-    """Return the number in an array without dimensions, such as an element of a dataset.
+    """Return the number in an array without dimensions, and other values unchanged.
 
-    Any other value is returned unchanged. A unit in the attributes of the array is an error.
+    A unit in the attributes of the array is an error.
     """
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
@@ -119,26 +90,20 @@ def check_number(
 ) -> float:
     """Return `value` as a float, or raise an error that names the allowed range.
 
-    An array without dimensions counts as a number unless it is labelled with a unit.
-
     Parameters
     ----------
-    name : str
-        Name of the argument, for the message.
     value : float
+        A number, or an array without dimensions and without a unit.
     above, least, most : float, optional
-        Bounds: the value must be greater than `above`, at least `least` and at most `most`.
-    why : str
-        Reason for the bounds, for the message.
-    unit, given : str
-        For the message: unit of value and bounds, and text in place of the value.
+        Bounds: greater than `above`, at least `least` and at most `most`.
+    why, unit, given : str
+        For the message: reason for the bounds, unit of value and bounds, text in place of the
+        value.
 
     Raises
     ------
-    TypeError
-        If the value is not a real number.
-    ValueError
-        If the value is not finite or outside the bounds.
+    TypeError, ValueError
+        If the value is not a real number, or not finite or outside the bounds.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -154,14 +119,19 @@ def check_number(
         and (most is None or value <= most)
     ):
         return value
-    bounds = {"greater than": above, "at least": least, "at most": most}
-    allowed = ["finite"] if not math.isfinite(value) else []
-    allowed += [
-        f"{word} {with_unit(bound, unit)}" for word, bound in bounds.items() if bound is not None
-    ]
+    allowed = [] if math.isfinite(value) else ["finite"]
+    allowed += range_words(unit, above=above, least=least, most=most)
     given = given or (with_unit(value, unit) if unit else plain(value))
     reason = f" ({why})" if why else ""
     raise ValueError(f"{name} = {given}: must be {' and '.join(allowed)}{reason}")
+
+
+def range_words(unit="", *, above=None, least=None, most=None, why="") -> list:
+    """Return the bounds of a range in words, such as "at least 2 kg"."""
+    bounds = {"greater than": above, "at least": least, "at most": most}
+    return [
+        f"{word} {with_unit(bound, unit)}" for word, bound in bounds.items() if bound is not None
+    ]
 
 
 def check_count(name, value, *, least=1, most=10**9, why=""):
@@ -181,10 +151,7 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Raise an error unless `starts`, for each of `points` grid points, are allowed.
-
-    All points together may have MOST_RUNS starts.
-    """
+    """Raise unless all of `points` grid points together have at most MOST_RUNS starts."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 
@@ -196,33 +163,33 @@ def nearest(name, known) -> str:
 
 
 def names_arguments(function):
-    """Decorate a public function or class: a TypeError for a wrong argument lists the known ones.
+    """Decorate a public function or class: a wrong argument is answered with the known ones.
 
-    For an unknown keyword it proposes the nearest.
+    The fields of a dataclass are described in its docstring by their metadata.
     """
-    if inspect.isclass(function):
-        function.__init__ = _checked(function.__init__, function.__name__)
-        return function
-    return _checked(function, function.__name__)
+    call = function.__init__ if inspect.isclass(function) else function
+    signature = inspect.signature(call)
+    known = [name for name in signature.parameters if name != "self"]
 
-
-def _checked(function, title):
-    parameters = inspect.signature(function).parameters
-    known = [name for name in parameters if name != "self"]
-    positional = [each for each in parameters.values() if each.kind is each.POSITIONAL_OR_KEYWORD]
-
-    @wraps(function)
+    @wraps(call)
     def checked(*args, **kwargs):
-        for name in kwargs:
-            if name not in parameters:
-                raise TypeError(
-                    f"{title}() has no argument {name!r}; known: {', '.join(known)}"
-                    f"{nearest(name, known)}"
-                )
-        if len(args) > len(positional):
-            raise TypeError(
-                f"{title}() has too many arguments without a name; known: {', '.join(known)}"
-            )
-        return function(*args, **kwargs)
+        try:
+            signature.bind(*args, **kwargs)
+        except TypeError as error:
+            unknown = [name for name in kwargs if name not in known]
+            wrong = f"has no argument {unknown[0]!r}" if unknown else error
+            words = f"{function.__name__}() {wrong}; known: {', '.join(known)}"
+            words += "".join(nearest(name, known) for name in unknown[:1])
+            raise TypeError(words) from None
+        return call(*args, **kwargs)
 
-    return checked
+    if call is function:
+        return checked
+    function.__init__ = checked
+    described = [each for each in fields(function) if "meaning" in each.metadata]
+    lines = ["", "    Attributes", "    ----------"] if described else []
+    for each in described:
+        unit = each.metadata.get("unit", "")
+        lines += [f"    {each.name} : float", f"        {each.metadata['meaning']}{unit}."]
+    function.__doc__ += "\n".join(lines)
+    return function

@@ -9,9 +9,8 @@ from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import FORCE, SHAKER, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
-# Parameters that can vary along a branch, each with the dataclass that holds it. No dataclass holds
-# the frequency. A branch is continued in a coordinate: the parameter itself if it is in LINEAR,
-# otherwise its logarithm.
+# Parameters that can vary along a branch, each with the dataclass that holds it. A branch is
+# continued in a coordinate: the parameter itself if it is in LINEAR, otherwise its logarithm.
 PARAMETERS = {
     "frequency": None,
     "damping": Oscillator,
@@ -40,23 +39,8 @@ def facts_of(parameter) -> tuple:
 def read_followed(model, parameter, span) -> tuple:
     """Return the arguments `parameter` and `span` of a branch, dimensionless.
 
-    Parameters
-    ----------
-    model : Model
-    parameter : str
-        A key of PARAMETERS, or its name for a machine.
-    span : sequence of two values
-        Least and greatest value of the parameter, in the unit of the user.
-
-    Returns
-    -------
-    str, (float, float)
-
-    Raises
-    ------
-    TypeError, ValueError
-        If there is no such parameter, an end of the span is out of the bounds of the parameter, or
-        the span does not hold the value of the model.
+    A parameter is named as in PARAMETERS, or as for a machine. The span must hold the value of the
+    model.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}
@@ -78,25 +62,10 @@ def read_followed(model, parameter, span) -> tuple:
 def family_of(oscillator, damper, frequency, parameter, span):
     """Return the packed parameters as a function of the coordinate of one parameter.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper or None
-    frequency : float
-        Forcing frequency W.
-    parameter : str
-        A key of PARAMETERS.
-    span : sequence of float
-        Least and greatest value of the parameter.
-
     Returns
     -------
-    pack_at : callable
-        Function from the coordinate to the packed parameters.
-    coordinate : float
-        Coordinate of the given system.
-    ends : tuple of float
-        Coordinates of the ends of the span.
+    callable, float, (float, float)
+        The function; the coordinate of the given system; the coordinates of the ends of the span.
 
     Raises
     ------

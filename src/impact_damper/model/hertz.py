@@ -18,6 +18,7 @@ DURATION = 2.9432752
 # nu = 0.3 (Johnson, section 6.1).
 YIELD = 1.6
 POISSON_RANGE = {"least": 0, "most": 0.5}
+WALLS = "of the walls, if they are of another material"
 
 
 class Impact(NamedTuple):
@@ -33,21 +34,8 @@ class Impact(NamedTuple):
 class HertzContact:
     """Contact of a loose mass that is a ball, or has a rounded face, with the walls of its gap.
 
-    Each value is a number in the SI unit, text with units, or a quantity of pint.
-
-    Attributes
-    ----------
-    radius : float
-        Radius R of the loose mass where it touches the wall, m. If the wall is curved too, 1/R is
-        the sum of the curvatures.
-    youngs_modulus : float
-        E of the loose mass, Pa.
-    poissons_ratio : float
-        nu of the loose mass, from 0 to 0.5.
-    yield_strength : float or None
-        Yield strength of the loose mass in tension, Pa; None if it is not known.
-    wall_youngs_modulus, wall_poissons_ratio, wall_yield_strength : float or None
-        The same for walls of another material, with at least the first two.
+    Each value is a number in the SI unit, text with units, or a quantity of pint. For curved walls
+    1/radius is the sum of the curvatures.
 
     Raises
     ------
@@ -62,13 +50,28 @@ class HertzContact:
     '1.48e+09 Pa, 8.6e+07 N/m'
     """
 
-    radius: float = physical("displacement", above=0)
-    youngs_modulus: float = physical("pressure", above=0)
-    poissons_ratio: float = physical("number", **POISSON_RANGE)
-    yield_strength: float | None = physical("pressure", above=0, default=None)
-    wall_youngs_modulus: float | None = physical("pressure", above=0, default=None)
-    wall_poissons_ratio: float | None = physical("number", **POISSON_RANGE, default=None)
-    wall_yield_strength: float | None = physical("pressure", above=0, default=None)
+    radius: float = physical(
+        "displacement",
+        "radius of the loose mass where it touches (without it no pressure is computed)",
+        above=0,
+    )
+    youngs_modulus: float = physical("pressure", "Young's modulus of the loose mass", above=0)
+    poissons_ratio: float = physical("number", "Poisson's ratio of the loose mass", **POISSON_RANGE)
+    yield_strength: float | None = physical(
+        "pressure",
+        "yield strength in tension (without it yielding is not judged)",
+        above=0,
+        default=None,
+    )
+    wall_youngs_modulus: float | None = physical(
+        "pressure", f"Young's modulus {WALLS}", above=0, default=None
+    )
+    wall_poissons_ratio: float | None = physical(
+        "number", f"Poisson's ratio {WALLS}", **POISSON_RANGE, default=None
+    )
+    wall_yield_strength: float | None = physical(
+        "pressure", f"yield strength {WALLS}", above=0, default=None
+    )
 
     def __post_init__(self):
         convert(self)
@@ -90,18 +93,11 @@ class HertzContact:
         return 4 / 3 * self.radius**0.5 * self.modulus
 
     def pressure(self, force) -> float:
-        """Return the largest pressure p0 = (6 F E*^2/(pi^3 R^2))^(1/3), Pa, under a force F, N.
-
-        From Johnson, equation 4.24. The mean pressure is 2/3 of p0.
-        """
+        """Return the largest pressure p0, Pa, under a force, N (Johnson, equation 4.24)."""
         return (6 * force * self.modulus**2 / (math.pi**3 * self.radius**2)) ** (1 / 3)
 
     def yields(self, pressure) -> str:
-        """Return whether the loose mass or the wall yields at a largest pressure p0, Pa.
-
-        "yes" if p0 is at least YIELD times the yield strength of one of them. Otherwise "unknown"
-        if a yield strength is not given, and "no" if both are.
-        """
+        """Return whether loose mass or wall yields at a largest pressure p0: yes, no or unknown."""
         strengths = [self.yield_strength, self.wall_yield_strength]
         if any(each is not None and pressure >= YIELD * each for each in strengths):
             return "yes"
@@ -110,20 +106,20 @@ class HertzContact:
     def compression(self, speed, mass) -> float:
         """Return the largest compression q of an elastic impact, m.
 
-        At q the elastic energy (2/5) K q^(5/2) equals the kinetic energy mass speed^2/2. The speed
-        (m/s) is the relative one before the impact, the mass (kg) the effective m1 m2/(m1 + m2).
+        The speed (m/s) is relative, the mass (kg) m1 m2/(m1 + m2). The elastic energy
+        (2/5) K q^(5/2) is equal to mass speed^2/2.
         """
         return (5 * mass * speed**2 / (4 * self.coefficient)) ** 0.4
 
     def impact(self, speed, mass) -> Impact:
-        """Return an elastic impact; the arguments are those of `compression`, the speed above 0."""
+        """Return an elastic impact; the arguments are as in `compression`."""
         q = self.compression(speed, mass)
         return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
 
     def stiffness(self, speed, mass) -> float:
         """Return the stiffness of the linear spring that is compressed as far in an impact, N/m.
 
-        The spring stores the same energy. Its largest force is 4/5 of Hertz's, and the impact lasts
-        6.7 % longer. The arguments are those of `compression`.
+        The spring stores the same energy; its largest force is 4/5 of Hertz's. The arguments are as
+        in `compression`.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

@@ -1,7 +1,7 @@
 """A machine on a spring with its excitation, and its impact damper, in SI units."""
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass
 from functools import cached_property
 
 from impact_damper.model.bounds import (
@@ -28,31 +28,14 @@ MOST_DAMPING = 0.99
 @names_arguments
 @dataclass(frozen=True, kw_only=True)
 class MachineDamper:
-    """A loose mass in a gap of a machine, in SI units; made and checked by `Machine.damper`.
+    """A loose mass in a gap of a machine, in SI units; made and checked by `Machine.damper`."""
 
-    Each value is a number in the SI unit, text with units, or a quantity of pint.
-
-    Attributes
-    ----------
-    mass : float
-        kg.
-    gap : float
-        Full play of the loose mass from wall to wall, m.
-    restitution : float
-        Coefficient of restitution, 1 for elastic contact.
-    contact_stiffness : float
-        Stiffness of the contact, N/m; for curved bodies by `HertzContact.stiffness`.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If a value is missing or out of range.
-    """
-
-    mass: float = physical("mass", above=0)
-    gap: float = physical("clearance", above=0)
-    restitution: float = physical("number", **RESTITUTION_RANGE, default=1.0)
-    contact_stiffness: float = physical("stiffness", above=0)
+    mass: float = physical("mass", "loose mass", above=0)
+    gap: float = physical("clearance", "full play of the loose mass from wall to wall", above=0)
+    restitution: float = physical(
+        "number", "coefficient of restitution", **RESTITUTION_RANGE, default=1.0
+    )
+    contact_stiffness: float = physical("stiffness", "stiffness of the contact", above=0)
 
     def __post_init__(self):
         convert(self)
@@ -65,9 +48,8 @@ class MachineDamper:
     def check_for(self, machine):
         """Raise ValueError, with the range allowed, if the damper does not fit a machine.
 
-        The gap must be larger than the static play. If the static force of the machine accelerates
-        both masses together, a contact passes the fraction m2/(m1 + m2) of this force on to the
-        loose mass m2. The static play is the compression of both contacts under this fraction.
+        The gap must be larger than the static play: the compression of both contacts under the
+        fraction m2/(m1 + m2) of the machine's static force, which accelerates the loose mass m2.
         """
         scales = machine.scales
         clearances = scales.range_to_si(CLEARANCE_RANGE, "clearance")
@@ -106,32 +88,10 @@ class Machine:
     Each value is a number in the SI unit, text with units such as "12 kg", or a quantity of pint;
     the fields hold numbers. The restoring force at the deflection x is
     linear_stiffness x + cubic_stiffness x^3. Give either the damping ratio or the damping, and one
-    excitation.
-
-    The public functions of the package that take an oscillator take a machine too. Their
-    frequencies are then in Hz, states in m and m/s, and the datasets they return in mm, Hz, N, m/s
-    and s.
-
-    Attributes
-    ----------
-    mass : float
-        kg, without the loose mass of a damper.
-    linear_stiffness, cubic_stiffness : float
-        N/m and N/m^3. A negative cubic stiffness softens the spring.
-    damping_ratio : float
-        Damping divided by the critical damping for the linear stiffness, at most MOST_DAMPING.
-    damping : float
-        Coefficient of the dashpot, N s/m.
-    force : float
-        Amplitude of a harmonic force, N; 0 for an unforced decay.
-    base_displacement, base_acceleration : float
-        Amplitude of a harmonic motion of the base, m or m/s^2; the spring must be linear. All
-        displacements are then measured in a frame at rest and not relative to the base, because the
-        loose mass of a damper feels no force from the base. Spring and dashpot exert a force of
-        amplitude A sqrt(k^2 + c^2 w^2) on the machine, with the displacement A of the base; A =
-        a/w^2 if the acceleration a is given.
-    unbalance : float
-        Mass times eccentricity of a rotating unbalance, kg m; its force is unbalance w^2.
+    excitation. Functions that take a machine take frequencies in Hz, states in m and m/s, and
+    return datasets in mm, Hz, N, m/s and s. The force of an unbalance is unbalance w^2. On a moving
+    base the spring must be linear, and displacements are measured in a frame at rest, because the
+    loose mass of a damper feels no force from the base.
 
     Raises
     ------
@@ -147,21 +107,46 @@ class Machine:
     0.003
     """
 
-    mass: float = physical("mass", least=1e-15, most=1e15)
-    linear_stiffness: float = physical("stiffness", least=0, most=1e30, default=0.0)
-    cubic_stiffness: float = physical("cubic_stiffness", least=-1e30, most=1e30, default=0.0)
+    mass: float = physical("mass", "mass without the loose mass", least=1e-15, most=1e15)
+    linear_stiffness: float = physical(
+        "stiffness", "linear stiffness of the spring", least=0, most=1e30, default=0.0
+    )
+    cubic_stiffness: float = physical(
+        "cubic_stiffness",
+        "cubic stiffness of the spring, negative if the spring softens",
+        least=-1e30,
+        most=1e30,
+        default=0.0,
+    )
     damping_ratio: float | None = physical(
         "number",
+        "damping divided by the critical damping (give this or `damping`)",
         above=0,
         most=MOST_DAMPING,
         why="at 1, critical damping, nothing vibrates; 1 per cent is 0.01 or '1 %'",
         default=None,
     )
-    damping: float | None = physical("damping", above=0, default=None)
-    force: float | None = physical("force", least=0, most=1e15, default=None)
-    base_displacement: float | None = physical("displacement", above=0, most=1e3, default=None)
-    base_acceleration: float | None = physical("acceleration", above=0, most=1e9, default=None)
-    unbalance: float | None = physical("unbalance", above=0, most=1e15, default=None)
+    damping: float | None = physical("damping", "coefficient of the dashpot", above=0, default=None)
+    force: float | None = physical(
+        "force",
+        "amplitude of the force (give this or one of the next three keys)",
+        least=0,
+        most=1e15,
+        default=None,
+    )
+    base_displacement: float | None = physical(
+        "displacement", "amplitude with which the base moves", above=0, most=1e3, default=None
+    )
+    base_acceleration: float | None = physical(
+        "acceleration", "amplitude of the base's acceleration", above=0, most=1e9, default=None
+    )
+    unbalance: float | None = physical(
+        "unbalance",
+        "mass times eccentricity of a rotating unbalance",
+        above=0,
+        most=1e15,
+        default=None,
+    )
 
     def __post_init__(self):
         convert(self)
@@ -215,18 +200,16 @@ class Machine:
 
     @property
     def natural_frequency(self) -> float:
-        """Frequency of small unforced, undamped vibrations, Hz; 0 without linear stiffness."""
+        """Frequency of small undamped vibrations, Hz; 0 without linear stiffness."""
         return math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
 
     @cached_property
     def scales(self) -> Scales:
         """Scales with which the dimensionless equations describe the machine.
 
-        The length is the geometric mean of the static deflection and the displacement at resonance.
-        With this length small motions, large motions and useful gaps are all of the order 1. In
-        these scales omega_l^2 + |k3| = 1. Without a force the static deflection is replaced by the
-        deflection at which the linear and the cubic part of the spring's force are equal, or by 1
-        mm if the spring has only one part.
+        The length is the geometric mean of the static deflection and the displacement at resonance,
+        so that small motions, large motions and useful gaps are all of the order 1. In these scales
+        omega_l^2 + |k3| = 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -234,10 +217,10 @@ class Machine:
         return Scales(length, time, self.mass, si=True)
 
     def _static_deflection(self):
-        """Return the deflection under the force, m.
+        """Return the deflection under the excitation, m.
 
-        For an unbalance it is unbalance over mass, for a moving base the displacement of the base
-        or the deflection under the base's acceleration.
+        Without a force it is the deflection at which the linear and the cubic part of the spring's
+        force are equal, or 1 mm if the spring has only one part.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
@@ -252,10 +235,10 @@ class Machine:
 
     @property
     def resonant_displacement(self) -> float:
-        """Displacement of a linear machine at resonance, m: the static deflection times m w/c.
+        """Static deflection times m w/c, but at least this deflection, m.
 
-        It is at least the static deflection. With a hardening spring the true displacement is
-        smaller. w^2 is the stiffness at the static deflection divided by the mass.
+        For a linear machine this is the displacement at resonance; w^2 is the stiffness at the
+        static deflection divided by the mass.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -272,18 +255,10 @@ class Machine:
     def oscillator(self, frequency=None) -> Oscillator:
         """Return the dimensionless oscillator: the machine in its scales.
 
-        Parameters
-        ----------
-        frequency : float, optional
-            Forcing frequency, Hz. With a moving base the force of the oscillator then holds for
-            this frequency alone. Without this argument the force is approximated by
-            A (k + c^2 w^2/(2 k)), with A = a/w^2 for `base_acceleration`. Its relative error is
-            (2 damping_ratio w/wn)^4/8 at the angular frequency w; wn is the natural one.
-
-        Raises
-        ------
-        ValueError
-            If the base moves, no frequency is given, and this approximation does not hold.
+        With a moving base its force holds for the given frequency (Hz) alone. Without a frequency
+        the force is approximated by A (k + c^2 w^2/(2 k)), with A = a/w^2 for `base_acceleration`;
+        its relative error is (2 damping_ratio w/wn)^4/8. A machine too strongly damped for this is
+        refused.
         """
         scales = self.scales
         force, unbalance, shaker = self.forcing(frequency)
@@ -298,9 +273,9 @@ class Machine:
         )
 
     def forcing(self, frequency=None) -> tuple[float, float, float]:
-        """Return F (N), U (kg m) and V (N/s^2) of the amplitude F + U w^2 + V/w^2 of the force.
+        """Return F (N), U (kg m) and V (N/s^2) of the force's amplitude F + U w^2 + V/w^2.
 
-        The argument is as for `oscillator`.
+        The force of a moving base is A sqrt(k^2 + c^2 w^2), or as in `oscillator`.
         """
         if self.force is not None:
             return self.force, 0.0, 0.0
@@ -332,12 +307,10 @@ class Machine:
         ----------
         mass : float, str or pint.Quantity
             kg.
-        gap : float, str or pint.Quantity, optional
-            Full play of the loose mass from wall to wall, m.
-        clearance_each_side : float, str or pint.Quantity, optional
-            Half of the gap, from the centred loose mass to either wall, m; in place of `gap`.
+        gap, clearance_each_side : float, str or pint.Quantity
+            Full play of the loose mass from wall to wall, m, or half of it in its place.
         contact
-            The other arguments of `MachineDamper`: contact_stiffness and restitution.
+            The arguments contact_stiffness and restitution of `MachineDamper`.
 
         Raises
         ------
@@ -363,10 +336,7 @@ class Machine:
 
 
 def static_deflection(force, linear, cubic) -> float:
-    """Return the deflection x > 0 at which linear x + |cubic| x^3 equals a force, all in SI units.
-
-    The cubic equation has one real root, computed here in hyperbolic form.
-    """
+    """Return the deflection x > 0 at which linear x + |cubic| x^3 equals a force, in SI units."""
     cubic = abs(cubic)
     if cubic == 0:
         return force / linear
@@ -377,20 +347,9 @@ def static_deflection(force, linear, cubic) -> float:
 
 
 def describe_si(machine, damper=None) -> dict:
-    """Return the given values of a machine and its damper, keyed by name, in SI units.
-
-    The mass of the damper is called `damper_mass`, its gap is the full play.
-    """
-    found = {
-        each.name: getattr(machine, each.name)
-        for each in fields(machine)
-        if getattr(machine, each.name) is not None
-    }
+    """Return the given values of a machine and its damper, in SI units, the gap as full play."""
+    found = {name: value for name, value in asdict(machine).items() if value is not None}
     if damper is not None:
-        found |= {
-            "damper_mass": damper.mass,
-            "gap": damper.gap,
-            "restitution": damper.restitution,
-            "contact_stiffness": damper.contact_stiffness,
-        }
+        values = asdict(damper)
+        found |= {"damper_mass": values.pop("mass")} | values
     return found

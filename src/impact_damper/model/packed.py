@@ -1,10 +1,6 @@
-"""Parameters packed into the array that kernels read.
+"""Parameters packed into the array `p` of COUNT dimensionless numbers that kernels read.
 
-Kernels (compiled functions) take the parameters as an array `p` of COUNT dimensionless numbers,
-which `pack` returns. They read each number by the name of its index, for example `p[FREQUENCY]`.
-The numbers are W, h, omega_l^2, k3, F, U, V, d0, r1, 1/rm (see `parameters`) and the coefficient
-2 zeta_c sqrt(r1 rm) of the dashpot, in the order of NAMES. `design_slopes` returns the derivatives
-of these numbers with respect to the parameters of a design.
+Kernels (compiled functions) read each number by its index, for example `p[FREQUENCY]`.
 """
 
 import math
@@ -12,36 +8,29 @@ import math
 import numpy as np
 
 from impact_damper.model.bounds import MOST_STIFF, check_frequency
-from impact_damper.model.parameters import check_damper, check_oscillator
+from impact_damper.model.parameters import (
+    NONLINEAR,
+    Oscillator,
+    check_damper,
+    check_oscillator,
+    parameters_in,
+)
 from impact_damper.model.text import number
 
+# W, the fields of `Oscillator` in their order, with omega_l^2 in place of omega_l, and then d0, r1,
+# 1/rm and the coefficient 2 zeta_c sqrt(r1 rm) of the dashpot.
+FIELDS = [each.name for each in parameters_in(Oscillator)]
 NAMES = (
     "FREQUENCY",
-    "DAMPING",
-    "STIFFNESS",
-    "CUBIC",
-    "FORCE",
-    "UNBALANCE",
-    "SHAKER",
+    *("STIFFNESS" if name == "linear_frequency" else name.upper() for name in FIELDS),
     "CLEARANCE",
     "CONTACT_STIFFNESS",
     "INVERSE_MASS_RATIO",
     "DASHPOT",
 )
 COUNT = len(NAMES)
-(
-    FREQUENCY,
-    DAMPING,
-    STIFFNESS,
-    CUBIC,
-    FORCE,
-    UNBALANCE,
-    SHAKER,
-    CLEARANCE,
-    CONTACT_STIFFNESS,
-    INVERSE_MASS_RATIO,
-    DASHPOT,
-) = range(COUNT)
+FREQUENCY, DAMPING, STIFFNESS, CUBIC, FORCE, UNBALANCE, SHAKER = range(COUNT - 4)
+CLEARANCE, CONTACT_STIFFNESS, INVERSE_MASS_RATIO, DASHPOT = range(COUNT - 4, COUNT)
 # DESIGN: parameters with respect to which `design_slopes` differentiates; linear_stiffness is
 # omega_l^2. SIMPLE: the parameters among these that the array holds unchanged, each with its index.
 SIMPLE = {
@@ -57,39 +46,21 @@ DESIGN = (*SIMPLE, "restitution", "contact_stiffness", "mass_ratio")
 
 
 def pack(oscillator, damper, frequency) -> np.ndarray:
-    """Return the parameters as the array that kernels read.
+    """Return the parameters as the array that kernels read, shape (COUNT,).
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper or None
-        None for an oscillator without damper.
-    frequency : float
-        Forcing frequency W, dimensionless.
-
-    Returns
-    -------
-    numpy.ndarray, shape (COUNT,)
-        Each parameter at the index of its name. Without a damper the clearance is infinite and the
-        contact's parameters are 0.
+    Without a damper (None) the clearance is infinite and the contact's parameters are 0.
 
     Raises
     ------
-    TypeError
-        If an argument has the wrong type.
-    ValueError
-        If the frequency is out of range, or if the natural frequency of the contact is more than
-        MOST_STIFF times the forcing frequency.
+    TypeError, ValueError
+        If an argument has the wrong type, the frequency W is out of range, or the natural frequency
+        of the contact is more than MOST_STIFF times the forcing frequency.
     """
     p = np.zeros(COUNT)
     p[FREQUENCY] = frequency = check_frequency(frequency)
     check_oscillator(oscillator)
-    p[DAMPING] = oscillator.damping
+    p[1 : 1 + len(FIELDS)] = [getattr(oscillator, name) for name in FIELDS]
     p[STIFFNESS] = oscillator.linear_frequency**2
-    p[CUBIC] = oscillator.cubic
-    p[FORCE] = oscillator.force
-    p[UNBALANCE] = oscillator.unbalance
-    p[SHAKER] = oscillator.shaker
     if damper is None:
         p[CLEARANCE] = np.inf
         return p
@@ -112,23 +83,18 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
 
 def cubic_spring(p) -> tuple:
-    """Return omega_l^2 and k3, for closed forms that contain only these two terms of the spring."""
+    """Return omega_l^2 and k3, for closed forms; other terms of the spring are refused."""
+    for name in NONLINEAR:
+        value = p[NAMES.index(name.upper())]
+        if value and name != "cubic":
+            raise ValueError(f"{name} = {number(value)}: must be 0 in closed forms (cubic springs)")
     return p[STIFFNESS], p[CUBIC]
 
 
 def design_slopes(p) -> np.ndarray:
-    """Return the derivatives of packed parameters with respect to the parameters DESIGN.
+    """Return the derivatives of packed parameters by the parameters DESIGN, a column for each.
 
-    Parameters
-    ----------
-    p : array, shape (COUNT,)
-        Packed parameters.
-
-    Returns
-    -------
-    numpy.ndarray, shape (COUNT, len(DESIGN))
-        One column for each parameter. Without a damper the last three columns, for the parameters
-        of the contact, are 0.
+    Without a damper the last three columns, for the parameters of the contact, are 0.
     """
     slopes = np.zeros((COUNT, len(DESIGN)))
     for column, index in enumerate(SIMPLE.values()):

@@ -1,12 +1,8 @@
-"""Dataclasses of the oscillator and of the damper.
+"""Dataclasses of the oscillator and of the damper, dimensionless as in section 2.1 of the paper.
 
-All quantities are dimensionless, scaled as in section 2.1 of Chatterjee, Mallik and Ghosh (1995).
 Lengths are scaled by x0 = (F/k1)^(1/3) and times by 1/w0 = sqrt(m1/(k1 x0^2)), with the amplitude F
-of the force, the coefficient k1 of the cubic spring and the primary mass m1. Z1 is the displacement
-of the primary mass, Z2 the displacement of the primary mass relative to the loose mass, W the
-forcing frequency and T the time; primes are derivatives by T. zeta_c, also written zc, is the
-damping ratio of the contact. This module imports no NumPy, because Snakemake reads it at every dry
-run.
+of the force, the coefficient k1 of the cubic spring and the primary mass m1. This module imports no
+NumPy, because Snakemake reads it at every dry run.
 """
 
 import math
@@ -19,24 +15,30 @@ from impact_damper.model.bounds import (
     MASS_RATIO_RANGE,
     RESTITUTION_RANGE,
     STIFFNESS_RANGE,
-    check_parameters,
+    check_number,
     names_arguments,
-    parameter,
     shown,
 )
 from impact_damper.model.units import UNITLESS, Scales
 
-# Fields of `Oscillator` that are 0 for a linear spring, and the highest power of Z1 in the force of
-# the spring.
-NONLINEAR = ("cubic",)
-SPRING_POWER = 3
+
+def parameter(bounds, kind, symbol, meaning, *, machine=None, power=None, **default):
+    """Return a dataclass field for a dimensionless number, with all facts about it.
+
+    `kind` is a key of `units.QUANTITIES`, `machine` the name for a machine if it differs, and
+    `power` the power of Z1 if the parameter is the coefficient of a nonlinear term of the spring.
+    """
+    facts = {"bounds": bounds, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
+    return field(metadata=facts | {"meaning": f"{symbol}, {meaning}"}, **default)
 
 
-def _told(part, scales, name):
-    """Return a parameter as "name = value", in the unit of the user."""
-    facts = part.__dataclass_fields__[name].metadata
-    shown_name = facts["machine"] or name if scales.si else name
-    return scales.told(shown_name, getattr(part, name), facts["kind"])
+def _check(part):
+    """Check the parameters of a frozen dataclass; an array without dimensions becomes a float."""
+    for each in parameters_in(part):
+        value = getattr(part, each.name)
+        number = check_number(each.name, value, **each.metadata["bounds"])
+        if hasattr(value, "ndim"):
+            object.__setattr__(part, each.name, number)
 
 
 def check_oscillator(oscillator):
@@ -54,35 +56,11 @@ def check_damper(damper):
 @names_arguments
 @dataclass(frozen=True)
 class Oscillator:
-    """Harmonically forced Duffing oscillator, equation (3) without the damper.
+    """Harmonically forced Duffing oscillator, equation (3) without the damper, dimensionless.
 
-    The spring is hardening if `cubic` is positive, linear if it is 0 and softening if it is
-    negative.
-
-    Attributes
-    ----------
-    damping : float
-        h = c1/(m1 w0), dimensionless.
-    linear_frequency : float
-        omega_l = sqrt(kl/(m1 w0^2)), dimensionless; 0 for a purely cubic spring.
-    cubic : float
-        Coefficient k3 of Z1^3 in the spring's force, dimensionless; 1 in the paper's scales.
-    force : float
-        Term F of the forcing amplitude F + U W^2 + V/W^2, dimensionless; 1 in the paper's scales.
-        For an unforced decay F, U and V are 0.
-    unbalance : float
-        U, dimensionless. The term U W^2 of the forcing amplitude represents a rotating unbalance.
-        Without a damper it may also represent a base that moves with the amplitude U, and Z1 is
-        then the displacement relative to the base. With a damper use `machine.Machine` for a moving
-        base, because the loose mass is then forced too.
-    shaker : float
-        V, dimensionless. The term V/W^2 of the forcing amplitude represents a base whose
-        acceleration has the same amplitude a at each frequency, as on a shaker. Then V = omega_l^2
-        a, and Z1 is the displacement in a frame at rest. Allowed only with a linear spring.
-
-    scales : Scales
-        Scales of the machine that the oscillator describes, in whose units errors are told; all 1
-        by default.
+    Its force has the amplitude F + U W^2 + V/W^2. U stands for a rotating unbalance, V for a base
+    with the acceleration V/omega_l^2 at each frequency; Z1 is then the displacement in a frame at
+    rest, and the spring must be linear.
 
     Raises
     ------
@@ -111,6 +89,7 @@ class Oscillator:
         "k3",
         "coefficient of the cubic spring",
         machine="cubic_stiffness",
+        power=3,
         default=1.0,
     )
     force: float = parameter(
@@ -125,45 +104,58 @@ class Oscillator:
     scales: Scales = field(default=UNITLESS, repr=False, compare=False, kw_only=True)
 
     def __post_init__(self):
-        check_parameters(self)
+        _check(self)
         if self.shaker:
-            self.check_linear(
-                f"with {self.told('shaker')} (on a moving base the force of a nonlinear spring "
-                "is not harmonic)"
-            )
+            why = "on a moving base the force of a nonlinear spring is not harmonic"
+            self._refuse(self._terms, f"with {self.told('shaker')} ({why})")
 
-    def check_linear(self, why):
-        """Raise ValueError if the spring is not linear; `why` ends the message."""
-        for name in NONLINEAR:
-            if getattr(self, name) != 0:
-                raise ValueError(f"{self.told(name)}: must be 0 {why}")
+    @property
+    def _terms(self) -> list:
+        """Names of the nonlinear terms of the spring that are not 0."""
+        return [name for name in NONLINEAR if getattr(self, name)]
+
+    def _refuse(self, terms, why):
+        """Raise ValueError if there are any `terms`, which must be 0; `why` ends the message."""
+        if terms:
+            raise ValueError(f"{self.told(*terms)}: must be 0 {why}")
 
     def told(self, *names) -> str:
         """Return fields as "name = value" in the unit of the user, with the names of `Machine`."""
-        return ", ".join(_told(self, self.scales, name) for name in names)
+        found = []
+        for name in names:
+            facts = self.__dataclass_fields__[name].metadata
+            shown_name = facts["machine"] or name if self.scales.si else name
+            found.append(self.scales.told(shown_name, getattr(self, name), facts["kind"]))
+        return ", ".join(found)
 
     @property
     def is_linear(self) -> bool:
         """Whether the spring is linear."""
-        return not any(getattr(self, name) for name in NONLINEAR)
+        return not self._terms
 
     @property
     def softens(self) -> bool:
         """Whether the spring pushes outward at large |Z1|, so that a motion may escape."""
-        return self.cubic < 0
+        highest = max(self._terms, key=NONLINEAR.get, default="cubic")
+        return getattr(self, highest) < 0
 
     @property
     def hardening(self) -> float:
         """Coefficient of a^3 in the first harmonic of the spring's force under Z1 = a cos t."""
+        others = [name for name in self._terms if name != "cubic"]
+        self._refuse(others, "in closed forms (cubic springs)")
         return 0.75 * self.cubic
 
     def nonlinear_force(self, displacement):
         """Return the force of the spring without its linear part, at displacements Z1."""
-        return self.cubic * displacement**3
+        return sum(getattr(self, name) * displacement**n for name, n in NONLINEAR.items())
 
     def nonlinear_slope(self, displacement):
         """Return the derivative of `nonlinear_force` with respect to Z1."""
-        return 3 * self.cubic * displacement**2
+        slopes = [
+            n * getattr(self, name) * displacement ** (n - 1) for name, n in NONLINEAR.items()
+        ]
+        return sum(slopes)
 
     def forcing_amplitude(self, frequency):
         """Return the amplitude F + U W^2 + V/W^2 of the force at forcing frequencies W."""
@@ -174,17 +166,6 @@ class Oscillator:
 @dataclass(frozen=True)
 class Damper:
     """Loose mass in a gap whose walls have a spring and a dashpot (figures 1 and 9 of the paper).
-
-    Attributes
-    ----------
-    mass_ratio : float
-        r_m = m2/m1, dimensionless.
-    clearance : float
-        d0 = d/(2 x0), half of the gap d, dimensionless.
-    restitution : float
-        Coefficient of restitution e (xi in the paper), dimensionless; 1 for elastic contact.
-    contact_stiffness : float
-        r1 = k2/(m1 w0^2), dimensionless; 2000 throughout the paper.
 
     Raises
     ------
@@ -215,7 +196,7 @@ class Damper:
     )
 
     def __post_init__(self):
-        check_parameters(self)
+        _check(self)
 
     @property
     def contact_damping(self) -> float:
@@ -234,7 +215,14 @@ def parameters_in(part) -> list:
     return [each for each in fields(part) if each.type is not Scales]
 
 
-# Symbol of each parameter by the parameter's name. Tables and captions print the symbols.
+# The nonlinear terms of the spring's force: power of Z1 by name; and the highest power.
+NONLINEAR = {
+    each.name: each.metadata["power"]
+    for each in parameters_in(Oscillator)
+    if each.metadata["power"]
+}
+SPRING_POWER = max(NONLINEAR.values())
+# Symbol of each parameter by its name, for tables and captions.
 SYMBOLS = {
     each.name: each.metadata["symbol"]
     for part in (Oscillator, Damper)

@@ -5,17 +5,8 @@ This module imports no NumPy, because Snakemake reads it at every dry run.
 
 from dataclasses import dataclass
 
-from impact_damper.model.bounds import (
-    FURTHER_RANGE,
-    LIMIT_RANGE,
-    PATIENCE_RANGE,
-    TOLERANCE_RANGE,
-    WATCHED_RANGE,
-    check_count,
-    check_number,
-    names_arguments,
-    shown,
-)
+from impact_damper.model import bounds
+from impact_damper.model.bounds import check_count, check_number, names_arguments, shown
 
 
 @names_arguments
@@ -28,19 +19,17 @@ class Settling:
     tolerance : float
         Largest local error in a step of the integrator, dimensionless.
     patience : int
-        Number of forcing cycles after which a motion is stopped if it is certainly chaotic, or if
-        the loose mass hardly moves and has touched no wall during these cycles.
+        Forcing cycles after which a motion is stopped if it is certainly chaotic, or if the loose
+        mass hardly moves and has touched no wall during these cycles.
     limit : int
-        Number of forcing cycles after which every motion is stopped. Its outcome is then chaotic if
-        it certainly is, drifting if the loose mass has touched no wall for `patience` cycles, and
-        otherwise undecided.
+        Forcing cycles after which every motion is stopped. It is then chaotic if it certainly is,
+        drifting if the loose mass has touched no wall for `patience` cycles, otherwise undecided.
     watched : int
-        Number of further forcing cycles for which a motion that has not settled is run to measure
-        its displacement.
+        Further forcing cycles in which the displacement of a motion that has not settled is
+        measured.
     further : int
-        Largest number of further forcing cycles for which an undecided motion is run, to find out
-        whether it is quasi-periodic, periodic with a long period, or chaotic. The outcome of a
-        motion that is undecided even then is unresolved.
+        Largest number of further forcing cycles of an undecided motion, to find out whether it is
+        quasi-periodic, periodic with a long period, or chaotic; if it is none, it is unresolved.
 
     Raises
     ------
@@ -60,12 +49,12 @@ class Settling:
     further: int = 100_000
 
     def __post_init__(self):
-        check_number("tolerance", self.tolerance, **TOLERANCE_RANGE)
-        check_count("patience", self.patience, **PATIENCE_RANGE)
-        limits = LIMIT_RANGE | {"least": self.patience, "why": "not below patience"}
+        check_number("tolerance", self.tolerance, **bounds.TOLERANCE_RANGE)
+        check_count("patience", self.patience, **bounds.PATIENCE_RANGE)
+        limits = bounds.LIMIT_RANGE | {"least": self.patience, "why": "not below patience"}
         check_count("limit", self.limit, **limits)
-        check_count("watched", self.watched, **WATCHED_RANGE)
-        check_count("further", self.further, **FURTHER_RANGE)
+        check_count("watched", self.watched, **bounds.WATCHED_RANGE)
+        check_count("further", self.further, **bounds.FURTHER_RANGE)
 
 
 def check_settling(settling) -> Settling:

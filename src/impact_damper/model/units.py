@@ -1,9 +1,7 @@
 """Physical quantities in SI units, and the scales in which the equations are dimensionless.
 
-A quantity is a number, a text such as "0.4 mm", or a quantity of pint. pint takes a third of a
-second to import, so it is imported only where a text or a quantity of pint is given. The equations
-of section 2.1 of Chatterjee, Mallik and Ghosh (1995) hold for any scales of length and time; the
-scale of mass is the mass of the machine.
+pint takes a third of a second to import, so it is imported where a text or a quantity of pint is
+given.
 """
 
 import math
@@ -18,18 +16,9 @@ from impact_damper.model.text import number, with_unit
 
 
 class Quantity(NamedTuple):
-    """A kind of physical quantity.
+    """A kind of physical quantity: unit of plain numbers, and exponents of its dimensions.
 
-    Attributes
-    ----------
-    unit : str
-        SI unit of plain numbers.
-    length, time, mass : int
-        Exponents of the dimensions.
-    shown : str
-        Unit in datasets, if it differs from `unit`.
-    factor : float
-        Value of 1 `unit` in the unit of datasets, such as 1000 for m in mm.
+    Datasets show it in the unit `shown` if this differs; `factor` is 1 `unit` in this unit.
     """
 
     unit: str
@@ -70,13 +59,12 @@ QUANTITIES = {
     "power": Quantity("W", length=2, time=-3, mass=1),
     "impulse_noise": Quantity("N^2 s", length=2, time=-3, mass=2),
 }
-# Text may hold only a number and units with powers. pint would evaluate any expression, which could
-# take arbitrarily long.
+# Text holds a number and units with powers: pint would evaluate any expression, however long.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
 TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")
 LONGEST_TEXT = 80
-# Text with two numbers joined by an operator, such as "0.05 kg * 40 mm".
+# Two numbers joined by an operator, such as "0.05 kg * 40 mm".
 CALCULATION = re.compile(r"\s*[\d.][^*/·+]*[*/·+]\s*[\d.].*")
 
 
@@ -110,39 +98,27 @@ def si_value(name, value, quantity) -> float:
         allowed = 'must be a number, or text such as "0.5 %"'
     if isinstance(value, str):
         parts = TEXT.fullmatch(value) if len(value) <= LONGEST_TEXT else None
-        if parts is None:
-            raise ValueError(f"{name} = {shown(value)}: {allowed}{wrong_unit(value, quantity)}")
-        magnitude, text = float(parts[1]), parts[2] or ""
-    elif hasattr(value, "magnitude") and hasattr(value, "units"):
+        magnitude, text = (float(parts[1]), parts[2] or "") if parts else (None, None)
+    elif isinstance(getattr(value, "magnitude", None), numbers.Real) and hasattr(value, "units"):
         magnitude, text = value.magnitude, str(value.units)
-        if isinstance(magnitude, bool) or not isinstance(magnitude, numbers.Real):
-            raise TypeError(f"{name} = {shown(value)}: {allowed}")
     else:
         raise TypeError(f"{name} = {shown(value)}: {allowed}")
-    factor = _factor(text, unit)
+    factor = None if text is None else _factor(text, unit)
     if factor is None:
-        raise ValueError(f"{name} = {shown(str(value))}: {allowed}{wrong_unit(value, quantity)}")
+        remark = _wrong_unit(value, text, unit) if unit else ""
+        raise ValueError(f"{name} = {shown(str(value))}: {allowed}{remark}")
     return check_number(name, float(magnitude) * factor)
 
 
-def wrong_unit(value, quantity) -> str:
-    """Return a remark in brackets on the wrong unit of a value, or "" if the unit is not wrong.
-
-    The arguments are as in `si_value`.
-    """
-    if not isinstance(value, str) or len(value) > LONGEST_TEXT or not QUANTITIES[quantity].unit:
-        return ""
-    parts = TEXT.fullmatch(value)
-    if parts is None:
-        product = CALCULATION.fullmatch(value)
+def _wrong_unit(value, text, unit):
+    """Return a remark in brackets on the wrong unit of a value, or "" if nothing is to be said."""
+    if text is None:
+        product = len(value) <= LONGEST_TEXT and CALCULATION.fullmatch(value)
         return " (write the result of the calculation, as one number with a unit)" * bool(product)
-    unit = parts[2]
-    if unit is None:
+    if not text:
         return " (this text has no unit)"
-    if _factor(unit, unit) is None:
-        return f" ({unit} is no known unit)"
-    target = QUANTITIES[quantity].unit
-    return "" if _factor(unit, target) else f" ({unit} cannot be converted to {target})"
+    known = _factor(text, text) is not None
+    return f" ({text} cannot be converted to {unit})" if known else f" ({text} is no known unit)"
 
 
 def _from_dataset(value):
@@ -185,24 +161,18 @@ def check_si(name, value, quantity, **bounds) -> float:
     return check_number(name, si_value(name, value, quantity), unit=unit, given=given, **bounds)
 
 
-def physical(quantity, **others):
-    """Return a dataclass field for a physical quantity.
-
-    `others` are bounds as in `check_si`, in SI units, and `default`.
-    """
+def physical(quantity, meaning="", **others):
+    """Return a dataclass field for a quantity; `others` are `default` and bounds in SI units."""
     default = {key: others.pop(key) for key in ("default",) if key in others}
-    return field(metadata={"quantity": quantity, "bounds": others}, **default)
+    unit = QUANTITIES[quantity].unit
+    facts = {"quantity": quantity, "bounds": others, "meaning": meaning}
+    return field(metadata=facts | {"unit": f", {unit}" * bool(unit)}, **default)
 
 
 def convert(part) -> None:
     """Replace the fields of a frozen dataclass made by `physical` by numbers in SI units.
 
     A field whose default is None may keep the value None.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As in `check_si`.
     """
     for each in fields(part):
         value = getattr(part, each.name)
@@ -212,18 +182,9 @@ def convert(part) -> None:
 
 
 class Scales(NamedTuple):
-    """Scales of a machine, in SI units; all are 1 for an `Oscillator`.
+    """Scales of a machine in SI units: length x0, time 1/w0, mass m1; all 1 for an `Oscillator`.
 
-    Attributes
-    ----------
-    length : float
-        Length x0, m.
-    time : float
-        Time 1/w0, s.
-    mass : float
-        Mass m1 of the machine, kg.
-    si : bool
-        Whether users give values, and read errors and results, in SI units.
+    If `si`, users give values, and read errors and results, in SI units.
     """
 
     length: float = 1.0
@@ -232,7 +193,7 @@ class Scales(NamedTuple):
     si: bool = False
 
     def unit(self, kind) -> float:
-        """Return the SI value of the dimensionless 1 of a key of `units.QUANTITIES`.
+        """Return the SI value of the dimensionless 1 of a key of QUANTITIES.
 
         The dimensionless frequency W is angular; its value in Hz is W w0/(2 pi).
         """
@@ -251,29 +212,15 @@ class Scales(NamedTuple):
         return value / self.unit(kind)
 
     def range_to_si(self, bounds, kind) -> dict:
-        """Return `above`, `least` and `most` of a dimensionless range in SI units."""
+        """Return a dimensionless range in SI units."""
         return {
             end: value if end == "why" else self.to_si(value, kind) for end, value in bounds.items()
         }
 
     def read(self, name, value, kind, **bounds) -> float:
-        """Return an argument of a public function as a dimensionless number.
+        """Return an argument, given in the unit of the user, as a dimensionless number.
 
-        Parameters
-        ----------
-        name : str
-            Name of the argument, for messages.
-        value : float, str, pint.Quantity or xarray.DataArray
-            In the unit of the user.
-        kind : str
-            A key of `units.QUANTITIES`.
-        **bounds
-            Dimensionless, as in `check_number`.
-
-        Raises
-        ------
-        TypeError, ValueError
-            In the unit of the user.
+        The bounds are dimensionless, as in `check_number`; errors are in the unit of the user.
         """
         if not self.si:
             return check_number(name, value, **bounds)

@@ -74,23 +74,6 @@ def test_damping_is_a_ratio_or_a_coefficient():
     assert same.oscillator() == HARD.oscillator()
 
 
-def test_the_force_of_a_base_at_one_frequency_is_exact():
-    """The amplitude of a linear machine against the closed form of the transmissibility."""
-    for excitation, hertz, ratio in (
-        ({"base_displacement": 2e-4}, 26.0, 0.3),
-        ({"base_acceleration": 5.0}, 11.0, 0.05),
-    ):
-        machine = Machine(**SPRING | {"damping_ratio": ratio}, **excitation)
-        oscillator, scales = machine.oscillator(hertz), machine.scales
-        w, r = scales.from_si(hertz, "frequency"), hertz / machine.natural_frequency
-        answer = oscillator.forcing_amplitude(w) / abs(
-            oscillator.linear_frequency**2 - w**2 + 1j * oscillator.damping * w
-        )
-        base = excitation.get("base_displacement", 5.0 / (2 * math.pi * hertz) ** 2)
-        passed = math.hypot(1, 2 * ratio * r) / math.hypot(1 - r**2, 2 * ratio * r)
-        assert scales.to_si(answer, "displacement") == pytest.approx(base * passed, rel=1e-13)
-
-
 @pytest.mark.parametrize(
     ("changes", "told"),
     [

@@ -31,7 +31,7 @@ def test_a_misspelt_argument_is_answered(call, meant):
 
 
 def test_an_argument_that_needs_its_name_is_told():
-    with pytest.raises(TypeError, match="Machine.. has too many .* name; known: mass, linear_"):
+    with pytest.raises(TypeError, match="Machine.. too many positional .*; known: mass, linear_"):
         idm.Machine(12, 2e5)
 
 

@@ -1,7 +1,6 @@
 """A machine on a shaker, whose base has one amplitude of acceleration at all frequencies."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -41,22 +40,6 @@ def branch():
 def point(branch, request):
     """Return the orbit of the branch whose frequency (Hz) is nearest to the fixture's parameter."""
     return branch.isel(point=int(np.argmin(np.abs(branch.followed_value.values - request.param))))
-
-
-def test_orbits_of_a_branch_are_those_at_one_frequency(point):
-    """At one frequency the force is exact, and on the branch it is approximate.
-
-    The acceleration of the base is changed so that both forces are equal.
-    """
-    hertz = float(point.followed_value)
-    ratio = MACHINE.viscous_damping * 2 * math.pi * hertz / STIFFNESS
-    same = (1 + ratio**2 / 2) / math.hypot(1, ratio)
-    machine = replace(MACHINE, base_acceleration=ACCELERATION * same)
-    damper = machine.damper(mass=LOOSE, gap=GAP, restitution=RESTITUTION, contact_stiffness=WALL)
-    alone = idm.periodic_orbit(machine, damper, hertz, point.orbit_state)
-    for name in ("orbit_displacement", "orbit_multiplier_real"):
-        assert_allclose(np.ravel(alone[name]), point[name], rtol=1e-8, err_msg=name)
-    assert 0 < same - 1 < (2 * RATIO * hertz / NATURAL) ** 4 / 8
 
 
 def test_orbits_of_a_branch_are_those_of_three_bodies_in_space(point):

@@ -13,8 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatterjee1995.sections.configuration import configuration
-from impact_damper.command.messages import dotted
-from impact_damper.command.yaml_files import ConfigurationError, check_file
+from impact_damper.command.section import ConfigurationError, check_file, dotted
 
 ALLOWED = re.compile(r"(: must |: name must be |: unknown key; known: \w|: missing; needed )")
 

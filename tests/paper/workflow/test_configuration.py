@@ -17,7 +17,7 @@ from helpers.running import ROOT
 from chatterjee1995.figures import schematics
 from chatterjee1995.sections.configuration import SCHEMATICS, configuration, without_left_out
 from chatterjee1995.sections.reference import reference
-from impact_damper.command.yaml_files import ConfigurationError, check_file
+from impact_damper.command.section import ConfigurationError, check_file
 from impact_damper.model.bounds import CLEARANCE_RANGE, FREQUENCY_RANGE
 from impact_damper.model.parameters import Damper, Oscillator, parameters_in
 
