@@ -157,14 +157,12 @@ def draw_balance_map(*, balance_map):
     (data,) = balance_map
     drawn = figure("double", 5.6)
     quiet, violent = drawn.subplots(1, 2, sharex=True, sharey=True)
-    _draw_classes(quiet, data, "quiet_verdict", QUIET)
-    _draw_classes(violent, data, "high_verdict", VIOLENT)
-    _draw_edge(quiet, data["balance_quiet"])
-    _draw_edge(violent, data["balance_high"])
+    for axes, name, classes in ((quiet, "quiet", QUIET), (violent, "high", VIOLENT)):
+        _draw_classes(axes, data, f"{name}_verdict", classes)
+        _draw_edge(axes, data[f"balance_{name}"])
+        axes.set_xlabel(axis_label(data["frequency_ratio"]))
     _draw_ends(quiet, data)
     _draw_chaos(quiet, data)
-    for axes in (quiet, violent):
-        axes.set_xlabel(axis_label(data["frequency_ratio"]))
     quiet.set(
         ylabel=PARAMETERS[parameters_of(data)["parameter"]],
         xlim=edges_of(data["frequency_ratio"].values)[[0, -1]],
@@ -207,9 +205,8 @@ def _draw_edge(axes, verdict):
     if stable.any() and not stable.all():
         line = {"colors": [BLACK], "linewidths": 1.0, "linestyles": "dashed"}
         axes.contour(verdict["frequency_ratio"], verdict["map_value"], stable, [0.5], **line)
-    axes.plot(
-        [], [], "--", color=BLACK, linewidth=1.0, label="edge of stability by harmonic balance"
-    )
+    words = "edge of stability by harmonic balance"
+    axes.plot([], [], "--", color=BLACK, linewidth=1.0, label=words)
 
 
 def _draw_ends(axes, data):

@@ -17,6 +17,7 @@ from impact_damper.plot.style import (
     figure,
     grid,
     legend,
+    line,
     markers,
     parameter_label,
     points,
@@ -33,18 +34,11 @@ TITLES = {
     "first_harmonic": "optimum of the first harmonic",
 }
 RULES = {
-    "balance": "$1$, equation (18)",
-    "gap_harmonic": r"$\pi^2/8$",
-    "straight_flight": "straight flight, rigid walls",
-    "elastic": "explicit, elastic contact",
-    "flight": "flight with corrections",
-}
-LOOKS = {
-    "balance": {"color": BLACK, "linestyle": (0, (1, 2))},
-    "gap_harmonic": {"color": GREY, "linestyle": (0, (6, 3))},
-    "straight_flight": {"color": SKY, "linestyle": (0, (6, 1.5, 1, 1.5))},
-    "elastic": {"color": ORANGE},
-    "flight": {"color": BLACK, "linewidth": 1.8},
+    "balance": line("$1$, equation (18)", BLACK, linestyle=(0, (1, 2))),
+    "gap_harmonic": line(r"$\pi^2/8$", GREY, linestyle=(0, (6, 3))),
+    "straight_flight": line("straight flight, rigid walls", SKY, linestyle=(0, (6, 1.5, 1, 1.5))),
+    "elastic": line("explicit, elastic contact", ORANGE),
+    "flight": line("flight with corrections", BLACK, linewidth=1.8),
 }
 # Hatching of the cells of a study in which not all motions settled.
 UNSETTLED = {"hatch": "////", "edgecolor": BLACK, "linewidth": 0}
@@ -89,7 +83,7 @@ def _draw_sweep(axes, data, name):
         axes.plot(one[name], one["rule_ratio"].sel(rule="flight"), **curve(index))
     for rule in ("balance", "gap_harmonic"):
         level = data["rule_ratio"].sel(rule=rule).values.flat[0]
-        axes.axhline(level, **LOOKS[rule], label=RULES[rule])
+        axes.axhline(level, **RULES[rule])
     unstable = data["best_stability"] == flag("best_stability", "unstable")
     crossed = data["best_ratio"].where(unstable).stack(cell=[...])
     axes.plot(crossed[name], crossed, **UNSTABLE)
@@ -103,14 +97,14 @@ def _draw_sweep(axes, data, name):
 
 def _draw_errors(axes, datasets):
     """Draw the share of optima that each rule predicts within an error, against this error."""
-    for rule, words in RULES.items():
+    for rule, look in RULES.items():
         errors = np.concatenate(
             [
                 np.abs(data["rule_ratio"].sel(rule=rule) / data["best_ratio"] - 1).values.ravel()
                 for data in datasets
             ]
         )
-        axes.ecdf(100 * errors[np.isfinite(errors)], **LOOKS[rule], label=words)
+        axes.ecdf(100 * errors[np.isfinite(errors)], **look)
     axes.set(
         xscale="log", xlim=(1e-2, 300), xlabel="Error of the rule, %", ylabel="Share of optima"
     )

@@ -10,11 +10,7 @@ from chatterjee1995.reading import orbits
 
 
 class Band(NamedTuple):
-    """Edges of a suppression band in W.
-
-    The lower edge lies between `lower` and `lower + resolution`. The resolution is 0 if a branch of
-    orbits ends the band, and one step of the simulations if a motion that did not settle ends it.
-    """
+    """Edges of a suppression band in W; the lower one is at most `resolution` above `lower`."""
 
     lower: float
     upper: float
@@ -51,7 +47,8 @@ def suppression_band(datasets, name):
     """Return the `Band` of a curve without a violent motion, up to the end of the free resonance.
 
     Its lower edge is the upper end of the branches of stable violent orbits, or the last frequency
-    of the response with a violent motion that did not settle, whichever is higher.
+    of the response with a violent motion that did not settle, whichever is higher. The resolution
+    is 0 at an end of a branch, otherwise a step of the response.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

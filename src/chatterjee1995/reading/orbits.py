@@ -32,23 +32,12 @@ def of_curve(datasets, name):
 
 
 def pieces(branches) -> pd.DataFrame:
-    """Cut branches into pieces, each from one orbit to the next.
+    """Return the pieces of branches, each from one orbit to the next, a row for each piece.
 
-    Returns
-    -------
-    pandas.DataFrame
-        One row for each piece, with the columns
-
-        - branch, period (in forcing cycles);
-        - lower, upper: ends in W;
-        - frequency, size (max |Z1|), amplitude, loose: W, max |Z1| and the complex first harmonic
-          of Z1 in the middle of the piece, with its phase relative to Z2 (amplitude) and to x2
-          (loose); the same names with `_change` hold the differences between the ends;
-        - multiplier: largest modulus of a Floquet multiplier, averaged over both ends;
-        - stable: whether `multiplier` is below 1;
-        - fewest, contacts: least and largest number of contacts per period at the ends;
-        - asymmetry: largest asymmetry at the ends;
-        - restitution: least ratio of the speed after a contact to the speed before it.
+    `lower` and `upper` are its ends in W. In its middle `size` is max |Z1|; `amplitude` and `loose`
+    are the complex first harmonic of Z1 with its phase relative to Z2 and to x2. The same names
+    with `_change` hold differences between the ends. At the ends `fewest` and `contacts` are the
+    least and largest number of contacts, `restitution` the least ratio of speeds in a contact.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -60,15 +49,13 @@ def pieces(branches) -> pd.DataFrame:
         "amplitude": size * np.exp(1j * branches.orbit_phase_relative.values),
         "loose": size * np.exp(1j * branches.orbit_phase_loose.values),
     }
-    multiplier = reading.largest_multiplier(branches)[ends].mean(axis=0)
     frequency, contacts = along["frequency"][ends], branches.orbit_contacts.values[ends]
     table = {
         "branch": number[first],
         "period": branches.branch_period.values[number[first]],
         "lower": frequency.min(axis=0),
         "upper": frequency.max(axis=0),
-        "multiplier": multiplier,
-        "stable": multiplier < 1,
+        "stable": reading.largest_multiplier(branches)[ends].mean(axis=0) < 1,
         "fewest": contacts.min(axis=0),
         "contacts": contacts.max(axis=0),
         "asymmetry": branches.orbit_asymmetry.values[ends].max(axis=0),

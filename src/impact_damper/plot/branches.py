@@ -29,7 +29,7 @@ EVENTS = {
     "grazing": ("change of contact", "P", SKY),
     "merging": ("change of contact", "P", SKY),
 }
-# Reasons for the end of a branch that continues in truth, and their marker.
+# Ends beyond which a branch continues, and their marker.
 OPEN_ENDS = ("lost", "point_limit", "unstable")
 OPEN = {"marker": "x", "color": BLACK, "markersize": 4.5, "linestyle": "none", "zorder": 3.1}
 # Label, colour, opacity of unstable orbits, and test of the period.
@@ -97,9 +97,8 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield each part of a branch on which all orbits are stable, or all unstable.
+    """Yield value, size and stability of each part of a branch that is all stable or all unstable.
 
-    A part is the parameter that varies, the largest displacement, and whether it is stable.
     `chosen` maps the period of a branch to True if the branch is wanted.
     """
     names = ("orbit_branch", "followed_value", "orbit_displacement", "orbit_stability")

@@ -26,7 +26,7 @@ SWITCHED = {
 }
 # Lines of a run of migration control; the thin one is for at least MANY times.
 MANY = 2500
-LINE, THIN = {"linewidth": 0.8}, {"linewidth": 0.3, "alpha": 0.5, "rasterized": True}
+LINE, THIN = {"linewidth": 0.8}, {"linewidth": 0.3, "alpha": 0.7, "rasterized": True}
 
 
 def orbit(data, axes=None):

@@ -92,11 +92,6 @@ def test_a_restitution_at_an_end_of_its_range_is_remarked(sizes, told):
     assert (f"This is the {told} of the range given" in words) == bool(told)
 
 
-def test_walls_that_pull_are_remarked_at_a_low_restitution():
-    assert "cannot pull" in said(told={"restitution": 0.3, "pull_free_restitution": 0.42})
-    assert "cannot pull" not in said()
-
-
 def test_a_large_motion_is_told_with_the_starts_that_lead_to_it():
     assert "All random starts lead to quiet motions, but slow changes" in said(**VIOLENT)
     some = said(**VIOLENT, reached_quiet_share=[1, 0.97, 1, 1, 1])
@@ -153,10 +148,3 @@ def test_transients_and_attractors_are_told_apart(rates, told):
     data = made_up_design().assign_coords(life_gap=("life", [8.0, 9.0]))
     data["life_rate"] = (("life", "bound"), rates)
     assert told in " ".join(conclusion(data))
-
-
-def test_the_best_absorber_is_named_with_its_loss_when_detuned():
-    words = (
-        "the best tuned absorber of the same mass the machine would move up to 0.5 mm, and up to"
-    )
-    assert f"{words} 0.6 mm with its spring 10 % off, by the balance of one harmonic" in said()

@@ -194,17 +194,6 @@ def test_chaos_of_which_a_run_ended_is_a_transient():
     np.testing.assert_allclose(axes.patches[2].get_data().baseline, [0.5, 0.9, 1])
 
 
-def test_a_design_shows_its_gap_and_the_starts_that_end_quiet(results):
-    response, sizes, shares = idm.plot.design(results["design"])
-    for axes in (sizes, shares):
-        (gap,) = [each for each in axes.lines if each.get_label() == "gap to build"]
-        np.testing.assert_array_equal(gap.get_xdata(), 7.0)
-    (candidates,) = [each for each in shares.containers if each.get_label() == "candidates"]
-    np.testing.assert_array_equal(candidates.lines[0].get_xdata(), [6, 7, 8, 9])
-    expected = results["design"]["start_quiet_share"].min("frequency")
-    np.testing.assert_array_equal(candidates.lines[0].get_ydata(), expected)
-
-
 @pytest.mark.thorough
 def test_the_package_starts_without_matplotlib():
     code = "import sys, impact_damper as idm; idm.Oscillator, idm.simulate; 'plot' in dir(idm)"

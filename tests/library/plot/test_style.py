@@ -76,16 +76,6 @@ def panels():
     return drawn
 
 
-def test_legend_names_each_role_once_and_covers_no_axes(tmp_path):
-    drawn = panels()
-    save_figure(drawn, tmp_path / "pair")
-    (shown,) = drawn.legends
-    names = ("free_stable", "period_1", "band")
-    assert {text.get_text() for text in shown.get_texts()} == {ROLES[n]["label"] for n in names}
-    for axes in drawn.axes:
-        assert not shown.get_window_extent().overlaps(axes.get_tightbbox())
-
-
 def test_saved_twice_the_bytes_and_the_width_are_the_same(tmp_path):
     drawn = panels()
     for name in ("one", "two"):

@@ -302,11 +302,6 @@ def test_contacts_are_marked_where_they_are():
     assert np.array_equal(np.isfinite(second.get_ydata()), time >= 4)
 
 
-def test_curves_are_named_by_what_tells_them_apart():
-    drawn = draw_optimum(optimum=[optimum(0.12, 0.75), optimum(0.12, 0.9)])
-    assert words(drawn)[:2] == ["$e = 0.75$, $r_m = 0.12$", "$e = 0.9$, $r_m = 0.12$"]
-
-
 def test_the_stored_run_is_drawn_with_its_own_switchings():
     whole, part = draw_migration(migration=[migration()]).axes
     assert [patch.get_x() for patch in whole.patches] == [0, 120]

@@ -63,16 +63,6 @@ def test_classes_have_names_for_all_flags_and_looks_of_their_own():
         assert len({(color, hatch) for _, color, hatch in classes.values()}) == len(flags)
 
 
-def test_legends_lie_on_the_sheet_and_beside_the_panels(drawing):
-    box = drawing.get_tightbbox()
-    assert min(box.x0, box.y0) >= 0
-    assert box.x1 <= drawing.get_figwidth() and box.y1 <= drawing.get_figheight()
-    left, right = (legend.get_window_extent() for legend in drawing.legends)
-    assert not left.overlaps(right)
-    for axes in drawing.axes:
-        assert not left.overlaps(axes.get_tightbbox()) and not right.overlaps(axes.get_tightbbox())
-
-
 def test_ends_of_the_map_are_not_ends_of_the_orbit(drawing):
     quiet, _ = drawing.axes
     shown = [line.get_xdata() for line in quiet.lines if np.size(line.get_xdata()) == 3]
