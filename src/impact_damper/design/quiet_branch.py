@@ -7,11 +7,17 @@ from impact_damper.data.datasets import flag
 from impact_damper.design.cells import Cell, run
 from impact_damper.design.task import SIDES, labelled
 from impact_damper.model.families import family_of
-from impact_damper.model.packed import CONTACT_STIFFNESS, DESIGN, INVERSE_MASS_RATIO, SIMPLE
+from impact_damper.model.packed import (
+    CONTACT_STIFFNESS,
+    DESIGN,
+    INVERSE_MASS_RATIO,
+    SIMPLE,
+    design_slopes,
+)
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import STROBE, Orbit
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
-from impact_damper.orbits.sensitivity import sensitivity
+from impact_damper.orbits.sensitivity import relative_slopes
 from impact_damper.orbits.shooting import find_orbit
 
 # Least and greatest gap of the branch, divided by the nominal one.
@@ -105,19 +111,12 @@ def dependence(task, orbit) -> xr.Dataset:
     names = [SAID.get(name, name) for name in DESIGN]
     displacement = modulus = np.full(len(names), np.nan)
     if orbit is not None:
-        p, found = orbit.p, sensitivity(orbit)
+        p = orbit.p
         values = {name: p[place] for name, place in SIMPLE.items()} | {
             "restitution": task.restitution,
             "contact_stiffness": p[CONTACT_STIFFNESS],
             "mass_ratio": 1 / p[INVERSE_MASS_RATIO],
         }
-
-        def relative(slopes, size):
-            by_design = found.by_design(slopes)
-            return np.array([by_design[name] * values[name] for name in DESIGN]) / size
-
-        if found.displacement_smooth:
-            displacement = relative(found.displacement_slopes, found.maximum_displacement)
-        if found.modulus_smooth:
-            modulus = relative(found.modulus_slopes, found.modulus)
+        directions = design_slopes(p).T * np.array([values[name] for name in DESIGN])[:, None]
+        displacement, modulus = np.transpose([relative_slopes(orbit, row) for row in directions])
     return labelled({"displacement_change": displacement, "modulus_change": modulus}, changed=names)

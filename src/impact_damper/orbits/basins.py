@@ -14,7 +14,7 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import BASIN_LABEL
-from impact_damper.model.arguments import read_forced, read_pair
+from impact_damper.model.arguments import read_forced, read_pair, read_span
 from impact_damper.model.bounds import (
     FARTHEST,
     FASTEST,
@@ -78,9 +78,9 @@ def basins(
     damper : Damper, MachineDamper or None
     frequency : float
         Forcing frequency W, or Hz for a machine.
-    displacement, velocity : float, optional
-        Half widths of the plane of Z1 and Z1'. The default is 1.5 times the largest
-        displacement and speed of the motions without a damper.
+    displacement, velocity : float or (float, float), optional
+        Half widths of the plane of Z1 and Z1', or its least and greatest values. The default is a
+        half width of 1.5 times the largest displacement and speed of the motions without a damper.
     cells : int
         States on each axis.
     phase : float
@@ -123,8 +123,9 @@ def basins(
     phase = check_number("phase", phase, least=0, most=2 * math.pi)
     free = free_motions(model.oscillator, model.frequency, settling)
     sizes = np.array([free.displacement or 1.0, free.speed or 1.0])
-    window = _window(model.scales, sizes, displacement, velocity)
-    grid = [np.linspace(-half, half, cells) for half in window]
+    sides = _sides(model.scales, sizes, displacement, velocity)
+    window = np.max(np.abs(sides), axis=1)
+    grid = [np.linspace(*ends, cells) for ends in sides]
     plane = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     running = {"workers": workers, "progress": progress}
     made = model.describe(settling) | {"cells": cells}
@@ -148,18 +149,19 @@ def basins(
     return dataset(data, coordinates, made, "Basins of attraction", model)
 
 
-def _window(scales, sizes, displacement, velocity):
-    """Return the half widths of the plane, shape (2,).
+def _sides(scales, sizes, displacement, velocity):
+    """Return the least and the greatest value on each axis of the plane, shape (2, 2).
 
     `sizes` are the largest displacement and speed of the motions without a damper.
     """
+    sides = np.outer(WIDTH * sizes, (-1.0, 1.0))
     given = ("displacement", displacement, FARTHEST), ("velocity", velocity, FASTEST)
-    return np.array(
-        [
-            WIDTH * size if value is None else scales.read(name, value, name, above=0, most=most)
-            for (name, value, most), size in zip(given, sizes, strict=True)
-        ]
-    )
+    for row, (name, value, most) in zip(sides, given, strict=True):
+        if isinstance(value, list | tuple | np.ndarray):
+            row[:] = read_span(scales, name, value, name, least=-most, most=most)
+        elif value is not None:
+            row[:] = scales.read(name, value, name, above=0, most=most) * np.array([-1, 1])
+    return sides
 
 
 def _free(p, plane, window, reach, phase, cells, settling, running):

@@ -1,7 +1,6 @@
-"""Exact derivatives of motions and of periodic orbits by their parameters.
+"""Derivatives of motions and of periodic orbits by their parameters.
 
-The variations of a motion are the derivatives of its end and of its derivative matrix, by Duhamel's
-integral; at contacts, where the force jumps, they have additional terms.
+The variations of a motion are the derivatives of its states, by Duhamel's integral.
 """
 
 from dataclasses import dataclass
@@ -13,8 +12,6 @@ from impact_damper.kernel.equation import (
     acceleration_by_parameters,
     forcing_amplitude,
     spring,
-    spring_slope,
-    spring_slope_changes,
 )
 from impact_damper.model.packed import (
     CLEARANCE,
@@ -22,13 +19,11 @@ from impact_damper.model.packed import (
     COUNT,
     DAMPING,
     DASHPOT,
-    DESIGN,
     FREQUENCY,
     INVERSE_MASS_RATIO,
-    design_slopes,
 )
-from impact_damper.orbits.orbit import Orbit
 from impact_damper.orbits.paths import INTEGRALS, POINTS, Path, follow_path
+from impact_damper.orbits.shooting import newton, shoot
 
 
 @dataclass(frozen=True)
@@ -119,105 +114,6 @@ class Variations:
         inner = first[..., None] + parameters.T @ self._integrals
         return np.einsum("ijn,jkn->ikn", self.path.tangents, inner)
 
-    def matrix_changes(self, first, parameters):
-        """Return the changes of `Path.matrix` along n directions, shape (n, 4, 4)."""
-        changes = self.changes(first, parameters)
-        inner = self._smooth(changes[0], parameters) + self._at_events(changes[2], parameters)
-        return self.path.matrix @ inner
-
-    def _smooth(self, change, parameters):
-        """Return the part of B between events, shape (n, 4, 4), from the change of Z1.
-
-        A_d is a sum of products of a column and a row, so each term of B is an integral over a
-        column of P^-1 times a row of P.
-        """
-        p, tangents, inverse = self.path.p, self.path.tangents, self._inverse
-        both, pushed, loose = self._columns
-        weights = np.outer(self.path.lengths, INTEGRALS[-1]).ravel()
-
-        def integral(column, row):
-            return (weights * column) @ row.reshape(-1, len(weights)).T
-
-        touching = np.abs(self.path.contacts[0])
-        x = self.path.states[0]
-        stiff = spring_slope_changes(p, x, change, parameters)
-        bent = integral(both, stiff[:, None] * tangents[0]).reshape(4, -1, 4).swapaxes(0, 1)
-        drag = integral(both, tangents[1])
-        spring, dashpot = (integral(touching * pushed, tangents[i]) for i in (2, 3))
-        wall = p[CONTACT_STIFFNESS] * tangents[2] + p[DASHPOT] * tangents[3]
-        lighter = integral(touching * loose, wall)
-        own = integral(both, spring_slope.py_func(p, x) * tangents[0])
-        whole = integral(inverse[:, 0], tangents[1]) + integral(inverse[:, 2], tangents[3])
-        whole -= own + p[DAMPING] * drag + integral(touching * pushed, wall)
-        parts = np.stack([drag, spring, dashpot, lighter, whole / p[FREQUENCY]])
-        kinds = [DAMPING, CONTACT_STIFFNESS, DASHPOT, INVERSE_MASS_RATIO, FREQUENCY]
-        return -bent - np.tensordot(parameters[kinds].T, parts, axes=1)
-
-    def _at_events(self, change, parameters):
-        """Return the part of B from the events, shape (n, 4, 4), computed from the change of Z2."""
-        p, third = self.path.p, np.eye(4)[2]
-        column = np.array([0.0, 1.0, 0.0, 1.0 + p[INVERSE_MASS_RATIO]])
-        total = np.zeros((parameters.shape[1], 4, 4))
-        jumped = parameters[DASHPOT][:, None] * column
-        jumped[:, 3] += p[DASHPOT] * parameters[INVERSE_MASS_RATIO]
-        for point, wall, begun in zip(*self.path.events, strict=True):
-            away = wall * parameters[CLEARANCE] - change[:, point]
-            delay = away / self.path.states[3, point]
-            jump = np.eye(4) - begun * p[DASHPOT] * np.outer(column, third)
-            before, after = (self._jacobian(point, touching) for touching in (begun < 0, begun > 0))
-            bend = jump @ before - after @ jump
-            added = delay[:, None, None] * bend - begun * jumped[:, :, None] * third
-            total += self._inverse[..., point + 1] @ added @ self.path.tangents[..., point]
-        return total
-
-    def _jacobian(self, point, touching):
-        """Return the Jacobian A at a point, in flight or in contact, shape (4, 4)."""
-        p = self.path.p
-        stiffness = spring_slope.py_func(p, self.path.states[0, point])
-        free = np.array([-stiffness, -p[DAMPING], 0.0, 0.0])
-        wall = touching * np.array([0.0, 0.0, p[CONTACT_STIFFNESS], p[DASHPOT]])
-        unit = np.eye(4)
-        return np.array([unit[1], free - wall, unit[3], free - (1 + p[INVERSE_MASS_RATIO]) * wall])
-
-
-# Two extrema of |Z1|, two moduli of multipliers, or two multipliers count as equal if they differ
-# relatively by less than EQUAL.
-EQUAL = 1e-6
-
-
-@dataclass(frozen=True)
-class Sensitivity:
-    """Derivatives of an orbit with respect to its packed parameters.
-
-    orbit: Orbit.
-    state_slopes: Derivatives of the state at the phase of the orbit; shape (4, packed.COUNT).
-    maximum_displacement: max |Z1|.
-    displacement_slopes: Derivatives of max |Z1|; shape (packed.COUNT,).
-    displacement_smooth: Whether max |Z1| is differentiable. It has a kink if |Z1| is largest at two
-        phases with different derivatives.
-    modulus: Modulus of the largest Floquet multiplier.
-    modulus_slopes: Derivatives of the modulus; shape (packed.COUNT,).
-    modulus_smooth: Whether the modulus is differentiable. It has a kink if two multipliers that are
-        not a conjugate pair have the largest modulus, or if a real multiplier is double.
-    matrix_slopes: Total derivatives of R_y, which is the root of the orbit (`Orbit.root`) or,
-        without a root, its monodromy matrix. n is `Orbit.active`; shape (packed.COUNT, n, n).
-    """
-
-    orbit: Orbit
-    state_slopes: np.ndarray
-    maximum_displacement: float
-    displacement_slopes: np.ndarray
-    displacement_smooth: bool
-    modulus: float
-    modulus_slopes: np.ndarray
-    modulus_smooth: bool
-    matrix_slopes: np.ndarray
-
-    def by_design(self, slopes) -> dict:
-        """Return derivatives with respect to the parameters `packed.DESIGN`, keyed by name."""
-        values = np.asarray(slopes) @ design_slopes(self.orbit.p)
-        return dict(zip(DESIGN, np.moveaxis(values, -1, 0), strict=True))
-
 
 def path_of(orbit, segment=None) -> Path:
     """Return the motion of an orbit over its cycle, or over a segment."""
@@ -228,60 +124,24 @@ def path_of(orbit, segment=None) -> Path:
     )
 
 
-def sensitivity(orbit) -> Sensitivity:
-    """Return the derivatives of a converged orbit."""
-    if not orbit.converged:
-        raise ValueError(f"orbit: must have converged, its residual is {orbit.residual:.1e}")
-    path, n = path_of(orbit), orbit.active
-    variations = Variations(path)
-    matrix, sign = orbit.matrix, orbit.sign
-    state = np.linalg.solve(np.eye(n) - matrix[:n, :n], sign * variations.slopes()[:n])
-    if n == 2:  # the loose mass does not move
-        state = np.vstack([state, state])
-    along = np.eye(COUNT)
-    slopes = sign * variations.matrix_changes(state, along)[:, :n, :n]
-    largest, by_parameters, alone = _displacement(path, variations.changes(state, along)[0])
-    modulus, relative, simple = _modulus(matrix[:n, :n], slopes)
-    power = 2 if sign < 0 else 1
-    return Sensitivity(
-        orbit,
-        state,
-        largest,
-        by_parameters,
-        alone,
-        modulus**power,
-        power * modulus**power * relative,
-        simple,
-        slopes,
-    )
+# Changes of an orbit for differences, as fractions of the direction.
+NUDGE = 1e-4
+# A size has a kink if its relative slopes on both sides differ by more than this.
+KINK = 0.02
 
 
-def _displacement(path, changes):
-    """Return max |Z1| on a path, its derivatives, and whether it is differentiable."""
-    steps, sizes, weights, _ = path.turns(0)
-    at_extrema = changes.reshape(len(changes), -1, POINTS)[:, steps]
-    slopes = np.sign(sizes)[:, None] * np.einsum("nek,ek->en", at_extrema, weights)
-    first = int(np.argmax(np.abs(sizes)))
-    largest = abs(sizes[first])
-    equal = np.abs(sizes) > (1 - EQUAL) * largest
-    spread = np.max(np.abs(slopes[equal] - slopes[first]))
-    smooth = spread <= EQUAL**0.5 * np.max(np.abs(slopes[first]))
-    return float(largest), slopes[first], bool(smooth)
+def relative_slopes(orbit, direction) -> np.ndarray:
+    """Return the derivatives of ln max |Z1| and of ln |largest multiplier| along a direction.
 
-
-def _modulus(matrix, slopes):
-    """Return the largest modulus of the eigenvalues of a matrix, and its relative derivatives.
-
-    `slopes` are the derivatives of the matrix. The third result states whether the modulus is
-    differentiable.
+    They are central differences between orbits with other packed parameters, NaN at a kink or where
+    no orbit is found.
     """
-    values, right = np.linalg.eig(matrix)
-    first = int(np.argmax(np.abs(values)))
-    value, modulus = values[first], abs(values[first])
-    left = np.linalg.inv(right)[first]
-    change = np.einsum("i,nij,j->n", left, slopes, right[:, first])
-    others = np.delete(values, first)
-    if abs(value.imag) > EQUAL * modulus:
-        others = others[np.abs(others - value.conjugate()) > EQUAL * modulus]
-    smooth = np.all(np.abs(others) < (1 - EQUAL) * modulus)
-    return float(modulus), (change / value).real, bool(smooth)
+    sizes = []
+    for share in (-NUDGE, 0.0, NUDGE):
+        near = newton(shoot(orbit.p + share * direction, orbit.state, orbit.periods, orbit.phase))
+        sizes.append([near.record["maximum_displacement"], abs(near.multipliers[0])])
+        if not near.converged:
+            return np.full(2, np.nan)
+    behind, here, ahead = np.log(sizes)
+    kinks = np.abs(ahead - 2 * here + behind) > KINK * NUDGE
+    return np.where(kinks, np.nan, (ahead - behind) / (2 * NUDGE))

@@ -160,6 +160,21 @@ def test_a_softening_spring_lets_motions_escape():
     assert float(data["attractor_share"].sum()) > 0
 
 
+def test_a_box_is_a_part_of_the_plane():
+    whole = basins(CUBIC, PAPER, 2.0, loose=(1.0, -0.2), displacement=0.3, velocity=0.4, cells=4)
+    box = {"displacement": (-0.3, -0.1), "velocity": (0.4 / 3, 0.4), "cells": 2}
+    part = basins(CUBIC, PAPER, 2.0, loose=(1.0, -0.2), **box)
+    sizes = [
+        np.append(data["attractor_displacement"].values, np.nan)[
+            np.maximum(data["basin_label"].values, -1)
+        ]
+        for data in (whole, part)
+    ]
+    assert_allclose(sizes[0][2:, :2], sizes[1], rtol=1e-9)
+    with pytest.raises(ValueError, match="displacement = .*least and greatest"):
+        basins(CUBIC, PAPER, 2.0, displacement=(0.1, -0.1))
+
+
 def test_mirrored_states_with_the_damper_lead_to_motions_of_equal_size():
     """(Z, T) -> (-Z, T + half a period) maps basins onto each other with the damper too."""
     plane = {"displacement": 0.3, "velocity": 0.4, "cells": 4}
