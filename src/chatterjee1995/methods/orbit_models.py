@@ -1,21 +1,6 @@
 """Models that compute a steady motion, a periodic motion of one forcing cycle, and their work.
 
-Of several solutions of a harmonic balance the one nearest to the initial state of the test case is
-taken, which favours the model. The work of a model is its number of floating-point operations:
-
-- Rigid balance (14) of the paper: the eigenvalues of the companion matrices of a polynomial of
-  degree 6 and of its derivative, with 10 n^3 operations for n eigenvalues, and the search for roots
-  of the polynomial between its extrema.
-- Full balance (7): BALANCE_EVALUATIONS evaluations of the equation with BALANCE_OPERATIONS each,
-  and the eigenvalues of a companion matrix of degree BALANCE_DEGREE. These numbers were measured in
-  the search for all roots in the test cases. Without a damper: the eigenvalues for two cubics.
-- Many harmonics: for each Newton step with n unknowns and N harmonics, 2/3 n^3 + 4 n^2 operations
-  for the linear systems, 8 n^2 to fill the matrix, and 5 M log2(M) for each Fourier transform of M
-  values (two with M = 16 N and three with M = 4 N). The balances with fewer harmonics, whose
-  solutions are first guesses, are included.
-- Rigid impacts and shooting: Newton's method integrates the motion and its four variational
-  equations over a cycle, once for each iteration, by steps of the Taylor series. The balance with
-  `labels.START_HARMONICS`, whose solution is the first guess, is included.
+`docs/explanation/methods.md` says how the floating-point operations of each model are counted.
 """
 
 import math
@@ -51,8 +36,8 @@ from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.many_harmonics import Balance, Solution, solve, state_of
 
-# See the module's docstring.
-BALANCE_EVALUATIONS, BALANCE_OPERATIONS, BALANCE_DEGREE = 100, 130, 32
+# Operations of the search for all solutions of the full balance (7), and of the rigid balance (14).
+FULL_WORK, RIGID_WORK = 100 * 130 + 10 * 32**3, 10 * (6**3 + 5**3) + 6 * 10 * 12
 # Largest distance of the state of a rigid orbit from the first guess.
 REACH = 10.0
 
@@ -119,7 +104,6 @@ def rigid_balance(oscillator, damper, frequency, state):
     """Return the `Model` by balance of one harmonic with rigid walls, equations (13) and (14)."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
-    work = 10 * (6**3 + 5**3) + 6 * 10 * 12
     roots = single_harmonic.rigid_solutions(oscillator, damper, frequency)
     models = []
     for a, phase, pulling in zip(roots.amplitude, roots.phase, roots.pulling, strict=True):
@@ -127,9 +111,9 @@ def rigid_balance(oscillator, damper, frequency, state):
             turn = np.exp(1j * (np.pi / 2 + phase)) * np.array([1, 1j * frequency])
             at = np.concatenate([a * turn.real, damper.clearance * turn.real])
             touching = np.array([-phase, np.pi - phase]) % (2 * np.pi)
-            models.append(Model("ended", work, at, touching, abs(a)))
+            models.append(Model("ended", RIGID_WORK, at, touching, abs(a)))
     nearest = min(models, key=lambda each: np.max(np.abs(each.state - state)[:2]), default=None)
-    return nearest or without("failed", work)
+    return nearest or without("failed", RIGID_WORK)
 
 
 def full_balance(oscillator, damper, frequency, state):
@@ -139,22 +123,21 @@ def full_balance(oscillator, damper, frequency, state):
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     if coefficients is None:
         return without("failed", work)
-    balance = Balance(oscillator, damper, frequency, 1)
-    return of_coefficients(balance, coefficients, work)
+    return of_coefficients(Balance(oscillator, damper, frequency, 1), coefficients, work)
 
 
 def nearest_term(oscillator, damper, frequency, state):
     """Return the solution with one harmonic nearest to `state`, or None, and the work.
 
-    The solution is complex amplitudes of Z1 and Z2, shape (2, 1), or of Z1, shape (1, 1), without a
-    damper. Contacts count as elastic. The work is the number of operations to find all solutions.
+    The solution is complex amplitudes of Z1 and Z2, shape (2, 1), or of Z1 without a damper.
+    Contacts count as elastic.
     """
     if damper is None:
         work = 2 * 10 * 3**3
         solutions = free_solutions(oscillator, frequency)
         sizes = solutions.amplitude[:, None]
     else:
-        work = BALANCE_EVALUATIONS * BALANCE_OPERATIONS + 10 * BALANCE_DEGREE**3
+        work = FULL_WORK
         elastic = replace(damper, restitution=1.0)
         solutions = single_harmonic.impacting_solutions(oscillator, elastic, frequency)
         sizes = np.stack([solutions.amplitude, solutions.relative_amplitude], axis=1)
@@ -173,8 +156,7 @@ def nearest_term(oscillator, damper, frequency, state):
 def many_harmonics(oscillator, damper, frequency, state, highest):
     """Return models by harmonic balance, keyed by their highest harmonic 3, 7, 15, ... `highest`.
 
-    The first guess of Newton's method is the last solution that converged, and for harmonic 3 the
-    solution with one harmonic.
+    Newton's method begins at the last solution that converged, first that with one harmonic.
     """
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
@@ -197,12 +179,8 @@ def many_harmonics(oscillator, damper, frequency, state, highest):
 def newton_work(balance):
     """Return the number of operations of one step of Newton's method with many harmonics."""
     n, top = balance.unknowns, balance.highest
-    transforms = 2 * _transform(16 * top) + 3 * _transform((SPRING_POWER + 1) * top)
-    return 2 / 3 * n**3 + 12 * n**2 + transforms
-
-
-def _transform(samples):
-    return 5 * samples * math.log2(samples)
+    samples = np.repeat([16 * top, (SPRING_POWER + 1) * top], [2, 3])
+    return 2 / 3 * n**3 + 12 * n**2 + float(np.sum(5 * samples * np.log2(samples)))
 
 
 def rigid_impacts(oscillator, damper, frequency, start):

@@ -2,11 +2,7 @@
 
 The model is the limit of equations (20) to (25) of the paper for an infinite contact stiffness r1.
 An impact changes Z2' to -e Z2' and conserves the momentum Z1' + rm (Z1' - Z2').
-
-Corrected ("mended") walls imitate compliant walls, whose contacts last a time tc. They are farther
-out by delta = v tc e/(1 + e), with the approach speed v, so that the loose mass returns to
-|Z2| = d0 when the compliant contact ends. Their restitution e' makes its speed there agree. The
-error of an orbit is of order 1/sqrt(r1) between plain rigid walls and 1/r1 between corrected walls.
+Corrected ("mended") walls imitate compliant walls (`docs/explanation/methods.md`).
 """
 
 import math
@@ -44,15 +40,12 @@ SAME_SPEED = 1e-6
 def rebound(p, restitution, y, tangents, t):
     """Apply an instantaneous impact to a state y and to small changes of the state, in place.
 
-    The saltation matrix S maps a small change d of the state before the impact to the change after
-    it. Each row of `tangents` is such a d. With k = (1 + e)/(1 + 1/rm), the damping h and the
-    acceleration a of Z1 before the impact,
+    Each row of `tangents` is a small change d of the state before the impact. With
+    k = (1 + e)/(1 + 1/rm), the damping h and the acceleration a of Z1 before the impact,
 
         Z1' -> Z1' - k Z2',   Z2' -> -e Z2',
         d(Z1, Z1', Z2, Z2') -> S d,   S = [1 0 -k 0; 0 1 k (a/Z2' + h) -k;
                                            0 0 -e 0; 0 0 (1 + e) a/Z2' + h k -e].
-
-    The determinant of S is e^2: an impact multiplies volumes of the state space by e^2.
     """
     gain = (1.0 + restitution) / (1.0 + p[INVERSE_MASS_RATIO])
     speed = y[3]
@@ -145,10 +138,7 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """Return orbit and status as `rigid_orbit`, between the corrected walls of `mended_walls`.
-
-    Newton's method begins at `orbit`, the orbit between plain rigid walls.
-    """
+    """Return orbit and status as `rigid_orbit`, between corrected walls, from the rigid `orbit`."""
     clearance, restitution = mended_walls(oscillator, damper, orbit)
     p = pack(oscillator, damper, frequency)
     p[CLEARANCE] = clearance
@@ -183,19 +173,9 @@ def _solve(p, restitution, guess, reach):
 
 
 def mended_walls(oscillator, damper, orbit):
-    """Return clearance d0 + delta and restitution e' of rigid walls that replace compliant ones.
+    """Return clearance and restitution of the rigid walls that imitate compliant walls at an orbit.
 
-    `orbit` is the orbit between plain rigid walls, with the approach speed v and the acceleration a
-    of Z1 towards the wall before the contact. The corrections are of first order in 1/wn, with the
-    natural frequency wn and the damping ratio z of the contact. Three effects change e, and e' may
-    exceed 1:
-
-    - The damping h of Z1 also damps the relative motion in contact, by h rm/(1 + rm), and thereby
-      increases z.
-    - The load of the contact, G = (a + h rm/(1 + rm) v)/(wn v), adds -2 z (1 + e) G to e.
-    - Between d0 and the rigid wall at d0 + delta the loose mass flies under the acceleration a
-      before and a_after after the impact. Adding (delta/v^2) (a_after/e - e a) to e compensates
-      this flight, which the compliant contact does not have.
+    `orbit` is the orbit between plain rigid walls. `docs/explanation/methods.md` has the formulas.
     """
     e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
     reduced = damper.mass_ratio / (1 + damper.mass_ratio)

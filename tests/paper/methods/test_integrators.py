@@ -51,11 +51,12 @@ def test_runs_are_named_by_what_is_done_at_contacts():
     assert [runs_of_accuracy()[label][1] for label in ("taylor", "merson_kink")] == [True, False]
 
 
-def fixed(method, p, y, steps, periods, t=0.0):
-    strobes, largest = np.empty((periods, 4)), np.empty(periods)
-    start = np.array(y, float)
-    run = fixed_steps.run_fixed(NUMBERS[method], p, start, t, steps, strobes, largest)
-    return strobes, largest, run
+def fixed_end(method, p, y, steps, periods, t=0.0):
+    """Return the state after forcing cycles of equal steps."""
+    ends = np.empty((steps * periods, 5))
+    step = math.pi / steps  # the frequency is 2
+    fixed_steps.fixed_ends(NUMBERS[method], p, np.array(y, float), t, step, ends)
+    return ends[-1, 1:]
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +71,7 @@ def free():
 def test_order_of_fixed_steps(method, free):
     p, end = free
     errors = [
-        np.abs(fixed(method, p, START, steps, 2)[0][-1] - end).max() for steps in (200, 400, 800)
+        np.abs(fixed_end(method, p, START, steps, 2) - end).max() for steps in (200, 400, 800)
     ]
     assert_allclose(np.log2(np.divide(errors[:-1], errors[1:])), ORDERS[method], atol=0.15)
 
@@ -156,7 +157,7 @@ def test_the_kink_takes_the_order_away():
     expected, _ = sample(p, y, begin, [begin + math.pi])
     steps = np.unique(np.geomspace(2000, 40000, 24).astype(int))
     errors = [
-        np.abs(fixed("runge_kutta_4", p, y, int(n), 1, begin)[0][-1] - expected[-1]).max()
+        np.abs(fixed_end("runge_kutta_4", p, y, int(n), 1, begin) - expected[-1]).max()
         for n in steps
     ]
     slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
@@ -165,9 +166,8 @@ def test_the_kink_takes_the_order_away():
 
 def test_a_diverging_run_has_nan_from_this_cycle_on():
     p = pack(PAPER, DESIGN, 2.0)
-    strobes, largest, run = fixed("runge_kutta_4", p, [0.0, 0.0, 5.0, 0.0], 20, 3)
-    assert run < 3
-    assert np.isnan(strobes[run:]).all() and np.isnan(largest[run:]).all()
+    given = p, np.array([0.0, 0.0, 5.0, 0.0]), 0.0, 3, 20
+    assert np.isnan(integrators()["runge_kutta_4"].largest_displacements(*given)).all()
 
 
 def test_a_run_with_too_many_evaluations_is_given_up():

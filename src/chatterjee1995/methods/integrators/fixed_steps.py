@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from chatterjee1995.methods.equations import largest_within, moved, rate_by_position
+from chatterjee1995.methods.equations import BY_POSITION, largest_within, moved, rate_under
 from chatterjee1995.methods.integrator import Integrator
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import external_force
@@ -16,9 +16,6 @@ from impact_damper.model.packed import FREQUENCY
 VERLET, RUNGE_KUTTA_4, MERSON = range(3)
 # A run has diverged once |Z1| + |Z1'| + |Z2'| exceeds BEYOND.
 BEYOND = 1e3
-# Largest number of steps in one call of a compiled function, unless one forcing cycle takes more.
-# Ctrl-C takes effect only after a call.
-STEPS_AT_ONCE = 10**6
 
 
 @kernel
@@ -38,34 +35,39 @@ def verlet_step(p, drives, h, y):
 
     Forces at the end of the step are computed with a speed extrapolated linearly.
     """
-    k1 = rate_by_position(p, drives[0], y)
+    k1 = rate_under(p, BY_POSITION, drives[0], y)
     x = y[0] + h * (y[1] + 0.5 * h * k1[1])
     z = y[2] + h * (y[3] + 0.5 * h * k1[3])
-    k2 = rate_by_position(p, drives[3], (x, y[1] + h * k1[1], z, y[3] + h * k1[3]))
+    k2 = rate_under(p, BY_POSITION, drives[3], (x, y[1] + h * k1[1], z, y[3] + h * k1[3]))
     return x, y[1] + 0.5 * h * (k1[1] + k2[1]), z, y[3] + 0.5 * h * (k1[3] + k2[3])
 
 
 @kernel_only
 def runge_kutta_4_step(p, drives, h, y):
     """Return the state after a step of the classical Runge-Kutta method, order 4."""
-    k1 = rate_by_position(p, drives[0], y)
-    k2 = rate_by_position(p, drives[2], moved(y, 0.5 * h, k1))
-    k3 = rate_by_position(p, drives[2], moved(y, 0.5 * h, k2))
-    k4 = rate_by_position(p, drives[3], moved(y, h, k3))
+    k1 = rate_under(p, BY_POSITION, drives[0], y)
+    k2 = rate_under(p, BY_POSITION, drives[2], moved(y, 0.5 * h, k1))
+    k3 = rate_under(p, BY_POSITION, drives[2], moved(y, 0.5 * h, k2))
+    k4 = rate_under(p, BY_POSITION, drives[3], moved(y, h, k3))
     y = moved(moved(y, h / 6.0, k1), h / 3.0, k2)
     return moved(moved(y, h / 3.0, k3), h / 6.0, k4)
 
 
-@kernel_only
-def merson_step(p, drives, h, y):
-    """Return the state after a step of Runge-Kutta-Merson, order 4 with five evaluations."""
-    k1 = rate_by_position(p, drives[0], y)
-    k2 = rate_by_position(p, drives[1], moved(y, h / 3.0, k1))
-    k3 = rate_by_position(p, drives[1], moved(moved(y, h / 6.0, k1), h / 6.0, k2))
-    k4 = rate_by_position(p, drives[2], moved(moved(y, h / 8.0, k1), 0.375 * h, k3))
-    k5 = moved(moved(y, 0.5 * h, k1), -1.5 * h, k3)
-    k5 = rate_by_position(p, drives[3], moved(k5, 2.0 * h, k4))
-    return moved(moved(moved(y, h / 6.0, k1), 2.0 * h / 3.0, k4), h / 6.0, k5)
+@kernel
+def merson_step(p, side, drives, h, y):
+    """Return the state after a step of Runge-Kutta-Merson, order 4, and its estimated error.
+
+    For linear equations the estimate is the leading term of the error.
+    """
+    k1 = rate_under(p, side, drives[0], y)
+    k2 = rate_under(p, side, drives[1], moved(y, h / 3.0, k1))
+    k3 = rate_under(p, side, drives[1], moved(moved(y, h / 6.0, k1), h / 6.0, k2))
+    k4 = rate_under(p, side, drives[2], moved(moved(y, h / 8.0, k1), 0.375 * h, k3))
+    last = moved(moved(moved(y, 0.5 * h, k1), -1.5 * h, k3), 2.0 * h, k4)
+    k5 = rate_under(p, side, drives[3], last)
+    after = moved(moved(moved(y, h / 6.0, k1), 2.0 * h / 3.0, k4), h / 6.0, k5)
+    twice = moved(moved((0.0, 0.0, 0.0, 0.0), 2.0, k1), -9.0, k3)
+    return after, moved((0.0, 0.0, 0.0, 0.0), h / 30.0, moved(moved(twice, 8.0, k4), -1.0, k5))
 
 
 @kernel
@@ -75,25 +77,23 @@ def one_step(method, p, drives, h, y):
         return verlet_step(p, drives, h, y)
     if method == RUNGE_KUTTA_4:
         return runge_kutta_4_step(p, drives, h, y)
-    return merson_step(p, drives, h, y)
+    return merson_step(p, BY_POSITION, drives, h, y)[0]
 
 
 @kernel
-def run_fixed(method, p, start, t, steps, strobes, largest):
-    """Run forcing cycles of `steps` equal steps from the state `start` at the time t.
+def run_fixed(method, p, start, t, steps, largest):
+    """Fill `largest` with the largest |Z1| of each cycle of `steps` equal steps, NaN if diverged.
 
-    `strobes` (n, 4) and `largest` (n,) receive the state at the end of each cycle and its largest
-    |Z1|, NaN from a divergence on. Return the number of cycles completed.
+    `start` is the state at the time t.
     """
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
-    strobes[:] = np.nan
     largest[:] = np.nan
     # The forcing is the same in each cycle. Computing it in each cycle would double the run time.
     drives = np.empty((steps, 4))
     for i in range(steps):
         drives[i, 0], drives[i, 1], drives[i, 2], drives[i, 3] = forcing(p, t + i * h, h)
-    for k in range(len(strobes)):
+    for k in range(len(largest)):
         most = 0.0
         for i in range(steps):
             before = y
@@ -101,10 +101,8 @@ def run_fixed(method, p, start, t, steps, strobes, largest):
             y = one_step(method, p, now, h, before)
             most = max(most, largest_within(before[0], before[1], y[0], y[1], h))
         if not abs(y[0]) + abs(y[1]) + abs(y[3]) < BEYOND:
-            return k
-        strobes[k, 0], strobes[k, 1], strobes[k, 2], strobes[k, 3] = y
+            return
         largest[k] = most
-    return len(strobes)
 
 
 @kernel
@@ -127,14 +125,8 @@ class FixedStep(Integrator):
         self.compared, self.stability_limit = compared, stability_limit
 
     def largest_displacements(self, p, start, begin, periods, steps):
-        strobes, largest = np.full((periods, 4), np.nan), np.full(periods, np.nan)
-        at_once = max(STEPS_AT_ONCE // int(steps), 1)
-        for first in range(0, periods, at_once):
-            part = slice(first, first + at_once)
-            done = run_fixed(self.number, p, start, begin, steps, strobes[part], largest[part])
-            if done < len(strobes[part]):
-                break
-            start = strobes[part][-1]
+        largest = np.empty(periods)
+        run_fixed(self.number, p, start, begin, steps, largest)
         return largest
 
     def flight(self, p, state, end, resolution, time):
@@ -156,14 +148,8 @@ class FixedStep(Integrator):
 
 
 # The stability limit z = h omega solves |R(i z)| = 1, with R the factor of a step for y' = z y/h.
+BOTH = "stable_steps", "missed_contacts"
 INTEGRATORS = (
-    FixedStep(VERLET, "verlet", "velocity Verlet", 1, ("stable_steps",), 2.0),
-    FixedStep(
-        RUNGE_KUTTA_4,
-        "runge_kutta_4",
-        "Runge-Kutta 4",
-        2,
-        ("stable_steps", "missed_contacts"),
-        math.sqrt(8.0),
-    ),
+    FixedStep(VERLET, "verlet", "velocity Verlet", 1, BOTH[:1], 2.0),
+    FixedStep(RUNGE_KUTTA_4, "runge_kutta_4", "Runge-Kutta 4", 2, BOTH, math.sqrt(8.0)),
 )
