@@ -29,10 +29,10 @@ from impact_damper.plot.style import save_figure
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
         "sizes": (1, 16, 64, 256, 1024), "shared": 65536, "wide": 1000, "random": 40,
         "settled": 2000,
-        "design": {"frequencies": 41, "candidates": 12, "starts": 96}}  # fmt: skip
+        "design": ({"frequencies": 41, "candidates": 12, "starts": 96}, 0.95)}  # fmt: skip
 QUICK = {"starts": 16, "rounds": 3, "few": 1, "exponents": (5, 9), "motions": 2,
          "sizes": (1, 16), "shared": 256, "wide": 20, "random": 1, "settled": 64,
-         "design": {"frequencies": 3, "candidates": 4, "starts": 16, "share": 0.8}}  # fmt: skip
+         "design": ({"frequencies": 3, "candidates": 4, "starts": 16}, 0.8)}  # fmt: skip
 RUN_FIRST = "no timings of the pipeline in {}: run `make reproduce` first"
 
 
@@ -91,7 +91,7 @@ def search(write, amount):
 
 def time_designs(write, amount):
     """Measure the times of the steps of designs."""
-    write("design", design.table(amount["design"]), how=design.HOW)
+    write("design", design.table(*amount["design"]), how=design.HOW)
 
 
 def settle(write, amount):

@@ -28,7 +28,7 @@ def cpu_seconds():
     return used.ru_utime + used.ru_stime
 
 
-def steps_of(name, size, workers):
+def steps_of(name, size, share, workers):
     """Return the seconds of each step of a design, keyed by step, and the CPU seconds of all."""
     machine, band, mass = DESIGNS[name]
     with tempfile.TemporaryDirectory() as folder:
@@ -38,10 +38,10 @@ def steps_of(name, size, workers):
             mass=mass,
             band=band,
             restitution=0.7,
-            contact_stiffness=2e7,
-            workers=workers,
+            contact=2e7,
+            share=share,
+            effort=idm.Effort(**size, workers=workers),
             folder=folder,
-            **size,
         )
         used = cpu_seconds() - used
         ends = sorted((path.stat().st_mtime, path.stem) for path in Path(folder).glob("*.nc"))
@@ -51,21 +51,16 @@ def steps_of(name, size, workers):
     return seconds, used
 
 
-def table(size, workers=2):
+def table(size, share=0.95, workers=2):
     """Return the seconds and the share of each step of all designs.
 
-    Parameters
-    ----------
-    size : dict
-        `frequencies`, `candidates`, `starts` and `share` of `design_damper`.
-    workers : int
-        Threads.
+    `size` are arguments of `Effort`, and `share` is that of `design_damper`.
     """
     # A small design first, which loads all modules and kernels.
-    steps_of("linear", {"frequencies": 3, "candidates": 4, "starts": 16, "share": 0.8}, 1)
+    steps_of("linear", {"frequencies": 3, "candidates": 4, "starts": 16}, 0.8, 1)
     rows = []
     for name in DESIGNS:
-        seconds, used = steps_of(name, size, workers)
+        seconds, used = steps_of(name, size, share, workers)
         whole = sum(seconds.values())
         print(f"  {name}: {whole:.1f} s, {used:.1f} CPU s", flush=True)
         for step, value in seconds.items():

@@ -26,18 +26,7 @@ IMPACTING = ["design", "inelastic", "large"]
 
 
 class KnownOrbit(NamedTuple):
-    """An orbit of period 1.
-
-    Attributes
-    ----------
-    parameters : numpy.ndarray
-        Packed parameters, see `system.packed`.
-    state : numpy.ndarray, shape (4,)
-        Z1, Z1', Z2, Z2' at the strobe, W T = pi/2.
-    damper : Damper or None
-    frequency : float
-        Forcing frequency W.
-    """
+    """An orbit of period 1: packed parameters, and its state (4,) at the strobe, W T = pi/2."""
 
     parameters: np.ndarray
     state: np.ndarray

@@ -31,18 +31,10 @@ CONTACTS_OFF, SURE = 0.1, 2
 class ComparisonScene(NamedTuple):
     """A motion on which methods are compared.
 
-    Attributes
-    ----------
-    state : sequence of float
-        Z1, Z1', Z2, Z2' at W T = pi/2.
-    periods : int
-        Forcing cycles of a run.
-    motion : str
-        "steady" for a periodic motion of one forcing cycle, which some models compute without a
-        run; "transient"; or "chaotic".
-    accuracy : dict
-        "quantity", a name in `labels.ERRORS`, or in `labels.STATISTICS` for a chaotic motion; and
-        "within", the largest error of it that a user accepts.
+    `state` is the state at W T = pi/2 and `periods` the forcing cycles of a run. `motion` is
+    "steady" for a periodic motion of one cycle, "transient" or "chaotic". `accuracy` has a
+    "quantity", a name in `labels.ERRORS`, or in `labels.STATISTICS` for a chaotic motion, and
+    "within", the largest error that a user accepts.
     """
 
     name: str
@@ -106,30 +98,10 @@ def accuracy(
 
 
 def error_against_work(scene, settings, stored=None):
-    """Return errors and work of each method on a test case (scene).
+    """Return a dataset with errors and work of each method on a test case (scene), for each `run`.
 
-    Parameters
-    ----------
-    scene : ComparisonScene
-    settings : dict
-        For each of `labels.TOLERANCE_KEYS` a list of decreasing tolerances; `orders`: further pairs
-        of orders of the Taylor series; `evaluations`: evaluations of the rate per forcing cycle
-        after which a run of a slow integrator is given up; `harmonics`: highest harmonic of
-        harmonic balance; `batch`: forcing cycles of a batch (`averages`); `scipy_periods`: forcing
-        cycles for which slow integrators run a chaotic motion.
-    stored : dict or None
-        Stored reference of this test case; not needed if the motion is chaotic.
-
-    Returns
-    -------
-    xarray.Dataset
-        For each `run`: method, setting, status, work, and errors, or averages if the motion is
-        chaotic.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is not of its kind or out of range.
+    `settings` are those of the section `comparison` of the configuration, `stored` the stored
+    reference of the scene, which a chaotic motion does not need.
     """
     scene.check()
     if scene.motion == "chaotic":
@@ -201,13 +173,10 @@ def _errors(scene, settings, reference):
                 wrong if ended else np.nan,
             )
         )
-    errors = dict(zip(ERRORS, np.array(errors, float).T, strict=True))
-    return _named(scene, rows, status, errors) | {
-        "amplitude_error": errors["amplitude"],
-        "state_error": errors["state"],
-        "contact_time_error": errors["contact_time"],
-        "contact_excess": errors["contacts"],
-    }
+    errors = np.array(errors, float).T
+    names = "amplitude_error", "state_error", "contact_time_error", "contact_excess"
+    judged = dict(zip(ERRORS, errors, strict=True))
+    return _named(scene, rows, status, judged) | dict(zip(names, errors, strict=True))
 
 
 def _status(ended, wrong):

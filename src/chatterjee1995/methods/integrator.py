@@ -46,24 +46,12 @@ class Integrator:
     `begin`; `periods`, forcing cycles; `locate`, whether steps end where contacts begin and end.
     `resolution` is a tolerance, or with fixed steps the number of steps in a cycle.
 
-    Attributes
-    ----------
-    name, title : str
-    place : int
-        Place among the integrators in figures and tables.
-    compared : tuple of str
-        Stages that compare it. REQUIRED names the method that each stage calls.
-    fixed : bool
-        Whether it takes equal steps in place of a tolerance.
-    located : tuple of bool
-        For the stage `accuracy`: the values of `locate` with which it runs.
-    tolerances : str
-        For the stage `accuracy`: its list of tolerances, a name in `labels.TOLERANCE_KEYS`.
-    slow : bool
-        Whether the stage `accuracy` limits the evaluations and the length of its runs.
-    stability_limit : float
-        For the stage `stable_steps`: the largest product of step and frequency with which the
-        motion of an undamped oscillator does not grow.
+    `place` is the place among the integrators in figures and tables. `compared` are the stages that
+    compare it; REQUIRED names the method that each stage calls. `fixed`: it takes equal steps in
+    place of a tolerance. For the stage `accuracy`: `located`, the values of `locate` with which it
+    runs; `tolerances`, a name in `labels.TOLERANCE_KEYS`; `slow`, whether evaluations and length of
+    its runs are limited. For the stage `stable_steps`: `stability_limit`, the largest product of
+    step and frequency with which the motion of an undamped oscillator does not grow.
     """
 
     REQUIRED: ClassVar = {

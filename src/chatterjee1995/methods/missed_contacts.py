@@ -29,22 +29,9 @@ def missed_contacts(
 ):
     """Return the numbers of contacts near grazing that integrators find and miss.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    frequency : float
-        W.
-    passages : int
-        Number of random passages, the same for each integrator and tolerance.
-    radius : float
-        Radius of the ball from which the states of the passages at T = 0 are drawn.
-    depths : sequence of float
-        Increasing distances by which the wall is nearer than the largest |Z2|, or farther away.
-    tolerances : sequence of float
-        Increasing tolerances of integrators with step control.
-    steps : sequence of int
-        Increasing numbers of steps per cycle of the other integrators, as many as tolerances.
-    seed : int
+    Each of the `passages` starts in a ball of the `radius`. Walls are nearer than the largest |Z2|,
+    or farther away, by the increasing `depths`. Integrators run with the increasing `tolerances`,
+    or with as many increasing numbers of `steps` in a cycle.
 
     Returns
     -------
@@ -57,11 +44,6 @@ def missed_contacts(
         median error of the largest |Z2|. `expected_unseen`: share expected to be unseen if fixed
         steps h end at random times, the mean of max(0, 1 - b/h), with the time
         b = 2 sqrt(2 depth/|Z2''|) that the motion spends beyond the wall.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is not of its kind or out of range.
     """
     check_count("passages", passages, **RUNS_RANGE)
     check_number("radius", radius, **RADIUS_RANGE)
@@ -91,16 +73,11 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return the numbers of contacts that an integrator finds and misses without walls in `p`.
+    """Return counts of contacts and the error of an integrator without walls in `p`.
 
-    Returns
-    -------
-    touching : array of int, shape (depth, outcome)
-        Number of passages with each of OUTCOMES if the wall is nearer by the depth.
-    spurious : array of int, shape (depth,)
-        Number of contacts reported if the wall is farther away by the depth.
-    error : float
-        Median error of the largest |Z2|, NaN if all runs failed.
+    The counts (depth, outcome) are of passages whose wall is nearer by the depth, and (depth,) of
+    contacts reported although the wall is farther away. The error is the median error of the
+    largest |Z2|, NaN if all runs failed.
     """
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)

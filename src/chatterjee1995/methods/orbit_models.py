@@ -45,9 +45,8 @@ REACH = 10.0
 class Model(NamedTuple):
     """A steady motion computed by a model.
 
-    `status` is "ended", "failed" or "not_applicable"; `operations` the work; `state` the state at
-    W T = pi/2; `contact_phases` the phases W T in [0, 2 pi) at which contacts begin; `displacement`
-    max |Z1|.
+    `status` is "ended", "failed" or "not_applicable"; `state` is at W T = pi/2; `contact_phases`
+    are the phases W T in [0, 2 pi) at which contacts begin; `displacement` is max |Z1|.
     """
 
     status: str

@@ -33,9 +33,8 @@ class Passage(NamedTuple):
 def largest_of_flight(p, y, t, end):
     """Return the time and value of the largest |Z2| of a flight over [t, end], and |Z2''| there.
 
-    Each step of the Taylor series is divided into PIECES parts. In a part in which Z2' changes its
-    sign, bisection finds the extremum to rounding. If |Z2| is largest at an end of the flight,
-    0 is returned in place of |Z2''|. y, the state at t, is replaced by the state at the end.
+    In each of PIECES parts of a step bisection finds an extremum. If |Z2| is largest at an end of
+    the flight, 0 takes the place of |Z2''|. y becomes the state at the end.
     """
     work = workspace()
     flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
@@ -81,10 +80,8 @@ def without_walls(p):
 def draw_passages(p, count, radius, deepest, seed) -> list:
     """Return `count` random passages over one forcing cycle.
 
-    The initial states are uniform in a ball of the given radius. A flight is kept as a passage if
-    |Z2| at its beginning and at its end is at least `deepest` below the largest |Z2|. Then the
-    largest |Z2| is an extremum, and a wall that is nearer by up to `deepest` is not touched at the
-    beginning and at the end.
+    Initial states are uniform in a ball. A flight is a passage if |Z2| at both ends is at least
+    `deepest` below its largest value, so that walls nearer by this are not touched there.
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)

@@ -67,20 +67,10 @@ def rigid_map(p, restitution, y, tolerance):
 
     The dashpot in p must be 0, and the loose mass between the walls. r1 has no effect.
 
-    Returns
-    -------
-    state, matrix : array, shapes (4,) and (4, 4)
-        State after the cycle, and its derivative with respect to `y`.
-    impacts : int
-        Number of impacts. If it is MOST_IMPACTS, the integration stopped before the end of the
-        cycle, and the other return values are invalid.
-    speed : float
-        Smallest |Z2'| just before an impact, infinite without impacts.
-    first : tuple of two floats
-        |Z2'| and the acceleration of Z1 just before the first impact, the acceleration positive
-        towards the wall that is hit; NaN without impacts.
-    largest : float
-        Largest |Z1|.
+    Return the state after the cycle, its derivative with respect to y, the number of impacts (if it
+    is MOST_IMPACTS, the integration stopped early and the rest is invalid), the smallest |Z2'| just
+    before an impact (infinite without impacts), |Z2'| and the acceleration of Z1 towards the wall
+    just before the first impact (NaN without), and the largest |Z1|.
     """
     state = y.copy()
     tangents = np.eye(4)

@@ -119,21 +119,9 @@ def _slope(stiffnesses, steps):
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
     """Return the largest steps with which fixed-step methods keep the quiet motion.
 
-    Parameters
-    ----------
-    oscillator : Oscillator
-    damper : Damper
-        The exact orbits at other stiffnesses are followed from the quiet motion with this damper.
-    frequency : float
-        W.
-    stiffnesses : sequence of float
-        Increasing values of r1.
-    scaled_steps : sequence of float
-        Increasing values of h omega_c; the number of steps in a forcing cycle is rounded up.
-    most_steps : int
-        Runs that would take more steps than this in a forcing cycle are left out.
-    periods : int
-        Forcing cycles of a run.
+    The exact orbits at the increasing `stiffnesses` are followed from the quiet motion of `damper`.
+    `scaled_steps` are increasing values of h omega_c. Runs of `periods` forcing cycles that would
+    take more than `most_steps` steps in a cycle are left out.
 
     Returns
     -------
@@ -149,8 +137,6 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     ------
     ArithmeticError
         If there is no quiet motion.
-    TypeError, ValueError
-        If an argument is not of its kind or out of range.
     """
     check_damper(damper)
     check_count("periods", periods, **PERIODS_RANGE)
@@ -197,16 +183,10 @@ def _deviations(method, orbits, counts, tested, periods):
 
 def _step_data(deviations, tested, sizes, stiffnesses):
     """Return the largest steps that keep each accuracy, and their slopes as functions of r1."""
-    held = np.stack([deviations <= accuracy for accuracy in ACCURACIES], axis=-1)
-    stable = np.array(
-        [
-            [
-                [_largest_step(each, tested[i], sizes[i]) for each in of_method[i].T]
-                for i in range(len(stiffnesses))
-            ]
-            for of_method in held
-        ]
-    )
+    shape = len(deviations), len(stiffnesses), len(ACCURACIES)
+    stable = np.empty(shape)
+    for m, i, k in np.ndindex(shape):
+        stable[m, i, k] = _largest_step(deviations[m, i] <= ACCURACIES[k], tested[i], sizes[i])
     slopes = np.array([[_slope(stiffnesses, row) for row in each.T] for each in stable])
     return {
         "stable_step": stable,

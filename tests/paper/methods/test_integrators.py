@@ -10,8 +10,8 @@ from helpers.sampling import sample
 from numpy.testing import assert_allclose
 
 from chatterjee1995.methods.integrator import Integrator
-from chatterjee1995.methods.integrators import fixed_steps, integrators, runs_of_accuracy
-from chatterjee1995.methods.labels import TOLERANCE_KEYS, method_in_words
+from chatterjee1995.methods.integrators import fixed_steps, integrators
+from chatterjee1995.methods.labels import TOLERANCE_KEYS
 from impact_damper.model.packed import CLEARANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions import strobe_map
@@ -42,13 +42,6 @@ def test_an_integrator_has_what_its_stages_call(name):
         known = integrator.tolerances in TOLERANCE_KEYS
         assert known, f"{where}: {name} has no tolerances, one of {', '.join(TOLERANCE_KEYS)}"
         assert integrator.tolerances in configurations.read()["comparison"]
-
-
-def test_runs_are_named_by_what_is_done_at_contacts():
-    assert method_in_words("merson_kink") == "Merson, kink"
-    assert method_in_words("LSODA_located") == "LSODA, located"
-    assert method_in_words("taylor_12_15") == "Taylor, orders 12 and 15"
-    assert [runs_of_accuracy()[label][1] for label in ("taylor", "merson_kink")] == [True, False]
 
 
 def fixed_end(method, p, y, steps, periods, t=0.0):

@@ -102,22 +102,6 @@ def test_scipy_events_find_the_contacts_that_ends_of_steps_show(method, passages
         assert_allclose([len(times) > 0 for times in run.t_events], seen)
 
 
-@pytest.mark.parametrize("method", ["RK45", "DOP853"])
-def test_scipy_misses_on_a_sine(method):
-    """In ten turns sin t crosses the level 1 - depth twenty times; SciPy finds fewer crossings."""
-    for depth, most in ((1e-3, 10), (1e-6, 2)):
-        run = solve_ivp(
-            lambda t, y: (y[1], -y[0]),
-            (0, 20 * math.pi),
-            (0.0, 1.0),
-            method,
-            events=lambda t, y, depth=depth: 1 - depth - y[0],
-            rtol=1e-6,
-            atol=1e-6,
-        )
-        assert len(run.t_events[0]) <= most
-
-
 @pytest.mark.thorough
 def test_fixed_steps_miss_contacts_with_the_expected_probability(counted):
     """A step h ends beyond the wall with the probability (time beyond the wall)/h."""

@@ -42,12 +42,6 @@ def test_largest_step_needs_all_smaller_ones():
     assert np.isnan(steps._largest_step(held, np.ones(9, bool), sizes))
 
 
-def test_slope_of_a_power_law():
-    r1 = np.geomspace(10, 1e6, 11)
-    slope, error = steps._slope(r1, 0.3 / np.sqrt(r1))
-    assert_allclose([slope, error], [0.5, 0], atol=1e-12)
-
-
 def test_a_deviation_is_the_largest_of_a_run():
     damper = Damper(0.25, 1.0, 0.75)
     given = dict(stiffnesses=[100.0, 1000.0], scaled_steps=np.geomspace(0.02, 4, 9), periods=5)

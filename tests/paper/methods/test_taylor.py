@@ -8,7 +8,6 @@ from helpers.known_orbits import DESIGN, INELASTIC, PAPER
 from numpy.testing import assert_allclose
 
 from chatterjee1995.methods.integrators import taylor
-from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.model.packed import pack
 from impact_damper.motions import records, traces
 from impact_damper.motions.strobe_map import strobe_time
@@ -63,21 +62,3 @@ def test_a_contact_at_the_start_counts_and_a_run_that_overflows_fails():
     assert found.contact_times[0] == strobe_time(p)
     _, lost = run(DESIGN, np.array([1e200, 0.0, 0.0, 1.0]))
     assert lost.status == "failed" and np.isnan(lost.displacement)
-
-
-@pytest.mark.parametrize("kind", [taylor.FLIGHT, taylor.MEETING, taylor.CONTACT])
-def test_a_step_costs_what_the_recurrence_does(kind):
-    # With the order N of the Taylor series, the product Z1 times Z1^2 takes about N^2/2 products
-    # and the square Z1^2, by symmetry, N^2/8, each with as many sums. All other terms, and the
-    # search for the contact, grow linearly with N.
-    order = CONTACT_ORDER if kind == taylor.CONTACT else FLIGHT_ORDER
-    assert 1.0 < taylor.step_work(kind) / (1.25 * order**2 + 20 * order) < 2.0
-
-
-def test_steps_are_counted_by_kind():
-    p, found = run(DESIGN)
-    rows, _ = taylor.all_steps(p, START, strobe_time(p), PERIODS, 1e-11)
-    counts = taylor.counted(rows)
-    assert sum(counts) == len(rows)
-    assert counts[taylor.MEETING] == len(found.contact_times)
-    assert_allclose(rows[1:, 0], (rows[:, 0] + rows[:, 1])[:-1], rtol=1e-14)

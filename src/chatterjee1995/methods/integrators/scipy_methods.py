@@ -37,10 +37,9 @@ _event.terminal, _event.direction = True, -1
 def parts(method, p, start, t, end, tolerance, locate, left):
     """Yield the results of `solve_ivp` for successive parts of a run.
 
-    With `locate` the beginning or end of a contact is an event, at which a part ends and the next
-    part begins. Without, the run is one part, and the position Z2 determines the wall in contact.
-    A method that begins at a wall with a large tolerance can step over the end of the contact and
-    use up all evaluations (OverflowError).
+    With `locate` a part ends where a contact begins or ends; without, the run is one part. A method
+    that begins at a wall with a large tolerance can step over the end of the contact and use up all
+    evaluations (OverflowError).
     """
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1

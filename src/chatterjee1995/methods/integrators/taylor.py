@@ -34,11 +34,10 @@ PARTS = 8
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Fill `rows` with steps from t to `end`, or until no row is left.
+    """Fill `rows` with steps of `steps_of` from the state y at t to `end`, or until no row is left.
 
-    `steps` is the result of `steps_of`, and `side` the wall in contact at t. y, the state at t, is
-    replaced by the state after the steps. Coefficients that do not fit into the rows are omitted.
-    Return the number of steps, and the time and the wall in contact after them.
+    Return the number of steps, and the time and the wall in contact after them; y becomes the state
+    there. `side` is the wall in contact at t. Coefficients that do not fit into a row are omitted.
     """
     work = aligned(steps[3])
     a, count = pointer(work), 0
@@ -62,10 +61,9 @@ def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order
 
 
 def steps_of(orders):
-    """Return the addresses of three compiled functions for these orders, and their workspace.
+    """Return the addresses of three kernels, and the size of their workspace.
 
-    The functions take a step in flight, take a step in contact, and compute the series that
-    are the same in all steps.
+    They take a step in flight, take one in contact, and compute the series shared by all steps.
     """
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.constant_series
@@ -122,15 +120,12 @@ def counted(rows):
 
 
 def work_of_steps(counts, orders=ORDERS, tangents=False):
-    """Return the floating-point operations of steps, from their number of each kind.
-
-    With `tangents` the steps also integrate four solutions of the variational equations.
-    """
+    """Return the floating-point operations of steps, from their number of each kind."""
     return sum(count * step_work(kind, orders, tangents) for kind, count in enumerate(counts))
 
 
 def step_work(kind, orders=ORDERS, tangents=False):
-    """Return the floating-point operations of a step of a kind.
+    """Return the floating-point operations of a step, with or without variational equations.
 
     These polynomials in the order n agree within 1 % with the operations in the generated source of
     the steps, an elementary function counted as 20. They leave out the search for a contact that a
