@@ -14,8 +14,6 @@ from impact_damper.model.packed import (
     INVERSE_MASS_RATIO,
 )
 
-# Value of `side` with which the position Z2 determines the wall in contact.
-BY_POSITION = 2
 # Floating-point operations of an evaluation of the rate: 23, and a cosine that counts as 20.
 RATE_OPERATIONS = 43
 
@@ -41,7 +39,7 @@ def ahead(p, side, z):
 
 @kernel
 def rate(p, side, t, y):
-    """Return the rate at the time t; `side` is the wall in contact, 0 in flight, or BY_POSITION."""
+    """Return the rate at the time t in contact with the wall `side`, -1 or 1, or 0 in flight."""
     return rate_under(p, side, external_force(p, t), y)
 
 
@@ -49,11 +47,15 @@ def rate(p, side, t, y):
 def rate_under(p, side, drive, y):
     """Return the rate under the external force `drive`."""
     x, v, z, w = y
-    if side == BY_POSITION:
-        side = wall_at(p, z)
     force = p[CONTACT_STIFFNESS] * (z - side * p[CLEARANCE]) + p[DASHPOT] * w if side != 0 else 0.0
     a = drive - p[DAMPING] * v - spring(p, x) - force
     return v, a, w, a - p[INVERSE_MASS_RATIO] * force
+
+
+@kernel_only
+def rate_by_position(p, drive, y):
+    """Return the rate with contact wherever |Z2| exceeds the clearance."""
+    return rate_under(p, wall_at(p, y[2]), drive, y)
 
 
 @kernel

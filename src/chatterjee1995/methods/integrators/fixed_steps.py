@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from chatterjee1995.methods.equations import BY_POSITION, largest_within, moved, rate_under
+from chatterjee1995.methods.equations import largest_within, moved, rate_by_position
 from chatterjee1995.methods.integrator import Integrator
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import external_force
@@ -35,39 +35,34 @@ def verlet_step(p, drives, h, y):
 
     Forces at the end of the step are computed with a speed extrapolated linearly.
     """
-    k1 = rate_under(p, BY_POSITION, drives[0], y)
+    k1 = rate_by_position(p, drives[0], y)
     x = y[0] + h * (y[1] + 0.5 * h * k1[1])
     z = y[2] + h * (y[3] + 0.5 * h * k1[3])
-    k2 = rate_under(p, BY_POSITION, drives[3], (x, y[1] + h * k1[1], z, y[3] + h * k1[3]))
+    k2 = rate_by_position(p, drives[3], (x, y[1] + h * k1[1], z, y[3] + h * k1[3]))
     return x, y[1] + 0.5 * h * (k1[1] + k2[1]), z, y[3] + 0.5 * h * (k1[3] + k2[3])
 
 
 @kernel_only
 def runge_kutta_4_step(p, drives, h, y):
     """Return the state after a step of the classical Runge-Kutta method, order 4."""
-    k1 = rate_under(p, BY_POSITION, drives[0], y)
-    k2 = rate_under(p, BY_POSITION, drives[2], moved(y, 0.5 * h, k1))
-    k3 = rate_under(p, BY_POSITION, drives[2], moved(y, 0.5 * h, k2))
-    k4 = rate_under(p, BY_POSITION, drives[3], moved(y, h, k3))
+    k1 = rate_by_position(p, drives[0], y)
+    k2 = rate_by_position(p, drives[2], moved(y, 0.5 * h, k1))
+    k3 = rate_by_position(p, drives[2], moved(y, 0.5 * h, k2))
+    k4 = rate_by_position(p, drives[3], moved(y, h, k3))
     y = moved(moved(y, h / 6.0, k1), h / 3.0, k2)
     return moved(moved(y, h / 3.0, k3), h / 6.0, k4)
 
 
-@kernel
-def merson_step(p, side, drives, h, y):
-    """Return the state after a step of Runge-Kutta-Merson, order 4, and its estimated error.
-
-    For linear equations the estimate is the leading term of the error.
-    """
-    k1 = rate_under(p, side, drives[0], y)
-    k2 = rate_under(p, side, drives[1], moved(y, h / 3.0, k1))
-    k3 = rate_under(p, side, drives[1], moved(moved(y, h / 6.0, k1), h / 6.0, k2))
-    k4 = rate_under(p, side, drives[2], moved(moved(y, h / 8.0, k1), 0.375 * h, k3))
-    last = moved(moved(moved(y, 0.5 * h, k1), -1.5 * h, k3), 2.0 * h, k4)
-    k5 = rate_under(p, side, drives[3], last)
-    after = moved(moved(moved(y, h / 6.0, k1), 2.0 * h / 3.0, k4), h / 6.0, k5)
-    twice = moved(moved((0.0, 0.0, 0.0, 0.0), 2.0, k1), -9.0, k3)
-    return after, moved((0.0, 0.0, 0.0, 0.0), h / 30.0, moved(moved(twice, 8.0, k4), -1.0, k5))
+@kernel_only
+def merson_step(p, drives, h, y):
+    """Return the state after a step of Runge-Kutta-Merson, order 4 with five evaluations."""
+    k1 = rate_by_position(p, drives[0], y)
+    k2 = rate_by_position(p, drives[1], moved(y, h / 3.0, k1))
+    k3 = rate_by_position(p, drives[1], moved(moved(y, h / 6.0, k1), h / 6.0, k2))
+    k4 = rate_by_position(p, drives[2], moved(moved(y, h / 8.0, k1), 0.375 * h, k3))
+    k5 = moved(moved(y, 0.5 * h, k1), -1.5 * h, k3)
+    k5 = rate_by_position(p, drives[3], moved(k5, 2.0 * h, k4))
+    return moved(moved(moved(y, h / 6.0, k1), 2.0 * h / 3.0, k4), h / 6.0, k5)
 
 
 @kernel
@@ -77,7 +72,7 @@ def one_step(method, p, drives, h, y):
         return verlet_step(p, drives, h, y)
     if method == RUNGE_KUTTA_4:
         return runge_kutta_4_step(p, drives, h, y)
-    return merson_step(p, BY_POSITION, drives, h, y)[0]
+    return merson_step(p, drives, h, y)
 
 
 @kernel

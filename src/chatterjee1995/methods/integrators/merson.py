@@ -1,21 +1,16 @@
 """Runge-Kutta-Merson with step control, the method of the paper, with or without located contacts.
 
-The estimated error stays below the tolerance times 1 + |y| in each component y.
+The estimated error, which for linear equations is the leading term of the error, stays below the
+tolerance times 1 + |y| in each component y.
 """
 
 import math
 
 import numpy as np
 
-from chatterjee1995.methods.equations import BY_POSITION, ahead
+from chatterjee1995.methods.equations import ahead, moved, rate, wall_at
 from chatterjee1995.methods.integrator import read_off, stopped
-from chatterjee1995.methods.integrators.fixed_steps import (
-    BEYOND,
-    MERSON,
-    FixedStep,
-    forcing,
-    merson_step,
-)
+from chatterjee1995.methods.integrators.fixed_steps import BEYOND, MERSON, FixedStep
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import side_of
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
@@ -34,13 +29,26 @@ FIRST = 1e-3
 
 
 @kernel
-def estimated_step(p, side, t, h, y, tolerance):
-    """Return the state after a step, and the ratio of its estimated error to the allowed error."""
-    after, errors = merson_step(p, side, forcing(p, t, h), h, y)
+def estimated_step(p, side, by_position, t, h, y, tolerance):
+    """Return the state after one step, and the ratio of its estimated error to the allowed error.
+
+    With `by_position` each evaluation of the rate determines the wall in contact from Z2, and
+    `side` is ignored.
+    """
+    k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
+    m = moved(y, h / 3.0, k1)
+    k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
+    m = moved(moved(y, h / 6.0, k1), h / 6.0, k2)
+    k3 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
+    m = moved(moved(y, h / 8.0, k1), 0.375 * h, k3)
+    k4 = rate(p, wall_at(p, m[2]) if by_position else side, t + 0.5 * h, m)
+    m = moved(moved(moved(y, 0.5 * h, k1), -1.5 * h, k3), 2.0 * h, k4)
+    k5 = rate(p, wall_at(p, m[2]) if by_position else side, t + h, m)
+    after = moved(moved(moved(y, h / 6.0, k1), 2.0 * h / 3.0, k4), h / 6.0, k5)
     ratio = 0.0
     for i in range(4):
-        allowed = tolerance * (1.0 + max(abs(y[i]), abs(after[i])))
-        ratio = max(ratio, abs(errors[i]) / allowed)
+        error = h / 30.0 * abs(2.0 * k1[i] - 9.0 * k3[i] + 8.0 * k4[i] - k5[i])
+        ratio = max(ratio, error / (tolerance * (1.0 + max(abs(y[i]), abs(after[i])))))
     return after, ratio
 
 
@@ -51,15 +59,16 @@ def located(p, side, t, h, y, tolerance):
     The event is the beginning or end of a contact within the step h. The step is halved until it
     ends before the event. Then the Illinois variant of regula falsi finds the event.
     """
-    low, high, tries = 0.5 * h, h, 2
-    state, _ = estimated_step(p, side, t, high, y, tolerance)
+    low, high = 0.5 * h, h
+    state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])
-    state, _ = estimated_step(p, side, t, low, y, tolerance)
+    state, _ = estimated_step(p, side, False, t, low, y, tolerance)
     before = ahead(p, side, state[2])
+    tries = 2
     while before <= 0.0 and low > SHORTEST:
         high, beyond = low, before
         low *= 0.5
-        state, _ = estimated_step(p, side, t, low, y, tolerance)
+        state, _ = estimated_step(p, side, False, t, low, y, tolerance)
         before = ahead(p, side, state[2])
         tries += 1
     length = low
@@ -67,7 +76,7 @@ def located(p, side, t, h, y, tolerance):
         if before <= 0.0 or high - low <= 1e-15 * (1.0 + t):
             break
         length = (low * beyond - high * before) / (beyond - before)
-        state, _ = estimated_step(p, side, t, length, y, tolerance)
+        state, _ = estimated_step(p, side, False, t, length, y, tolerance)
         tries += 1
         now = ahead(p, side, state[2])
         if abs(now) <= 1e-15 * p[CLEARANCE]:
@@ -85,20 +94,16 @@ def located(p, side, t, h, y, tolerance):
 def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
     """Integrate the state y in place from t to end, with a first step h.
 
-    `side` is the wall in contact at t, unused without `locate`, which ends steps where contacts
-    begin and end. `ends`, shape (m, 5), receives time and state at the ends of the first m steps.
-    Return the wall in contact at the end, the length for the next step, and the numbers of accepted
-    and of computed steps. Computed steps include rejected steps and trials of `located`. The number
-    of accepted steps is -1 if the tolerance could not be met, if more than MOST_STEPS steps were
-    needed, or if the run diverged.
+    `side` is the wall in contact at t, unused without `locate`. `ends`, shape (m, 5), receives time
+    and state at the ends of the first m steps. Return the wall in contact at the end, the length
+    for the next step, and the numbers of accepted steps, -1 if the run failed or diverged, and of
+    computed steps, with those rejected and the trials of `located`.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, tries = 0, 0
     while t < end:
         length = min(h, end - t)
-        after, ratio = estimated_step(
-            p, side if locate else BY_POSITION, t, length, state, tolerance
-        )
+        after, ratio = estimated_step(p, side, not locate, t, length, state, tolerance)
         tries += 1
         factor = 0.9 * (ratio + 1e-10) ** -0.2
         if not ratio <= 1.0:
