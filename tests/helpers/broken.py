@@ -11,24 +11,13 @@ from chatterjee1995.variables import AXES as STUDY_AXES
 from helpers import configurations
 from helpers.running import ROOT
 
-# As a value: the key is removed. As the value to be shown: the message shows no value.
 GONE = object()
 # Keys with whole numbers, in sections that also have other values.
-WHOLE = {
-    "starts",
-    "sweep_starts",
-    "scan_starts",
-    "study_starts",
-    "chunks",
-    "longest_hold",
-    "lifetime",
-    "highest",
-    "candidates",
-}
-WHOLE |= {"highest_cold", "periods", "passages", "points", "most_steps"}
-WHOLE |= {"period", "scipy_every"}
+WHOLE = {"starts", "sweep_starts", "scan_starts", "study_starts", "chunks", "longest_hold"}
+WHOLE |= {"highest_cold", "period"}
+WHOLE |= {"lifetime", "highest", "candidates", "periods", "passages", "points", "most_steps"}
 # Keys of numbers that may be zero.
-ZERO_ALLOWED = {"seed", "linear_frequency", "highest_cold", "scipy_every", "within"}
+ZERO_ALLOWED = {"seed", "linear_frequency", "highest_cold", "within"}
 
 
 def small_configuration():
@@ -42,15 +31,10 @@ SMALL = small_configuration()
 
 
 class Broken(NamedTuple):
-    """A change that makes the small configuration wrong.
+    """A change that makes the small configuration wrong: a value at a path of keys.
 
-    Attributes
-    ----------
-    place, value
-        Path of keys, and the value that is set there. The value GONE removes the key.
-    told, shown
-        Path of keys and value that the message must name. If `shown` is GONE, the message names no
-        value.
+    The message must name the path `told` and the value `shown`. As a value GONE removes the key; as
+    `shown` it says that the message names no value.
     """
 
     place: tuple

@@ -24,15 +24,7 @@ def branches(*parts, folds=(), parameters):
     table = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     number = np.repeat(np.arange(len(parts)), [len(part["frequency"]) for part in parts])
     count = len(number)
-    place, value, size = (
-        (np.array(column) for column in zip(*folds, strict=True))
-        if folds
-        else (
-            np.empty(0, int),
-            np.empty(0),
-            np.empty(0),
-        )
-    )
+    place, value, size = np.reshape(folds, (-1, 3)).T
     data = {
         "followed_value": table["frequency"],
         "orbit_branch": number,
@@ -46,7 +38,7 @@ def branches(*parts, folds=(), parameters):
         "orbit_asymmetry": table["asymmetry"],
         "orbit_restitution": table["restitution"],
         "branch_period": np.array([part["period"][0] for part in parts]),
-        "event_branch": place,
+        "event_branch": place.astype(int),
         "event_kind": np.full(len(place), flag("event_kind", "fold")),
         "event_value": value,
         "event_displacement": size,

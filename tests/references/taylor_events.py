@@ -1,7 +1,7 @@
 """Motions by heyoka.py with terminal events, independent of the package's integrators (kernels).
 
 State and parameters are the same as for the kernels: (Z1, Z1', Z2, Z2') and the packed parameters
-of `system.packed.pack`.
+of `model.packed.pack`.
 """
 
 import math
@@ -28,37 +28,41 @@ class Run(NamedTuple):
     contacts: np.ndarray
 
 
+def systems_and_events():
+    """Return heyoka's equations and terminal events in flight (False) and in contact (True)."""
+    x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
+    *p, side = [heyoka.par[i] for i in range(packed.COUNT + 1)]
+    free = equation.flight(p, x, v, heyoka.cos(p[packed.FREQUENCY] * heyoka.time))
+    force = equation.contact(p, side, z, w)
+    clearance, inverse_mass = p[packed.CLEARANCE], p[packed.INVERSE_MASS_RATIO]
+    rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
+    entries = [
+        heyoka.t_event(z - clearance, direction=rising),
+        heyoka.t_event(z + clearance, direction=falling),
+    ]
+    separation = [heyoka.t_event(side * z - clearance, direction=falling)]
+    pushed = [(x, v), (v, free - force), (z, w), (w, free - force - inverse_mass * force)]
+    systems = {False: [(x, v), (v, free), (z, w), (w, free)], True: pushed}
+    return systems, {False: entries, True: separation}
+
+
 class Reference:
     """Integrator that switches between flight and contact at terminal events.
 
-    Parameters
-    ----------
-    longest : float
-        Longest step. Two runs with different limits verify that no contact is missed.
+    `longest` is the longest step. Two runs with different limits verify that no contact is missed.
     """
 
     def __init__(self, longest=math.inf):
-        x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
-        *p, side = [heyoka.par[i] for i in range(packed.COUNT + 1)]
-        free = equation.flight(p, x, v, heyoka.cos(p[packed.FREQUENCY] * heyoka.time))
-        force = equation.contact(p, side, z, w)
-        clearance, inverse_mass = p[packed.CLEARANCE], p[packed.INVERSE_MASS_RATIO]
-        rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
-        entries = [
-            heyoka.t_event(z - clearance, direction=rising),
-            heyoka.t_event(z + clearance, direction=falling),
-        ]
-        separation = [heyoka.t_event(side * z - clearance, direction=falling)]
-        pushed = [(x, v), (v, free - force), (z, w), (w, free - force - inverse_mass * force)]
         self.longest = longest
-        self.flight = heyoka.taylor_adaptive(
-            [(x, v), (v, free), (z, w), (w, free)],
-            np.zeros(4),
-            pars=np.zeros(PARAMETERS[False]),
-            t_events=entries,
-        )
-        self.contact = heyoka.taylor_adaptive(
-            pushed, np.zeros(4), pars=np.zeros(PARAMETERS[True]), t_events=separation
+        systems, events = systems_and_events()
+        self.flight, self.contact = (
+            heyoka.taylor_adaptive(
+                systems[touching],
+                np.zeros(4),
+                pars=np.zeros(PARAMETERS[touching]),
+                t_events=events[touching],
+            )
+            for touching in (False, True)
         )
 
     def _leg(self, p, side, state, t, end):

@@ -12,44 +12,26 @@ import math
 import heyoka
 import numpy as np
 
-from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY, INVERSE_MASS_RATIO
+from impact_damper.model.packed import CLEARANCE, COUNT
 from references import equation
-from references.taylor_events import BEYOND_ALL_MOTIONS, PARAMETERS
-
-
-def _fields():
-    """Return heyoka's equations in flight and in contact, and the variables of the events."""
-    x, v, z, w = heyoka.make_vars("x", "v", "z", "w")
-    *p, side = [heyoka.par[i] for i in range(COUNT + 1)]
-    free = equation.flight(p, x, v, heyoka.cos(p[FREQUENCY] * heyoka.time))
-    force, inverse_mass = equation.contact(p, side, z, w), p[INVERSE_MASS_RATIO]
-    flight = [(x, v), (v, free), (z, w), (w, free)]
-    contact = [(x, v), (v, free - force), (z, w), (w, free - force - inverse_mass * force)]
-    return flight, contact, z, p[CLEARANCE], side
+from references.taylor_events import BEYOND_ALL_MOTIONS, PARAMETERS, systems_and_events
 
 
 class Variational:
     """Integrator of states and tangents through contacts."""
 
     def __init__(self):
-        flight, contact, z, clearance, side = _fields()
-        rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
-        events = {
-            False: [
-                heyoka.t_event(z - clearance, direction=rising),
-                heyoka.t_event(z + clearance, direction=falling),
-            ],
-            True: [heyoka.t_event(side * z - clearance, direction=falling)],
-        }
-        self.integrators = {}
-        for touching, system in ((False, flight), (True, contact)):
-            self.integrators[touching] = heyoka.taylor_adaptive(
-                heyoka.var_ode_sys(system, heyoka.var_args.vars, order=1),
+        systems, events = systems_and_events()
+        self.integrators = {
+            touching: heyoka.taylor_adaptive(
+                heyoka.var_ode_sys(systems[touching], heyoka.var_args.vars, order=1),
                 np.concatenate([np.zeros(4), np.eye(4).ravel()]),
                 pars=np.zeros(PARAMETERS[touching]),
                 t_events=events[touching],
                 compact_mode=True,
             )
+            for touching in (False, True)
+        }
 
     def monodromy(self, p, state, begin, length):
         """Return the state after a time `length` and its derivative by the first state, (4, 4).
