@@ -36,27 +36,12 @@ STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
 class Pool(NamedTuple):
     """Trajectories that are being integrated, each to its own end time.
 
-    Attributes
-    ----------
-    numbers : array, shape (m, LENGTH)
-        Parameters, state, side, time, longest step and tolerance of each trajectory.
-    ends : array, shape (m,)
-        Times at which the trajectories stop.
-    farthest : array, shape (m,)
-        |Z1| beyond which a trajectory escapes (`equation.no_return`).
-    tangents : array, shape (m, 4)
-        Solution of the variational equations along each trajectory.
-    queues : array of int, shape (4, m)
-        Indices of the trajectories that wait for a step of each kind: in flight, in contact, in
-        flight with a tangent, in contact with a tangent.
-    waiting : array of int, shape (4,)
-        Lengths of the queues.
-    contacts : array of int, shape (m,)
-        Number of contacts begun since the last call of `send` for the trajectory.
-    held : array of int, shape (LANES,)
-        Index of the trajectory whose parameters are in each lane, or -1.
-    a, d : array
-        Rows of the step and of its tangents (`series.rows`).
+    `numbers` (m, LENGTH) are parameters, state, side, time, longest step and tolerance of each
+    trajectory, and `farthest` (m,) |Z1| beyond which it escapes (`equation.no_return`). `queues`
+    (4, m) are the indices of the trajectories that wait for a step of each kind, and `waiting` (4,)
+    the lengths of the queues. `contacts` (m,) counts contacts since the last call of `send`. `held`
+    (LANES,) is the index of the trajectory whose parameters are in each lane, or -1. `a` and `d`
+    are the rows of the step and of its tangents (`instances.rows`).
     """
 
     numbers: np.ndarray
@@ -219,19 +204,9 @@ def advance_some(pool, chosen, arrived):
 def advance(parameters, states, sides, starts, ends, tolerance, contacts):
     """Integrate trajectories, each from its start time to its end time.
 
-    Parameters
-    ----------
-    parameters : array, shape (m, packed.COUNT)
-    states : array, shape (m, 4)
-        Replaced by the states at the end times.
-    sides : array of int, shape (m,)
-        Wall in contact, -1 or 1, or 0 in flight; also replaced.
-    starts, ends : array, shape (m,)
-        Times; no end may be before its start.
-    tolerance : float
-        Largest local error of a step.
-    contacts : array of int, shape (m,)
-        Receives the numbers of contacts begun.
+    The `states` (m, 4) and the `sides`, the walls in contact (m,), are replaced by those at the
+    ends, and `contacts` (m,) receives the numbers of contacts begun. No end may be before its
+    start.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

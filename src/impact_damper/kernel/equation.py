@@ -2,37 +2,8 @@
 
     Z1'' = (F + U W^2 + V/W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
-This is equation (3) of the paper with four more parameters k3, F, U and V of `Oscillator`.
-
-Between events the motion is analytic, and each coefficient of its Taylor series follows from those
-before it. The coefficient of order k of a series x is x[k]. Let x be the series of Z1, q the series
-of the signed penetration Z2 -+ d0 during contact, e the series of the forcing, a = Z1'' and b =
-q''. Then by equations (3), (4) and (20) to (24)
-
-    g[k] = e[k] - omega_l^2 x[k] - k3 (x^3)[k] - h/k a[k-1]
-    f[k] = r1 q[k] + D/k b[k-1]
-    a[k] = g[k] - f[k]                   x[k+2] = a[k] / ((k+1) (k+2))
-    b[k] = g[k] - (1 + 1/rm) f[k]        q[k+2] = b[k] / ((k+1) (k+2))
-
-with the dashpot coefficient D. For k = 0 the last terms are h x[1] and D q[1]. f is the force of
-the wall, and g the part of the acceleration that does not come from the wall. In flight q and f are
-absent, and Z2 - Z1 is a linear function of time. The variational equations, for a small difference
-dx, dq between two motions, are the same equations with e = 0, with dx and dq in place of x and q,
-and with 3 k3 (x^2 dx)[k] in place of k3 (x^3)[k].
-
-A product of three coefficients x[i] x[j] x[m] with i + j + m = k has at most one factor of an order
-above n = k // 2. Let l be the polynomial that has the terms of x up to order n. Then
-
-    (x^3)[k] = (l^3)[k] + 3 sum over j > n of (x^2)[k-j] x[j].
-
-Each of the newest coefficients occurs in one product only, which is computed last. Names in the
-generated lines:
-
-    s0, s1, ...   coefficients of k3 l^2; a new term x[n] of l changes all of s[n], ..., s[2n]
-    z0, z1, ...   3 s0, 3 s1, ...
-    P0, P2, ...   pairs of neighbours (s0, s1), (s2, s3), ...; with one lane (a single trajectory)
-                  each pair is in one register
-    Z0, Z2, ...   3 P0, 3 P2, ...
+This is equation (3) of the paper with four more parameters k3, F, U and V of `Oscillator`. The
+recurrence and the names in the generated lines stand in docs/explanation/series.md.
 """
 
 import math

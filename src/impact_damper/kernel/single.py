@@ -105,29 +105,16 @@ def unload(y, a):
 
 @kernel
 def step(p, y, side, t, longest, tolerance, work):
-    """Integrate one step, which ends early at an event.
+    """Integrate one step of at most `longest` from the time t, which ends early at an event.
 
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-    y : array, shape (4,)
-        State, replaced by the state after the step.
-    side : int
-        Wall in contact.
-    t, longest, tolerance : float
-        Time at the beginning, longest step, and largest local error.
-    work : array
-        The result of `workspace()`. After the call it holds the series of Z1 over the step from
-        index X on and, after a step in contact, the series of Z2 -+ d0 from index Q on.
+    `side` is the wall in contact. The state y (4,) is replaced. After the call `work`, the result
+    of `workspace()`, holds the series of Z1 over the step from index X on and, after a step in
+    contact, the series of Z2 -+ d0 from index Q on. Return the length of the step and the wall in
+    contact.
 
-    Returns
-    -------
-    length : float
-        Time by which the state has advanced. For a motion that has escaped (`equation.no_return`)
-        it is `longest`, because steps on the way to infinity would become ever shorter. The state
-        is then the state at the escape, after the time `work[LENGTH]`.
-    side : int
-        Wall in contact after the step.
+    For a motion that has escaped (`equation.no_return`) the length is `longest`, because steps on
+    the way to infinity would become ever shorter. The state is then the state at the escape, after
+    the time `work[LENGTH]`.
     """
     a = pointer(work)
     load(p, y, side, tolerance, a)

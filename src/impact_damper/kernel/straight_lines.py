@@ -34,25 +34,18 @@ class NotStraightError(SyntaxError):
 def straight(function):
     """Decorate a function that executes the same lines of arithmetic for each lane.
 
-    Parameters
-    ----------
-    function : callable
-        Takes one or two arguments, pointers to float64. Its body is a loop `for i in range(lanes)`
-        over assignments such as `x = ...` and `x += ...`. The number of lanes is at most WIDTH or a
-        multiple of WIDTH.
+    The function takes one or two pointers to float64. Its body is a loop `for i in range(lanes)`,
+    with up to WIDTH lanes or a multiple of WIDTH, over assignments `x = ...` and `x += ...`:
 
-        - The left side is a name, `a[1 + i]`, or, with one lane, `a[1]`.
-        - The right side consists of names, constants, `a[1 + i]`, `a[1]` (the same for all lanes),
-          `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`,
-          which means `x if x > y else y`.
-        - `(x, y)` is a pair. Operators act on both of its values; a float combined with a pair is
-          used with both. A name can hold a pair, and `x, y = ...` unpacks it.
+    - The left side is a name, `a[1 + i]`, or, with one lane, `a[1]`.
+    - The right side consists of names, constants, `a[1 + i]`, `a[1]` (the same for all lanes),
+      `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`,
+      which means `x if x > y else y`.
+    - `(x, y)` is a pair. Operators act on both of its values; a float combined with a pair is
+      used with both. A name can hold a pair, and `x, y = ...` unpacks it.
 
-    Returns
-    -------
-    intrinsic
-        Callable in kernels. If the function has other lines, the compilation of a kernel that calls
-        it raises NotStraightError. The attribute `py_func` is `function`.
+    The result can be called in kernels; its attribute `py_func` is the function. Other
+    operations raise NotStraightError when a kernel that calls it is compiled.
     """
 
     def generate(context, builder, signature, arguments):
@@ -78,7 +71,8 @@ def write(function, builder, pointers):
     tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
     ast.increment_lineno(tree, code.co_firstlineno - 1)
     lines = _Lines(code.co_filename, builder)
-    loop, lanes = lines.loop_of(tree)
+    (loop,) = tree.body
+    lanes = loop.iter.args[0].value
     lines.arrays = dict(zip([each.arg for each in tree.args.args], pointers, strict=True))
     lines.counter = loop.target.id
     lines.lanes, lines.width = lanes, min(lanes, WIDTH)
@@ -90,7 +84,6 @@ def write(function, builder, pointers):
         lines.first = builder.mul(turn.index, step) if turn else None
         for statement in loop.body:
             lines.visit(statement)
-    lines.check_lanes_apart(loop)
 
 
 def is_product(node):
@@ -104,46 +97,15 @@ class _Lines(ast.NodeVisitor):
     def __init__(self, file, builder):
         self.file, self.builder = file, builder
         self.values = {}
-        self.stored, self.loaded = set(), set()
 
     def refuse(self, node, reason):
         """Raise NotStraightError with the line of a node and the reason."""
         raise NotStraightError(f"{self.file}, line {node.lineno}: {reason}: {ast.unparse(node)}")
 
-    def require(self, allowed, node, reason):
-        """Raise NotStraightError as `refuse` does, unless the node is allowed."""
-        if not allowed:
-            self.refuse(node, reason)
-
-    def loop_of(self, tree):
-        """Return the loop that is the whole body of a function, and the number of lanes."""
-        loop = tree.body[0]
-        match loop:
-            case ast.For(
-                target=ast.Name(),
-                iter=ast.Call(func=ast.Name("range"), args=[ast.Constant(int(lanes))], keywords=[]),
-                orelse=[],
-            ) if len(tree.body) == 1:
-                self.require(lanes > 0, loop, "no lanes")
-                whole = lanes <= WIDTH or lanes % WIDTH == 0
-                self.require(whole, loop, f"lanes are neither up to {WIDTH} nor a multiple of it")
-                return loop, lanes
-        self.refuse(tree, "the body is not one loop `for i in range(lanes)`")
-
-    def check_lanes_apart(self, loop):
-        """Refuse a lane that writes a number that another lane reads or writes at the same time."""
-        accessed = self.loaded | {(*each, self.lanes) for each in self.stored}
-        for array, offset in self.stored:
-            for name, begin, count in accessed:
-                same = begin == offset and count == self.lanes
-                apart = name != array or begin + count <= offset or offset + self.lanes <= begin
-                self.require(same or apart, loop, f"lanes share a number of {array}")
-
     def generic_visit(self, node):
         self.refuse(node, "cannot be compiled as straight lines")
 
     def visit_Assign(self, node):
-        self.require(len(node.targets) == 1, node, "more than one target")
         self.store(node.targets[0], self.visit(node.value))
 
     def visit_AugAssign(self, node):
@@ -153,25 +115,19 @@ class _Lines(ast.NodeVisitor):
     def store(self, target, value):
         match target:
             case ast.Tuple(elts=[first, second]):
-                self.require(self.arithmetic.is_pair(value), target, "the value is no pair")
                 for number, each in enumerate((first, second)):
                     self.store(each, self.arithmetic.part(value, number))
             case ast.Name(name):
-                known = name in self.arrays or name == self.counter
-                self.require(not known, target, "an argument or the counter is assigned to")
                 self.values[name] = value
             case ast.Subscript():
-                self.number(value, target)
-                pointer, array, offset, own = self.element(target)
-                self.require(own or self.lanes == 1, target, "all lanes would write one number")
-                self.stored.add((array, offset))
+                pointer, _ = self.element(target)
                 pointer = self.builder.bitcast(pointer, self.arithmetic.type.as_pointer())
                 self.builder.store(value, pointer, align=8)
             case _:
                 self.refuse(target, "cannot be assigned to")
 
     def element(self, node):
-        """Return pointer, array, offset, and whether i is added, for `a[1]` or `a[1 + i]`."""
+        """Return the pointer to `a[1]` or `a[1 + i]`, and whether i is added."""
         match node:
             case ast.Subscript(ast.Name(array), ast.Constant(int(offset))):
                 own = False
@@ -182,19 +138,16 @@ class _Lines(ast.NodeVisitor):
                 own = True
             case _:
                 self.refuse(node, "not of the form a[1] or a[1 + i]")
-        self.require(array in self.arrays, node, f"{array} is no argument")
-        self.require(type(offset) is int, node, "the index is no number")
         number = ir.Constant(OFFSET, offset)
         if own and self.first is not None:
             number = self.builder.add(number, self.first)
         pointer = self.builder.gep(self.arrays[array], [number], inbounds=True)
-        return pointer, array, offset, own
+        return pointer, own
 
     def visit_Subscript(self, node):
         if isinstance(node.value, ast.Tuple):
             return self.constants(node)
-        pointer, array, offset, own = self.element(node)
-        self.loaded.add((array, offset, self.lanes if own else 1))
+        pointer, own = self.element(node)
         if own:
             pointer = self.builder.bitcast(pointer, self.arithmetic.type.as_pointer())
             return self.builder.load(pointer, align=8)
@@ -203,9 +156,6 @@ class _Lines(ast.NodeVisitor):
 
     def constants(self, node):
         """Return a number made of one constant per lane."""
-        counted = isinstance(node.slice, ast.Name) and node.slice.id == self.counter
-        fits = counted and 1 < self.lanes == self.width == len(node.value.elts)
-        self.require(fits, node, f"not one constant per lane, at [i], for up to {WIDTH} lanes")
         return ir.Constant(self.arithmetic.type, [self.literal(each) for each in node.value.elts])
 
     def literal(self, node):
@@ -218,24 +168,16 @@ class _Lines(ast.NodeVisitor):
         self.refuse(node, "not a number")
 
     def visit_Name(self, node):
-        self.require(node.id in self.values, node, "a name without a value")
         return self.values[node.id]
 
     def visit_Constant(self, node):
         return self.arithmetic.constant(self.literal(node))
 
     def visit_UnaryOp(self, node):
-        self.require(isinstance(node.op, ast.USub), node, "an unknown operator")
         return self.arithmetic.negative(self.visit(node.operand))
 
     def visit_Tuple(self, node):
-        self.require(len(node.elts) == 2, node, "not a pair")
-        return self.arithmetic.pair(*(self.number(self.visit(each), each) for each in node.elts))
-
-    def number(self, value, node):
-        """Return `value`, or raise NotStraightError if it is a pair."""
-        self.require(not self.arithmetic.is_pair(value), node, "a pair where a number is wanted")
-        return value
+        return self.arithmetic.pair(*map(self.visit, node.elts))
 
     def visit_BinOp(self, node):
         """Return a sum, difference, product or quotient.
@@ -243,7 +185,8 @@ class _Lines(ast.NodeVisitor):
         a*b + c becomes fmuladd(a, b, c). If both terms are products, the right one is fused.
         """
         kind, left, right = type(node.op), node.left, node.right
-        self.require(kind in OPERATIONS, node, "an unknown operator")
+        if kind not in OPERATIONS:
+            self.refuse(node, "an unknown operator")
         if kind in (ast.Add, ast.Sub) and is_product(right):
             first = self.visit(right.left)
             first = self.arithmetic.negative(first) if kind is ast.Sub else first
@@ -255,14 +198,10 @@ class _Lines(ast.NodeVisitor):
         return self.arithmetic.combined(OPERATIONS[kind], self.visit(left), self.visit(right))
 
     def visit_Call(self, node):
-        counts = {"abs": 1, "max": 2}
-        name = node.func.id if isinstance(node.func, ast.Name) else None
-        self.require(name in counts, node, "neither abs nor max")
-        fits = len(node.args) == counts[name] and not node.keywords
-        self.require(fits, node, f"{name} takes {counts[name]} here")
-        values = [self.number(self.visit(each), each) for each in node.args]
-        called = self.arithmetic.modulus if name == "abs" else self.arithmetic.larger
-        return called(*values)
+        called = {"abs": self.arithmetic.modulus, "max": self.arithmetic.larger}
+        if node.func.id not in called:
+            self.refuse(node, "neither abs nor max")
+        return called[node.func.id](*map(self.visit, node.args))
 
 
 class Arithmetic:

@@ -69,12 +69,11 @@ def steady_motion(
     Returns
     -------
     xarray.Dataset
-        Scalars: outcome (see `decode`), period (in forcing cycles), contacts per forcing cycle,
-        largest |Z1|, asymmetry (0 if the motion is its own mirror image half a period later),
-        phases of the first harmonic, largest Floquet multiplier, Lyapunov exponent, and the two
-        frequencies of a quasi-periodic motion. Also `state`, a state of the motion at W T = pi/2.
-        The state has this phase as a coordinate, so `simulate` and this function can continue from
-        it. In a sweep, pass the state on from one frequency to the next.
+        Outcome (see `decode`), period, contacts per forcing cycle, largest |Z1|, asymmetry (0 if
+        the motion is its own mirror image half a period later), phases of the first harmonic,
+        multiplier, Lyapunov exponent, and the frequencies of a quasi-periodic motion. `state` is a
+        state of the motion at W T = pi/2. It has this phase as a coordinate, so `simulate` and this
+        function can continue from it, for example at the next frequency of a sweep.
 
     Raises
     ------
@@ -160,8 +159,8 @@ def frequency_response(
 ):
     """Find all motions at each frequency, from many starts and from neighbouring frequencies.
 
-    Without a radius, Newton's method also looks for further stable orbits. Each
-    motion found is followed to the other frequencies of its branch.
+    Without a radius, Newton's method also looks for further stable orbits. Each motion found is
+    followed to the other frequencies of its branch.
 
     Parameters
     ----------
@@ -174,8 +173,7 @@ def frequency_response(
         Random starts (initial states) at each frequency.
     radius : float, optional
         Radius of a ball around rest in which random starts are uniform, with the loose mass in its
-        gap; 2 in section 3 of the paper. Without this argument random starts are scaled by the
-        motions without the damper, and further starts are placed on these motions.
+        gap. Without it starts are scaled by, and placed on, the motions without the damper.
     seed : int
         Seed of the random starts.
     settling : Settling, optional
@@ -192,14 +190,13 @@ def frequency_response(
     Returns
     -------
     xarray.Dataset
-        For each (frequency, motion) a motion: `outcome` (see `decode`), period, contacts, largest
-        |Z1|, phases, multiplier, Lyapunov exponent, frequencies, branch, `motion_starts` (number of
-        random starts that lead to it), the 95 % interval of their share, and the mean life of a
-        chaotic motion. Motions of one branch are the same motion at different frequencies. Where a
-        frequency has fewer motions than others, the outcome `absent` fills the rest. For each
-        (frequency, start) outcome and length of a run; for each `end` the end of a branch; for each
-        `frequency` the largest start and the largest motion without the damper. `missed_share`
-        bounds, at 95 % confidence, the share of starts that lead to a motion not found.
+        For each (frequency, motion) what `steady_motion` returns, the branch, `motion_starts`
+        (number of random starts that lead to it), the 95 % interval of their share, and the mean
+        life of a chaotic motion. Where a frequency has fewer motions than others, the outcome
+        `absent` fills the rest. For each (frequency, start) outcome and length of a run; for each
+        `end` the end of a branch; for each `frequency` the largest start and the largest motion
+        without the damper. `missed_share` bounds, at 95 % confidence, the share of starts that lead
+        to a motion not found.
 
     Raises
     ------

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import kernel, kernel_only
+from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import (
     CONTACT_ORDER,
     FLIGHT_ORDER,
@@ -138,8 +138,8 @@ def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
 
     `rate` (COUNT,) are the derivatives of the packed parameters by it; `sign` is -1 if the segments
     cover half a symmetric orbit, else 1, and multiplies the last end. `slopes` (m, n) receives the
-    derivatives of the first n components, n = 2 without a damper or 4 with one. The other arguments
-    are those of `correction`.
+    derivatives of the first n components, n = 2 without a damper or 4 with one. `phases` (m + 1,),
+    `states` and `ends` (m, 4) are as in `orbits.segments.Chain`.
     """
     work, none = workspace(), np.empty((0, 4))
     ahead, behind, moved = np.empty(4), np.empty(4), np.empty(COUNT)
@@ -162,76 +162,3 @@ def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
                 break
     for i in range(n):
         slopes[m - 1, i] *= sign
-
-
-@kernel
-def correction(p, rate, phases, states, sign, row, fresh, tolerance, ends, tangents, slopes, out):
-    """Integrate all segments, and compute a correction of Newton's method.
-
-    `states` (m, 4) stand at the `phases` (m + 1,); `ends` (m, 4) and `tangents` (m, 4, 4) receive
-    the ends and the transposed derivatives of the ends by the states. `slopes` is as in
-    `slopes_of_ends`, and computed again if `fresh`. `out` (m n + 1, 2) receives the correction,
-    orthogonal to `row`, and a vector along the branch whose product with `row` is 1; NaN or
-    infinite if the matrix is singular. Return the time in contact, and the largest difference
-    between an end and the next beginning.
-    """
-    work, touching, residual = workspace(), 0.0, 0.0
-    m, n = slopes.shape
-    for k in range(m):
-        assign(ends[k], states[k])
-        for i in range(4):
-            for j in range(4):
-                tangents[k, i, j] = 1.0 if i == j else 0.0
-        begin, end = phases[k] / p[FREQUENCY], phases[k + 1] / p[FREQUENCY]
-        side = side_of(p, states[k])
-        _, _, time = advance(p, ends[k], tangents[k], side, begin, end, tolerance, work)
-        touching += time
-    if fresh:
-        slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes)
-    matrix = np.zeros((m * n + 1, m * n + 3))
-    for k in range(m):
-        ahead, way = (k + 1) % m, float(sign) if k == m - 1 else 1.0
-        for i in range(4):
-            defect = way * ends[k, i] - states[ahead, i]
-            residual = max(residual, abs(defect))
-            if i < n:
-                place = k * n + i
-                for j in range(n):
-                    matrix[place, k * n + j] = way * tangents[k, j, i]
-                matrix[place, ahead * n + i] -= 1.0
-                matrix[place, m * n] = slopes[k, i]
-                matrix[place, m * n + 1] = -defect
-    for j in range(m * n + 1):
-        matrix[m * n, j] = row[j]
-    matrix[m * n, m * n + 2] = 1.0
-    eliminate(matrix, out)
-    return touching, residual
-
-
-@kernel_only
-def eliminate(matrix, out):
-    """Solve sparse linear equations for the two right sides in the last columns of a matrix.
-
-    Rows whose factor is zero are skipped, so that the work for cyclic blocks grows with the square
-    of the number of rows.
-    """
-    size = len(matrix)
-    for k in range(size):
-        pivot = k
-        for i in range(k + 1, size):
-            if abs(matrix[i, k]) > abs(matrix[pivot, k]):
-                pivot = i
-        if pivot != k:
-            for j in range(k, size + 2):
-                matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
-        for i in range(k + 1, size):
-            if matrix[i, k] != 0.0:
-                factor = matrix[i, k] / matrix[k, k]
-                for j in range(k + 1, size + 2):
-                    matrix[i, j] -= factor * matrix[k, j]
-    for side in range(2):
-        for k in range(size - 1, -1, -1):
-            value = matrix[k, size + side]
-            for j in range(k + 1, size):
-                value -= matrix[k, j] * out[j, side]
-            out[k, side] = value / matrix[k, k]

@@ -6,6 +6,7 @@ are passed. Where contacts move close to a section, the orbit is cut into new se
 """
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -14,7 +15,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from impact_damper.model.packed import CLEARANCE
-from impact_damper.motions.segment_runs import FINE_NUDGE, NUDGE, correction, slopes_of_ends
+from impact_damper.motions.segment_runs import FINE_NUDGE, NUDGE, slopes_of_ends
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
@@ -174,13 +175,18 @@ class Problem:
 
         `known` is a segment and the derivative of its end by the parameter, without the sign.
         """
-        slopes = np.empty((len(orbit.states), self.size))
-        given = orbit.p, self.rate(x[-1]), self.phases, orbit.states, orbit.ends, self.sign
-        slopes_of_ends(*given, POLISH_TOLERANCE, slopes)
+        slopes = self._slopes(orbit, self.rate(x[-1]))
         if known is not None:
             last = known[0] == len(slopes) - 1
             slopes[known[0]] = known[1] * (self.sign if last else 1)
         return self._matrix(orbit, slopes)
+
+    def _slopes(self, orbit, rate):
+        """Return the derivatives of the ends of the segments by the parameter, shape (m, n)."""
+        slopes = np.empty((len(orbit.states), self.size))
+        given = orbit.p, rate, self.phases, orbit.states, orbit.ends, self.sign
+        slopes_of_ends(*given, POLISH_TOLERANCE, slopes)
+        return slopes
 
     def _matrix(self, orbit, slopes):
         """Return the result of `rows`, from the derivatives `slopes` of ends by the parameter."""
@@ -201,14 +207,15 @@ class Problem:
         expensive part, is computed for the first guess and once close to the orbit.
         """
         x, size, moved, row = x.copy(), np.inf, 0.0, self.metric * border
-        slopes = np.empty((len(self.phases) - 1, self.size))
-        rate, out = None, np.empty((len(x), 2))
+        rate, slopes = None, None
         for number in range(NEWTON):
             fresh = number == 0 or (size < REFINED and moved > UNMOVED)
             moved = 0.0 if fresh else moved
             try:
                 rate = self.rate(x[-1]) if rate is None else rate
-                orbit, out = self._correction(x, rate, row, fresh, slopes, out)
+                orbit = self.shoot(x)
+                slopes = self._slopes(orbit, rate) if fresh else slopes
+                out = self._solved(orbit, slopes, row)
             except (np.linalg.LinAlgError, ValueError):
                 return None
             change = out[:, 0]
@@ -225,26 +232,20 @@ class Problem:
             x, moved = x + change, moved + size
         return None
 
-    def _correction(self, x, rate, row, fresh, slopes, out):
-        """Return the orbit at x, and a correction and a vector along the branch as columns.
+    def _solved(self, orbit, slopes, row):
+        """Return an array with two columns: a correction, and a vector along the branch.
 
-        The arguments are those of the kernel `correction`.
+        The correction is orthogonal to `row`. If the matrix is nearly singular, very small singular
+        values count as zero.
         """
-        p, states, m = self.family(x[-1]), self.states(x), len(self.phases) - 1
-        ends, tangents = np.empty((m, 4)), np.empty((m, 4, 4))
-        touching, residual = correction(
-            *(p, rate, self.phases, states, self.sign, row, fresh, POLISH_TOLERANCE),
-            *(ends, tangents, slopes, out),
-        )
-        factors = tangents.transpose(0, 2, 1)
-        factors[-1] *= self.sign
-        orbit = Orbit(p, self.periods, self.phases, states, self.sign, ends, factors, touching)
-        largest = np.max(np.abs(out), axis=0)
-        if not np.all(largest < np.array([residual, 1.0]) / SINGULAR**0.5):
-            matrix, right = np.vstack([self._matrix(orbit, slopes), row]), np.zeros((len(row), 2))
-            right[:-1, 0], right[-1, 1] = -orbit.defects[:, : self.size].ravel(), 1.0
-            out = np.linalg.lstsq(matrix, right, SINGULAR)[0]
-        return orbit, out
+        matrix, right = np.vstack([self._matrix(orbit, slopes), row]), np.zeros((len(row), 2))
+        right[:-1, 0], right[-1, 1] = -orbit.defects[:, : self.size].ravel(), 1.0
+        most = np.array([orbit.residual, 1.0]) / SINGULAR**0.5
+        with suppress(np.linalg.LinAlgError):
+            out = np.linalg.solve(matrix, right)
+            if np.all(np.max(np.abs(out), axis=0) < most):
+                return out
+        return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
     def step(self, point, length):
         """Return the next point of the branch, at the distance `length`; None if a step fails."""

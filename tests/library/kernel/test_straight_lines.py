@@ -1,23 +1,15 @@
 """`straight`, which compiles lines of arithmetic, against Python, and the errors that it raises.
 
-The forcing that is compiled in this way is compared with cosine and sine. A lane holds one of
-several trajectories that are integrated side by side.
+A lane holds one of several trajectories that are integrated side by side.
 """
-
-import linecache
-import math
-import re
-import textwrap
 
 import numpy as np
 import pytest
-from helpers.pointed import part, pointed
-from llvmlite import ir
+from helpers.pointed import pointed
 from numpy.testing import assert_allclose
 
 from impact_damper.kernel.compiling import kernel
-from impact_damper.kernel.instances import instance
-from impact_damper.kernel.straight_lines import NotStraightError, straight, write
+from impact_damper.kernel.straight_lines import straight
 
 
 def one_lane(a):
@@ -125,78 +117,6 @@ def test_lines_do_what_python_does(compiled, function, sizes):
     pointed(compiled)(*given)
     for found, each in zip(given, expected, strict=True):
         assert_allclose(found, each, rtol=1e-15, atol=1e-15)
-
-
-@pytest.mark.parametrize("shift", [0.0, 1e-9, 3e-5, -3e-5, 4.9e-5, 0.3, -2.0, math.inf])
-@pytest.mark.parametrize("time", [0.0, 1.0, 1234.5])
-def test_forcing_near_a_known_one(time, shift):
-    """The forcing, rotated by a small angle or computed anew, is exact to rounding of the phase."""
-    module, frequency = instance(1), 2.0
-    a = np.zeros(module.SIZE)
-    a[module.FREQUENCY], a[module.FORCE], a[module.UNBALANCE] = frequency, 0.3, 0.8
-    a[module.SHAKER] = 1.2
-    if math.isfinite(shift):
-        a[module.TIME], a[module.T] = time - 0.25, 0.25 + shift
-        part(module, "look_ahead")(a)
-    else:
-        a[module.KNOWN] = shift
-    a[module.TIME] = time
-    part(module, "forcing")(a)
-    found = [a[module.COSINE], a[module.SINE]]
-    assert_allclose(
-        found,
-        np.multiply(
-            0.3 + 0.8 * frequency**2 + 1.2 / frequency**2,
-            [np.cos(frequency * time), np.sin(frequency * time)],
-        ),
-        rtol=0,
-        atol=4e-15 * (1 + time),
-    )
-
-
-def compiled_lines(source):
-    """Write the LLVM code of a function whose body is `source`; return the name of its file.
-
-    If `source` is a single line, the body is a loop over one lane around this line.
-    """
-    loop = source if source.startswith("for i") else f"for i in range(1):\n  x = a[0]\n  {source}"
-    text = "def function(a):\n" + textwrap.indent(loop, "    ") + "\n"
-    file = f"<{source}>"
-    linecache.cache[file] = (len(text), None, text.splitlines(keepends=True), file)
-    made = {}
-    exec(compile(text, file, "exec"), made)
-    kind = ir.FunctionType(ir.VoidType(), [ir.DoubleType().as_pointer()])
-    function = ir.Function(ir.Module(), kind, "function")
-    builder = ir.IRBuilder(function.append_basic_block())
-    write(made["function"], builder, function.args)
-    return file
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        "a[1] = min(x, 2.0)",
-        "a[1] = max(x, 1.0, 2.0)",
-        "a[1] = x ** 2",
-        "a[1] = x < 1.0",
-        "a[1] = True",
-        "a[1] = y",
-        "a[1] = a[i + 1]",
-        "a[1] = (1.0, 2.0, 3.0)[i]",
-        "a[1] = (x, x)",
-        "y = z = x",
-        "a = x",
-        "if x: a[1] = x",
-        "for i in range(2):\n  a[1] = 1.0",
-        "for i in range(2):\n  a[0 + i] = a[1 + i]",
-        "for i in range(12):\n  a[1 + i] = 1.0",
-    ],
-)
-def test_unknown_lines_are_refused_by_file_and_number(line):
-    with pytest.raises(NotStraightError) as caught:
-        compiled_lines(line)
-    number = 4 if not line.startswith("for i") else "[123456]"
-    assert re.match(rf"<{re.escape(line)}>, line {number}: ", str(caught.value))
 
 
 def test_a_kernel_with_an_unknown_line_does_not_compile():

@@ -84,15 +84,6 @@ def test_neighbourhoods_contract(free):
         assert np.sqrt(abs(np.linalg.det(shape))) < 300
 
 
-def test_a_mirrored_state_half_a_period_later_leads_to_the_mirrored_motion(free):
-    _, p, attractors = free
-    states = np.random.default_rng(8).uniform(-WINDOW, WINDOW, (2000, 2))
-    for phase in (0.0, np.pi / 2, 2.5):
-        one, _ = label_states(p, states, phase, attractors, 1e-9, 1500)
-        other, _ = label_states(p, -states, phase + np.pi, attractors, 1e-9, 1500)
-        assert_array_equal(one, other)
-
-
 def changes(data):
     """Return places midway between neighbouring states with different labels, in cell widths."""
     label = data["basin_label"].values

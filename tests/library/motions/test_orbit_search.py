@@ -5,14 +5,10 @@ Z1 is the displacement of the primary mass.
 
 import numpy as np
 import pytest
-from helpers.known_orbits import DESIGN, PAPER
 
 import impact_damper as idm
 from impact_damper.data.datasets import flag
-from impact_damper.model.packed import pack
 from impact_damper.motions import start_states
-from impact_damper.motions.strobe_map import period_map
-from impact_damper.motions.sweep import LONGEST, stable_orbits
 
 NEVER = np.zeros(1, bool)
 # Oscillator, damper, frequency, and max |Z1| and period of an orbit that few random starts lead to.
@@ -49,19 +45,3 @@ def test_a_search_finds_an_orbit_to_which_no_start_leads(
     # the integrator alone, without Newton's method, stays on the orbit
     run = idm.simulate(oscillator, damper, frequency, one.state, periods=20 * period)
     np.testing.assert_allclose(run.displacement[-1], run.displacement[0], atol=1e-6)
-
-
-def test_orbits_are_stable_touch_a_wall_and_are_told_once():
-    p = pack(PAPER, DESIGN, 2.0)
-    loose = np.random.default_rng(1).uniform(-1, 1, (60, 2)) * (DESIGN.clearance, 4)
-    found = stable_orbits(p, np.array([[0.0, 0.2], [1.2, -2.0]]), loose, 1e-10, NEVER)
-    assert len(found)
-    for state in found:
-        periods = [
-            n
-            for n in range(1, LONGEST + 1)
-            if np.max(np.abs(period_map(p, state, n, 1e-12)[0] - state)) < 1e-7
-        ]
-        _, matrix, contacts = period_map(p, state, periods[0], 1e-12)
-        assert contacts and np.max(np.abs(np.linalg.eigvals(matrix))) < 1
-        assert np.sum(np.max(np.abs(found - state), axis=1) < 1e-6) == 1

@@ -43,19 +43,6 @@ def test_another_start_than_the_phase_is_refused(quiet):
             call(OSCILLATOR, DAMPER, FREQUENCY, quiet.state, start=0)
 
 
-def test_a_sweep_up_and_down_stays_on_its_branch():
-    """Between its folds a hardening oscillator moves farther in a sweep upward than downward."""
-    oscillator, up, down = idm.Oscillator(0.215), [], []
-    frequencies, state = np.linspace(1.2, 3.0, 19), (0, 0)
-    for found, order in ((up, frequencies), (down, frequencies[::-1])):
-        for frequency in order:
-            steady = idm.steady_motion(oscillator, None, frequency, state)
-            state = steady.state
-            found.append(steady.maximum_displacement.item())
-    assert np.max(np.array(up) - down[::-1]) > 1
-    assert_allclose(up[0], down[-1], rtol=1e-6)
-
-
 def test_a_state_of_a_machine_keeps_its_phase():
     steady = idm.steady_motion(MACHINE, None, 24.0, (0, 0))
     run = idm.simulate(MACHINE, None, 24.0, steady.state, periods=1)

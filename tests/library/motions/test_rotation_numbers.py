@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from impact_damper.motions.undecided import birkhoff_average, find_rotation
+from impact_damper.motions.undecided import find_rotation
 
 GOLDEN = (math.sqrt(5) - 1) / 2
 
@@ -30,18 +30,6 @@ def test_slender_curves_are_known_as_soon_as_round_ones(slenderness):
     points = on_curve(1 - GOLDEN, 1000) * np.exp(0.4j)
     slender = find_rotation(points.real + 1j * points.imag / slenderness)
     assert slender.known and abs(slender.number - 1 + GOLDEN) < 1e-11
-
-
-def test_error_falls_faster_than_a_power():
-    """An orbit of twice the length has less than a fiftieth of the error.
-
-    Without weights the error would be about half.
-    """
-    errors = []
-    for count in (25, 50, 100, 200):
-        values = np.sin(2 * np.pi * GOLDEN * np.arange(count)) ** 2
-        errors.append(abs(birkhoff_average(values) - 0.5))
-    assert np.all(np.divide(errors[:-1], errors[1:]) > 50)
 
 
 def test_chaotic_points_are_no_curve():

@@ -86,25 +86,6 @@ def test_free_motions_settle(state, period, largest):
     assert record["asymmetry"] < 1e-7
 
 
-def test_known_orbits_settle(known_orbit):
-    record = settled(known_orbit.parameters, known_orbit.state + 1e-3)
-    assert record["outcome"] == records.SETTLED
-    assert record["period"] == 1
-    assert record["contacts"] == (2 if known_orbit.damper else 0)
-    assert record["residual"] < 1e-8
-    assert_allclose(record["state"][:2], known_orbit.state[:2], atol=1e-8)
-
-
-def test_asymmetry(known_orbit):
-    """The asymmetry is the distance from the mirrored motion half a period later."""
-    record = records.measured(known_orbit.parameters, known_orbit.state, 1, 1e-12)
-    later = [known_orbit.strobe + known_orbit.period / 2]
-    (half,), _ = sample(known_orbit.parameters, known_orbit.state, known_orbit.strobe, later)
-    apart = np.max(np.abs(half + known_orbit.state))
-    assert_allclose(record["asymmetry"], apart, atol=1e-9)
-    assert (apart > 1) == (known_orbit.frequency == 1.7)
-
-
 # Start of a chaotic motion of large amplitude, at a frequency below the band in which the damper
 # suppresses large motions.
 VIOLENT = pack(PAPER, DESIGN, 1.1), [1.0, 0.5, 0.3, -1.0]

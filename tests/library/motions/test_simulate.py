@@ -8,16 +8,14 @@ import math
 
 import numpy as np
 import pytest
-from helpers.known_orbits import DESIGN, INELASTIC, PAPER
+from helpers.known_orbits import DESIGN, PAPER
 from numpy.testing import assert_allclose
 from scipy import stats
 
 from impact_damper.data.datasets import flag
-from impact_damper.model import packed
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper
-from impact_damper.model.settling import Settling
-from impact_damper.motions import ensemble, records
+from impact_damper.motions import records
 from impact_damper.motions.following import follow_stable
 from impact_damper.motions.records import tabulate
 from impact_damper.motions.response import steady_motion, steady_orbit
@@ -42,18 +40,6 @@ def test_samples_and_contacts_of_a_simulation():
     # the velocity is the derivative of the displacement
     difference = np.gradient(data.displacement, data.time.values, edge_order=2)
     assert_allclose(difference, data.velocity, atol=0.1)
-
-
-def test_simulation_goes_on_where_it_stopped():
-    """A run that starts in the last state of a run, at its time, continues this run."""
-    whole = simulate(PAPER, INELASTIC, 1.7, (0.1, 0, 0, 1), periods=4, samples=10)
-    first = simulate(PAPER, INELASTIC, 1.7, (0.1, 0, 0, 1), periods=1.5, samples=10)
-    middle = [first[name].values[-1] for name in list(first)[:4]]
-    rest = simulate(
-        PAPER, INELASTIC, 1.7, middle, start=float(first.time[-1]), periods=2.5, samples=10
-    )
-    assert_allclose(rest.displacement, whole.displacement[15:], atol=1e-9)
-    assert_allclose(rest.relative_velocity, whole.relative_velocity[15:], atol=1e-7)
 
 
 @pytest.mark.parametrize(
@@ -134,19 +120,6 @@ def test_phases_of_a_steady_motion():
         assert_allclose(table["phase_relative"], np.angle(first / second), atol=2e-2)
         assert_allclose(table["phase_loose"], np.angle(first / (first - second)), atol=2e-2)
     assert np.isnan(tabulate(np.zeros(1, records.MOTION))["phase_relative"]).all()
-
-
-@pytest.mark.parametrize(
-    "wrong", [{"tolerance": 0.0}, {"patience": 10}, {"limit": 200}, {"watched": 0}]
-)
-def test_settling_is_checked(wrong):
-    (name, value), = wrong.items()  # fmt: skip
-    with pytest.raises(ValueError, match=f"{name} = {value:g}"):
-        Settling(**wrong)
-    with pytest.raises(ValueError, match="workers = 0"):
-        ensemble.settle(np.empty((0, packed.COUNT)), np.empty((0, 4)), workers=0)
-    with pytest.raises(ValueError, match="shapes"):
-        ensemble.settle(np.empty((1, packed.COUNT)), np.empty((2, 4)))
 
 
 def test_steady_orbit_closes():

@@ -9,8 +9,7 @@ from helpers.known_orbits import PAPER
 from numpy.testing import assert_allclose
 
 from impact_damper.data.datasets import flag
-from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
-from impact_damper.model.parameters import Damper
+from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.settling import Settling
 from impact_damper.motions import strobe_map
 from impact_damper.motions.simulate import random_states
@@ -89,19 +88,3 @@ def test_following_finds_what_random_starts_miss():
     assert np.all(np.diff(top) > 0) and top[-1] > 2.3
     assert data["origin"][1][-1, 0] == flag("origin", "followed")
     assert data["motion_starts"][1][-1, 0] == 0
-
-
-def test_sweep_of_the_clearance():
-    """The small motion is on one branch, and at each clearance it is a periodic orbit."""
-    clearances = np.array([1.9, 2.0, 2.1])
-    parameters = np.array([pack(PAPER, Damper(0.12, d), 2.0) for d in clearances])
-    # state of the orbit for d0 = 2 at T = 0, in contact
-    states = np.array([[[-0.006288, -0.060053, d + 0.020827, -0.571848]] for d in clearances])
-    data = sweep(parameters, CLEARANCE, "clearance", random_search(states), Settling())
-    branch = data["branch"][1][data["contacts"][1] == 2]
-    assert len(branch) == 3 and len(np.unique(branch)) == 1
-    assert data["state"][0] == ("clearance", "motion", "component")
-    for i, p in enumerate(parameters):
-        column = int(np.flatnonzero(data["contacts"][1][i] == 2)[0])
-        back, _, _ = strobe_map.period_map(p, data["state"][1][i, column], 1, 1e-13)
-        assert_allclose(back, data["state"][1][i, column], atol=1e-8)
