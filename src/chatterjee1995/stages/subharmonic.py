@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, touches_no_wall
+from impact_damper.kernel.single import side_of
 from impact_damper.model import packed
 from impact_damper.model.arguments import read_frequencies
 from impact_damper.model.bounds import SEED_RANGE, check_count, check_starts
@@ -143,9 +144,11 @@ def switched_on(oscillator, p, state, loose, generator):
     states = traces.states_at(free, state, begin, times, tolerance)
     states[:, 2:] = loose[:, 2:]
     states[::2, 3] = 0.0
-    ends = np.ceil(times / period) * period
-    each = zip(states, times, ends, strict=True)
-    return np.concatenate([traces.states_at(p, y, time, [end], tolerance) for y, time, end in each])
+    sample, log = np.empty((1, 4)), np.empty((0, 5))
+    for time, y in zip(times, states, strict=True):
+        end = np.array([np.ceil(time / period) * period])
+        traces.trace_steps(p, y, time, side_of(p, y), 0, 0, end, tolerance, sample, log)
+    return states
 
 
 def _subharmonic_table(data, free):
