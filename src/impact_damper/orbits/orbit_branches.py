@@ -1,8 +1,6 @@
 """Periodic orbits as labelled datasets: one orbit, or branches of orbits over a parameter."""
 
-import sys
 import warnings
-from collections import Counter
 
 import numpy as np
 import xarray as xr
@@ -144,7 +142,7 @@ def orbit_branches(
     motions : list of xarray.Dataset, optional
         Results of `frequency_response` for this system and damper.
     progress : str, optional
-        Title of a progress bar and of a summary on stderr, for motions.
+        Title of a progress bar, for motions.
 
     Returns
     -------
@@ -234,8 +232,6 @@ def _all_branches(system, damper, span, motions, progress):
                 branches.append(follow(orbit, frequency))
                 bar.set_postfix(branches=len(branches))
     follow_others(branches, follow)
-    if progress is not None:
-        tqdm.write(f"{progress}: {_summary(branches, len(seeds), lost)}", file=sys.stderr)
     parameters = model.describe() | {"parameter": "frequency"}
     title, counts = "Branches of periodic orbits", {"seeds": len(seeds), "seeds_lost": lost}
     return branches_dataset(branches, float, parameters, title, model, counts)
@@ -253,29 +249,9 @@ def _checked_orbit(model, state, period, phase):
     if not orbit.converged:
         raise ArithmeticError(
             f"no orbit of period {period} found: Newton's method left a residual of "
-            f"{orbit.residual:.2g}; a state closer to it, or another period, is needed"
+            f"{orbit.residual:.2g}; a state closer to an orbit, or another period, may help"
         )
     return state, orbit
-
-
-def _summary(branches, seeds, lost):
-    """Return a line with the numbers of motions, branches, orbits, events and ends of branches.
-
-    `seeds` is the number of motions, and `lost` the number of those from which no orbit was found.
-    """
-
-    def listed(names):
-        counts = Counter(names)
-        return ", ".join(f"{name} {counts[name]}" for name in sorted(counts)) or "none"
-
-    events = listed(event.kind for branch in branches for _, event in branch.events)
-    ends = listed(end for branch in branches for end in branch.ends)
-    orbits = sum(len(branch.points) for branch in branches)
-    unlocated = sum(branch.lost for branch in branches)
-    return (
-        f"{seeds} motions, {lost} of them without an orbit; {len(branches)} branches with "
-        f"{orbits} orbits; events: {events}; not located: {unlocated}; ends: {ends}"
-    )
 
 
 def _seeds(motions, damper):

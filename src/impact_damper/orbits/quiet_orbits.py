@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.model import packed
 from impact_damper.motions.records import measured
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish
 from impact_damper.orbits.grid_following import Grid
@@ -84,13 +83,9 @@ class QuietOrbits(NamedTuple):
 def straight_flight_end(oscillator, clearance, restitution) -> float:
     """Return the frequency W at which the quiet orbit folds, in the limit of straight flight.
 
-    In this limit, of rigid walls and high frequency, the loose mass flies at constant speed. The
-    equations of `theory.optimum_clearance.straight_flight_ratio` then give, for any mass ratio,
-    W^2 d0/f = k sin(s) - cos(s), with the phase s of the impacts, the restitution e and
-    k = (pi/2) (1 + e)/(1 - e). The forcing amplitude f = F + U W^2 + V/W^2 has parts from a force,
-    an unbalance and a shaker. For W^2 d0/f > sqrt(1 + k^2) there is no solution, because the
-    forcing cannot supply the energy that the impacts dissipate. At the fold both sides are equal,
-    which is a quadratic equation in W^2.
+    In this limit, of rigid walls and high frequency, W^2 d0/f = k sin(s) - cos(s) for any mass
+    ratio, with the phase s of the impacts and k = (pi/2) (1 + e)/(1 - e). The fold, at which this
+    is sqrt(1 + k^2), is a root of a quadratic equation in W^2, since f = F + U W^2 + V/W^2.
     """
     if restitution == 1:
         return np.inf
@@ -109,38 +104,26 @@ def is_symmetric_pair(records):
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Return the quiet orbits of a grid, followed from known orbits as far as possible."""
-    grid = quiet_orbits(parameters, states)
-    rows, columns = grid.shape
-    ends, events = zip(*(_row_ends(grid, row) for row in range(rows)), strict=True)
-    multiplier = np.full((rows, columns), complex(np.nan, np.nan))
-    displacement, harmonic = np.full((2, rows, columns), np.nan)
-    for cell, orbit in grid.orbits.items():
-        multiplier[cell] = dominant_root(orbit)
-        displacement[cell] = orbit.record["maximum_displacement"]
-        harmonic[cell] = abs(orbit.record["harmonic_displacement"])
-    return QuietOrbits(multiplier, displacement, harmonic, np.array(ends), np.array(events))
+    """Return the quiet orbits of a grid, followed from known orbits as far as possible.
 
-
-def quiet_orbits(parameters, states, *, shortest=SHORTEST) -> Grid:
-    """Return a grid with the quiet orbits in all cells to which they can be followed.
-
-    Parameters and errors are those of `follow_quiet_orbits`. `shortest` is the shortest step
-    between cells, divided by their distance.
+    `states` at the strobe, shape (rows, columns, 4), are NaN in cells without a known orbit.
     """
-    if parameters.shape[2:] != (packed.COUNT,) or states.shape != (*parameters.shape[:2], 4):
-        raise ValueError(
-            f"parameters and states: must be of shapes (n, m, {packed.COUNT}) and (n, m, 4), "
-            f"{parameters.shape} and {states.shape} given"
-        )
-    grid = Grid(parameters, find_quiet_orbit, shortest=shortest, axes=(1, 0), extrapolating=True)
+    grid = Grid(parameters, find_quiet_orbit, shortest=SHORTEST, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
         at_strobe = shoot(parameters[cell], states[cell], 1, STROBE)
         orbit, _ = find_quiet_orbit(parameters[cell], at_strobe.at(PHASE))
         if orbit is not None:
             grid.put(cell, orbit)
     grid.spread()
-    return grid
+    rows, columns = grid.shape
+    ends, events = zip(*(_row_ends(grid, row) for row in range(rows)), strict=True)
+    multiplier = np.full((rows, columns), complex(np.nan, np.nan))
+    displacement, harmonic = np.full((2, rows, columns), np.nan)
+    for cell, orbit in grid.orbits.items():
+        multiplier[cell] = _dominant_root(orbit)
+        displacement[cell] = orbit.record["maximum_displacement"]
+        harmonic[cell] = abs(orbit.record["harmonic_displacement"])
+    return QuietOrbits(multiplier, displacement, harmonic, np.array(ends), np.array(events))
 
 
 def find_quiet_orbit(p, guess):
@@ -151,7 +134,7 @@ def find_quiet_orbit(p, guess):
     return (orbit, "found") if orbit.record["contacts"] == CONTACTS else (None, "contacts_change")
 
 
-def dominant_root(orbit):
+def _dominant_root(orbit):
     """Return the multiplier of the root with the largest modulus and an imaginary part >= 0."""
     values = np.linalg.eigvals(orbit.root)
     value = values[np.argmax(np.abs(values))]

@@ -143,13 +143,6 @@ def test_a_branch_holds_its_orbits_and_no_others(quiet, resonance):
     assert not quiet.holds(of_period_2, quiet.points[5].value)
 
 
-def test_progress_shows_the_branches_found_and_their_ends(capsys):
-    response = frequency_response(PAPER, None, [2.0], starts=8)
-    orbit_branches(PAPER, None, span=(1.9, 2.1), motions=[response], progress="free")
-    told = capsys.readouterr().err
-    assert "free: 100%" in told and "branches with" in told and "range_ends" in told
-
-
 @pytest.mark.parametrize(
     ("parameter", "span"),
     [
