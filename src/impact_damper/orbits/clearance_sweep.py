@@ -74,16 +74,13 @@ def clearance_sweep(
     -------
     xarray.Dataset
         For each (clearance, motion) a motion found, as in a frequency response. For each
-        `clearance` max |Z1| of the quiet motion, the largest max |Z1| of all motions to which
-        starts lead, and the amplitude |a| of the smallest stable solution of the harmonic balance
-        (7). Scalars: the optimum and the kind of minimum, both for the quiet motion and for (7);
-        the clearances of rules (18) and (19), NaN for (19) if the response without the damper has
-        no peak; rm W^2 d0/f at the optimum, with the forcing amplitude f; and the fractions of
-        the excess of this ratio over 1 that two corrections of (18) explain. The first replaces the
-        1 by pi^2/8, from the first harmonic of a loose mass that flies at constant speed. The
-        second is the theory of this straight flight between walls of finite stiffness. For each
-        `edge` an end of the range of clearances in which max |Z1| is within 10 % of its minimum.
-        The attribute `optimum` is a sentence on the optimum, or says that there is no quiet motion.
+        `clearance` max |Z1| of the quiet motion, of all motions to which starts lead, and the
+        amplitude of the smallest stable solution of (7). Scalars: the optimum and the kind of
+        minimum, for the quiet motion and for (7); the clearances of rules (18) and (19), NaN for
+        (19) if the response without damper has no peak; rm W^2 d0/f at the optimum; and the shares
+        of the excess of this ratio over 1 that pi^2/8 and the theory of straight flight explain.
+        For each `edge` an end of the clearances with max |Z1| within 10 % of its minimum. The
+        attribute `optimum` is a sentence on the optimum.
 
     Raises
     ------
@@ -128,15 +125,8 @@ def clearance_sweep(
     parameters = np.array([pack(oscillator, each, frequency) for each in dampers])
     systems = [(each, frequency) for each in dampers]
     search = search_starts(oscillator, systems, starts, radius, seed, settling)
-    data = sweep(
-        parameters,
-        CLEARANCE,
-        "clearance",
-        search,
-        settling,
-        workers=workers,
-        progress=progress,
-    )
+    running = {"workers": workers, "progress": progress}
+    data = sweep(parameters, CLEARANCE, "clearance", search, settling, **running)
     forcing = oscillator.forcing_amplitude(frequency)
     inertia = dampers[0].mass_ratio * frequency**2
     branch = _quiet_branch(data, parameters, forcing / inertia)
@@ -166,18 +156,8 @@ def _quiet_branch(data, parameters, rule):
 
     If there is no quiet motion, all states and displacements of the branch are NaN.
     """
-    table = {
-        name: data[name][1]
-        for name in (
-            "outcome",
-            "period",
-            "contacts",
-            "asymmetry",
-            "maximum_displacement",
-            "branch",
-            "state",
-        )
-    }
+    names = "outcome period contacts asymmetry maximum_displacement branch state"
+    table = {name: data[name][1] for name in names.split()}
     quiet = (
         (table["outcome"] == flag("outcome", "settled"))
         & (table["period"] == 1)
