@@ -122,24 +122,16 @@ contact_verdict | exit_rule load restitution | | | realised restitution: within 
   %, or farther; or none, because the loose mass falls back or the contact does not end
   : close 0, fair 1, off 2, falls_back 3, no_release 4
 used | used | | e | coefficient of restitution of a damper
-unloaded_damping | used | | z | damping ratio of the relative motion
 unloaded_restitution | exit_rule used | | | realised restitution without load
 unloaded_duration | exit_rule used | | | time in contact / time in an elastic contact, without
   load
 unloaded_pull_time | used | | | fraction of the time in contact in which the force is tensile
-unloaded_pull_impulse | used | | | ratio of tensile to compressive impulse without load
-unloaded_pull_peak | used | | | ratio of the largest tensile to the largest compressive force
-  without load
 size | size | | | smallest settled or largest motion to which random starts lead
 contact_used | contact | | | index along the dimension `used` of a contact
 contact_size | contact | | | index along the dimension `size` of a contact
 contact_load | contact | | | load at the beginning of a contact
 # rigid limit
 stiffness | stiffness | | r1 | contact stiffness
-compliant_status | frequency stiffness | | | how the search for the compliant orbit ended
-  : found 0, not_followed 1, other_contacts 2, not_attempted 3
-rigid_status | frequency | | | how the search for the rigid orbit ended
-  : found 0, not_followed 1, other_contacts 2, not_attempted 3, chatter 4
 rigid_error | frequency stiffness | | | relative error of max |Z1| if walls are taken as rigid
 mended_error | frequency stiffness | | | relative error of max |Z1| with corrected rigid walls
 rigid_verdict | frequency stiffness | | | which of the compliant and rigid orbits were found, and
@@ -157,8 +149,6 @@ mended_order | frequency | | | exponent n of mended_error ~ r1^-n for short cont
 own_displacement | | | max |Z1| | largest displacement with the damper's own r1
 own_error | | | | relative error of own_displacement if walls are taken as rigid
 own_mended_error | | | | relative error of own_displacement with corrected rigid walls
-own_decay_error | | | | error of the modulus of the dominant multiplier with rigid walls, for the
-  damper's r1
 # design rules
 mass_ratio | mass_ratio | | r_m | mass ratio
 criterion | criterion | | | quantity that is smallest at an optimum
@@ -242,15 +232,13 @@ policy_success | case frequency policy bound | | | share of trials that reach th
   cycles
 policy_cycles | case frequency policy quantile bound | | | cycles until the motion has settled on
   the goal, infinite without success
-policy_damper | case frequency policy bound | | | median of the cycles with the damper on
-policy_impacts | case frequency policy bound | | | median of the impacts
+policy_damper | case frequency policy | | | median of the cycles with the damper on
+policy_impacts | case frequency policy | | | median of the impacts
 policy_releases | case frequency policy | | | mean number of releases
 policy_hold | case frequency policy | | | cycles for which the policy keeps the damper on; for
   release by state, at most
 policy_phase | case frequency policy | angle | | phase Omega T of the release that the policy
   chose
-realised_share | case frequency bound | | | share of releases at every phase, ten cycles after
-  switching on, that reach the goal
 # studies
 cell | cell | | | number of the cell in the grid, the last axis fastest
 counted_outcome | counted_outcome | | | outcome of a random start

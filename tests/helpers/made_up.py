@@ -225,8 +225,6 @@ def sweep(damping, mass_ratio, restitution=1.0):
         "optimum_ratio": 1.05,
         "optimum_kind": flag("optimum_kind", "kink"),
         "straight_flight_ratio": 1.05,
-        "first_harmonic_share": 4.7,
-        "straight_flight_share": 1.0,
         "near_clearance": best * np.array([0.9, 1.1]),
     }
     given = {"frequency": frequency, "mass_ratio": mass_ratio, "restitution": restitution}
@@ -292,8 +290,6 @@ def migration(frequency, subharmonic_share):
         "total_time": np.array([60.0, 120.0, 180.0, 300.0]),
         "reached_share": np.ones(3),
         "within_share": np.ones(3),
-        "landed_on": ("run", [1, 1]),
-        "escape_rate": np.full(3, 0.1),
     }
     coordinates = BOUNDS | {"damped_motion": kinds, "free_motion": names}
     given = parameters(**damper(0.12, 2.0), frequency=frequency, releases=240)
@@ -329,12 +325,11 @@ def policies(case, frequency):
         {
             "policy_success": (dims, shares),
             "policy_cycles": ((*dims[:3], "quantile", "bound"), cycles),
-            "policy_damper": (dims, 100 * shares),
-            "policy_impacts": (dims, 100 * shares),
+            "policy_damper": (dims[:3], 100 * shares[..., 0]),
+            "policy_impacts": (dims[:3], 100 * shares[..., 0]),
             "policy_releases": (dims[:3], np.ones((1, 1, 3))),
             "policy_hold": (dims[:3], np.full((1, 1, 3), 5.0)),
             "policy_phase": (dims[:3], np.full((1, 1, 3), 1.5)),
-            "realised_share": (("case", "frequency", "bound"), np.full((1, 1, 3), 0.7)),
         }
         | {f"case_{name}": ("case", [given[name]]) for name in names},
         BOUNDS

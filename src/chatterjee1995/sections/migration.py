@@ -94,7 +94,6 @@ class ReleasePolicies(WithOscillator):
     dampers: entries(PolicyDamper)
     frequencies: several(FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)
     trials: count("trials of each policy", **RUNS_RANGE)
-    tested: count("releases that test which states are predicted to lead to the goal", **RUNS_RANGE)
     cells: count("cells on each axis of the coarse grid of a basin", least=4, most=4096)
 
     def contradictions(self, path, config):
@@ -109,7 +108,7 @@ class ReleasePolicies(WithOscillator):
     def release_policies(self, config) -> dict:
         dampers = [each for _, each in sorted(self.dampers.items())]
         values = {"dampers": [{"Damper": damper_values(each, config)} for each in dampers]}
-        values |= {key: getattr(self, key) for key in ("frequencies", "trials", "tested", "cells")}
+        values |= {key: getattr(self, key) for key in ("frequencies", "trials", "cells")}
         return self.system(config) | values | {"seed": config.seed} | config.settling.job()
 
 

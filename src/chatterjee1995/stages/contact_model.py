@@ -29,9 +29,8 @@ from impact_damper.motions.simulate import random_states
 from impact_damper.theory.contact_law import (
     EXIT_RULES,
     contact,
-    damping_ratio,
     natural_frequency,
-    tension,
+    pull_time,
 )
 
 # The loads of the map are evenly spaced up to |G| of about LINEAR, and logarithmically above it.
@@ -130,14 +129,10 @@ def _verdict(found, restitution):
 def unloaded_table(restitutions):
     """Return the variables of contacts without load, one value for each restitution."""
     ends = [[contact(e, 0.0, rule) for e in restitutions] for rule in EXIT_RULES]
-    pulls = [tension(e, 0.0) for e in restitutions]
     return {
-        "unloaded_damping": [damping_ratio(e) for e in restitutions],
         "unloaded_restitution": [[end.departure for end in row] for row in ends],
         "unloaded_duration": [[end.duration / np.pi for end in row] for row in ends],
-        "unloaded_pull_time": [pull.time for pull in pulls],
-        "unloaded_pull_impulse": [pull.impulse for pull in pulls],
-        "unloaded_pull_peak": [pull.peak for pull in pulls],
+        "unloaded_pull_time": [pull_time(e, 0.0) for e in restitutions],
     }
 
 

@@ -11,7 +11,7 @@ from itertools import count
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
-from impact_damper.data.shares import BOUNDS, escape_rate, wilson
+from impact_damper.data.shares import BOUNDS, wilson
 from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION, VARIABLES
 from impact_damper.model.bounds import LEAD
 from impact_damper.model.packed import FREQUENCY, pack
@@ -71,8 +71,8 @@ def migration(
     """Return runs of the controller, and the motions to which releases lead, as a dataset.
 
     There are `trials` runs as by `migrate`. The displacement is stored for one of them, `example`.
-    `releases` other runs of at most `lifetime` forcing cycles measure how long the violent
-    transient lasts, and are released once. Each settled damped motion is released as often.
+    `releases` other runs of at most `lifetime` forcing cycles are released once, during the violent
+    transient. Each settled damped motion is released as often.
     """
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
@@ -90,10 +90,9 @@ def migration(
     path, log = control(case, draws[example], longest_hold, settling, periods, None)
     times, displacement = course(case, path, log, settling.tolerance)
     data |= totals | _summary(data, totals) | {"example": example, "displacement": displacement}
-    lives, motions, entries = watch_runs(
+    motions, entries = watch_runs(
         case, roots[1].spawn(releases), lifetime, settling, workers, progress
     )
-    data |= _transient(lives, motions, lifetime, case.known)
     known = _settled_motions(oscillator, damper, frequency, seed, settling, workers, motions)
     data |= release_data(case, known, entries, settling)
     coordinates = {
@@ -149,15 +148,15 @@ def _release(case, state, wait, settling, stop=NEVER):
 def watch_runs(case, seeds, lifetime, settling, workers, progress):
     """Run with the damper on from the resonance branch, and release each run once.
 
-    Return for each of the `seeds` (SeedSequence) the forcing cycles before the run is captured by
-    an orbit, at most `lifetime`; the record of the motion that it settles to; and the RELEASE. The
-    strobe of the release lies between strobe LEAD, before which the run still depends on its start,
-    and the capture. A run that is captured before strobe LEAD is not released.
+    Return for each of the `seeds` (SeedSequence) the record of the motion that the run settles to,
+    and the RELEASE. The strobe of the release lies between strobe LEAD, before which the run still
+    depends on its start, and the capture by an orbit, or the end at `lifetime` forcing cycles. A
+    run that is captured before strobe LEAD is not released.
     """
     # The phase at which the damper is switched on, the place of the loose mass, the strobe of the
     # release, and the phase after this strobe.
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
-    lives, motions = np.empty(len(draws)), np.zeros(len(draws), MOTION)
+    motions = np.zeros(len(draws), MOTION)
     entries = np.full(len(draws), np.array((np.nan,) * 3 + (FREE_MOTION["none"],), RELEASE))
     stop = np.zeros(1, bool)
 
@@ -170,13 +169,12 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
             )
             captured = is_settled(motions[i])
             life = _life(case.on, path, motions[i], settling.tolerance) if captured else lifetime
-            lives[i] = life
             if life > LEAD:
                 state = path[LEAD + int(instant * (life - LEAD)) + 1, 1:]
                 entries[i] = _release(case, state, wait, settling, stop)
 
     ensemble.run_chunks(work, len(draws), workers, progress, stop, size=8)
-    return lives, motions, entries
+    return motions, entries
 
 
 def _life(p, path, record, tolerance):
@@ -191,21 +189,6 @@ def _life(p, path, record, tolerance):
     there = orbit[np.arange(-last, 1) % len(orbit), :2]
     far = np.any(np.abs(path[1:, 1:3] - there) > CAPTURE, axis=1)
     return int(np.max(np.flatnonzero(far), initial=-1)) + 1
-
-
-def _transient(lives, motions, lifetime, known):
-    """Return a dict of dataset variables of the lifetimes.
-
-    A capture is detected only after the run has settled, so a run that was captured shortly before
-    its end is not counted as captured. To avoid a bias, lifetimes are evaluated only up to a
-    horizon: `lifetime` minus the longest time between capture and settling in any run.
-    """
-    settled = is_settled(motions)
-    delay = np.max(motions["periods_run"][settled] - lives[settled], initial=0)
-    return {
-        "landed_on": kinds(motions["period"], motions["maximum_displacement"], known),
-        "escape_rate": escape_rate(lives, lifetime - delay),
-    }
 
 
 def release_data(case, motions, entries, settling):
@@ -298,9 +281,7 @@ def release_scan(
     seeds = np.random.SeedSequence(seed).spawn(len(cases))
     rows = []
     for i, case in enumerate(cases):
-        _, _, entries = watch_runs(
-            case, seeds[i].spawn(releases), lifetime, settling, workers, None
-        )
+        _, entries = watch_runs(case, seeds[i].spawn(releases), lifetime, settling, workers, None)
         motions = _scan_records(response.isel(frequency=i))
         rows.append(release_data(case, motions, entries, settling))
     width = max(len(row["damped_kind"]) for row in rows)

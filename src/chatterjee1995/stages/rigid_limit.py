@@ -48,8 +48,6 @@ def rigid_limit(
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
     compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)
     data = _errors(oscillator, damper, frequencies, stiffnesses, compliant.orbits, rigid.orbits)
-    for name, grid in (("compliant", compliant), ("rigid", rigid)):
-        data[f"{name}_status"] = grid.flags(f"{name}_status")
     data |= _needed(stiffnesses, data["rigid_error"])
     for name in ("rigid", "mended"):
         data[f"{name}_order"] = _orders(stiffnesses, data[f"{name}_error"])
@@ -59,7 +57,6 @@ def rigid_limit(
         "own_displacement": quiet.displacement,
         "own_error": own.displacement / quiet.displacement - 1,
         "own_mended_error": mended_size / quiet.displacement - 1,
-        "own_decay_error": abs(own.multiplier) - abs(quiet.multiplier),
     }
     made = describe(oscillator, damper, settling)
     made |= {"frequency": frequency, "starts": starts, "seed": seed}

@@ -120,8 +120,8 @@ def release_policies(datasets) -> pd.DataFrame:
                     "95 % arrive within [cycles]": float(
                         one.policy_cycles.sel(quantile=0.95, bound="share")
                     ),
-                    "median time with damper [cycles]": float(one.policy_damper.sel(bound="share")),
-                    "median number of impacts": float(one.policy_impacts.sel(bound="share")),
+                    "median time with damper [cycles]": float(one.policy_damper),
+                    "median number of impacts": float(one.policy_impacts),
                     "mean number of releases": float(one.policy_releases),
                 }
             )

@@ -56,7 +56,7 @@ def warm_up_paper(orders=()) -> None:
     from impact_damper.motions.strobe_map import strobe_time
 
     settling = Settling(patience=100, limit=100, watched=1)
-    numbers = {"trials": 1, "tested": 1, "cells": 4, "settling": settling}
+    numbers = {"trials": 1, "cells": 4, "settling": settling}
     release_policies(OSCILLATOR, [DAMPER], [FREQUENCY], **numbers)
     p = pack(OSCILLATOR, DAMPER, 2.0)
     start, begin = np.array([0.082, 0.169, 0.381, -1.088]), strobe_time(p)

@@ -100,8 +100,6 @@ end_event | end | | | event that ends the branch
   : END
 end_displacement | end | displacement | | largest displacement of the primary mass at the end of a
   branch
-end_multiplier_real | end | | | dominant Floquet multiplier at the end, real part
-end_multiplier_imaginary | end | | | dominant Floquet multiplier at the end, imaginary part
 # lives of chaotic motions
 life_ends | frequency motion | | | number of runs of the chaotic motion that ended, -1 if it is
   not chaotic or none was run
@@ -182,10 +180,6 @@ peak_rule_clearance | | clearance | d0 | clearance of rule (19)
 optimum_ratio | | | | rm W^2 d0/f at the optimum clearance, which is 1 by rule (18)
 straight_flight_ratio | | | | rm W^2 d0/f at the smallest max |Z1| for rigid walls at high
   frequency
-first_harmonic_share | | | | fraction of optimum_ratio - 1 that the first harmonic explains,
-  (pi^2/8 - 1)/(optimum_ratio - 1)
-straight_flight_share | | | | fraction of optimum_ratio - 1 explained by straight flight:
-  (straight_flight_ratio - 1)/(optimum_ratio - 1)
 # orbits along branches
 followed_value | point | followed | | value of the parameter that is varied along a branch of
   orbits
@@ -251,8 +245,6 @@ basin_phase | | angle | | initial phase Omega T of the forcing
 basin_label | basin_velocity basin_displacement | | | attractor to which a state leads, or a
   negative number: -1 unresolved, -2 escaped, -3 chaotic, -4 without contact, -5 depends on the
   place of the loose mass, -6 quasi-periodic
-basin_periods | basin_velocity basin_displacement | | | cycles after which the motion from a state
-  is decided
 basin_share | attractor basin_velocity basin_displacement | | | fraction of the places of the
   loose mass from which a state leads to an attractor
 attractor | attractor | | | index of an attractor, by rising max |Z1|
@@ -284,19 +276,12 @@ off_time | trial switching | time | T | time at which the damper is switched off
 end_time | trial switching | time | T | time at which the free motion has settled
 released_from | trial switching | | | damped motion in which the damper is switched off
   : DAMPED_MOTION
-released_period | trial switching | | n | period in cycles of the motion released_from, 0 if it
-  has not settled
-released_displacement | trial switching | displacement | max |Z1| | largest displacement of the
-  motion released_from, if it has settled
 destination | trial switching | | | free motion to which a release leads
   : FREE_MOTION
-destination_displacement | trial switching | displacement | max |Z1| | largest displacement of the
-  free motion
 trial_outcome | trial | | | whether a run arrives on the non-resonance branch
   : not_reached 0, reached 1
 switchings | trial | | | number of times that the damper is switched on in a run
 damper_time | trial | | | cycles with the damper on
-release_time | trial | | | cycles from first switching the damper on to last switching it off
 total_time | trial | | | cycles from first switching the damper on to the end of the last free run
 example | | | | index of the run whose displacement is stored
 bound | bound | | | share, or lower or upper end of its 95 % interval
@@ -320,10 +305,6 @@ release_velocity | damped release | velocity | Z1' | velocity of the primary mas
 release_destination | damped release | | | free motion to which the release leads
   : FREE_MOTION
 release_share | damped free_motion bound | | | share of releases that lead to each free motion
-# lifetime of the violent transient
-landed_on | run | | | motion on which the run settles
-  : DAMPED_MOTION
-escape_rate | bound | | | rate at which transients end, per run and cycle
     """,
     BRANCH_END=BRANCH_END,
     CURVE=CURVE,

@@ -5,8 +5,6 @@ import math
 import numpy as np
 from scipy.special import bdtr, gammaincinv  # `scipy.stats` takes half a second to import
 
-from impact_damper.model.bounds import LEAD
-
 # Labels of the numbers that `wilson` and `escape_rate` return.
 BOUNDS = ["share", "lower", "upper"]
 # Quantile of the normal distribution of a two-sided 95 % interval.
@@ -50,16 +48,14 @@ def starts_needed(share) -> int:
     return math.ceil(math.log(DOUBT) / math.log(share))
 
 
-def escape_rate(lives, horizon, lead=LEAD):
-    """Return the rate at which runs end after the time `lead`, with its 95 % interval, shape (3,).
+def escape_rate(lives, horizon):
+    """Return the rate at which runs end, with its 95 % interval, shape (3,).
 
-    The rate is the number of runs that end between `lead` and the horizon, divided by the time that
-    all runs last between these two; NaN if this time is 0. The interval is that of a Poisson count.
+    The rate is the number of runs that end before the horizon, divided by the time that all runs
+    last before it. The interval is the interval of a Poisson count.
     """
-    captures = np.sum((lives > lead) & (lives <= horizon))
-    exposure = np.sum(np.clip(np.minimum(lives, horizon) - lead, 0, None))
-    if exposure == 0:
-        return np.full(3, np.nan)
+    captures = np.sum(lives <= horizon)
+    exposure = np.sum(np.minimum(lives, horizon))
     # Quantiles of the gamma distribution, which are half of the chi-squared quantiles.
     lower = gammaincinv(captures, 0.025) if captures else 0.0
     return np.array([captures, lower, gammaincinv(captures + 1, 0.975)]) / exposure

@@ -181,7 +181,7 @@ def _radius(coefficients, step, contraction):
 
 
 def label_damped(p, states, phase, settling, workers=1, progress=None):
-    """Return labels of states with the damper on, cycles until then, and the attractors.
+    """Return labels of states with the damper on, and the attractors.
 
     No proven neighbourhoods exist for motions with contacts, so each motion is run until it has
     settled. A label is the index of an attractor, a record, by ascending max |Z1|, or a negative
@@ -209,7 +209,7 @@ def label_damped(p, states, phase, settling, workers=1, progress=None):
         else:
             labels[i] = len(attractors)
             attractors.append(motions[i])
-    return labels, motions["periods_run"], np.array(attractors, records.MOTION)
+    return labels, np.array(attractors, records.MOTION)
 
 
 def orbit_passages(p, record, phase):

@@ -39,7 +39,7 @@ ALIKE = 1e-6
 # on_time, off_time: times at which the damper is switched on and off.
 # end_time: time at which the free motion after `off_time` has settled.
 # released_*: period and max |Z1| of the motion with the damper.
-# destination*: flag (`FREE_MOTION`) and max |Z1| of the free motion to which the release leads.
+# destination: flag (`FREE_MOTION`) of the free motion to which the release leads.
 SWITCHING = np.dtype(
     [
         ("on_time", "f8"),
@@ -48,7 +48,6 @@ SWITCHING = np.dtype(
         ("released_period", "i2"),
         ("released_displacement", "f8"),
         ("destination", "i1"),
-        ("destination_displacement", "f8"),
     ]
 )
 
@@ -273,7 +272,6 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
         period, strobe = int(free["period"]), rows[-1, 0]
         entry["end_time"] = strobe
         entry["destination"] = destination(case.known, free)
-        entry["destination_displacement"] = free["maximum_displacement"]
         if entry["destination"] == FREE_MOTION["non_resonance"] or strobe >= periods:
             break
     return np.concatenate(path), log
@@ -314,7 +312,7 @@ def switching_data(logs, case):
     absent = logs["destination"] == FREE_MOTION["none"]
     data = {name: (logs[name] + 0.25) * period for name in ("on_time", "off_time", "end_time")}
     data["released_from"] = np.where(absent, DAMPED_MOTION["none"], kind)
-    return data | {name: logs[name] for name in SWITCHING.names[3:]}
+    return data | {"destination": logs["destination"]}
 
 
 def run_totals(logs):
@@ -330,6 +328,5 @@ def run_totals(logs):
         ),
         "switchings": np.sum(logs["destination"] != FREE_MOTION["none"], axis=-1),
         "damper_time": np.nansum(logs["off_time"] - logs["on_time"], axis=-1),
-        "release_time": np.nanmax(logs["off_time"], axis=-1) - first,
         "total_time": np.nanmax(logs["end_time"], axis=-1) - first,
     }

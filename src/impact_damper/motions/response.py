@@ -269,7 +269,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
     starts[:, :2] += np.random.default_rng([seed, runs]).uniform(-APART, APART, (len(starts), 2))
     lives = _lives(rows, starts, periods, settling, **running).reshape(-1, runs)
     for place, own in zip(map(tuple, chaotic), lives, strict=True):
-        rate, lower, upper = escape_rate(own, periods, lead=0)
+        rate, lower, upper = escape_rate(own, periods)
         table["life_ends"][place] = np.sum(own <= periods)
         table["mean_life"][place] = 1 / rate if rate > 0 else np.nan
         table["mean_life_lower"][place] = 1 / upper

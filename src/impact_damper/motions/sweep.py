@@ -108,8 +108,6 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
         "end_direction",
         "end_event",
         "end_displacement",
-        "end_multiplier_real",
-        "end_multiplier_imaginary",
     ):
         data[name] = np.array([end[name] for end in ends])
     data["end_branch"] = np.array([branches[end["end_motion"]] for end in ends], int)
@@ -155,8 +153,6 @@ def _follow(source, target, index, settling, links, ends):
                 ),
                 "end_event": flag("end_event", _end_event(record, multiplier, beyond)),
                 "end_displacement": last["maximum_displacement"],
-                "end_multiplier_real": multiplier.real,
-                "end_multiplier_imaginary": multiplier.imag,
             }
         )
 

@@ -171,28 +171,23 @@ def _free(p, plane, window, reach, phase, cells, settling, running):
     widths of the region in which stable manifolds are followed.
     """
     attractors = free_attractors(p, reach / 2, settling)
-    labels, periods = label_states(
+    labels, _ = label_states(
         p, plane, phase, attractors, settling.tolerance, settling.limit, **running
     )
     lost = np.flatnonzero(labels == BASIN_LABEL["unresolved"])
     if len(lost):
         more = find_attractors(p, plane[lost[:: max(1, len(lost) // TRIED)]], settling)
         attractors = _joined(p, attractors, more)
-        again = label_states(
+        labels[lost], _ = label_states(
             p, plane[lost], phase, attractors, settling.tolerance, settling.limit, **running
         )
-        labels[lost], periods[lost] = again
         order = np.argsort(attractors.records["maximum_displacement"], kind="stable")
         rank = np.argsort(order)
         labels = np.where(labels >= 0, rank[np.maximum(labels, 0)] if len(rank) else labels, labels)
         attractors = with_neighbourhoods(p, attractors.records[order])
-    data = {
-        "basin_label": labels.reshape(cells, cells).astype(np.int8),
-        "basin_periods": periods.reshape(cells, cells).astype(np.int32),
-    }
-    return data | boundary_data(
-        p, attractors, window, reach, phase, cells, settling
-    ), attractors.records
+    data = boundary_data(p, attractors, window, reach, phase, cells, settling)
+    data["basin_label"] = labels.reshape(cells, cells).astype(np.int8)
+    return data, attractors.records
 
 
 def _joined(p, attractors, more):
@@ -253,7 +248,7 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
     states = np.concatenate(
         [np.hstack([plane, np.tile(place, (len(plane), 1))]) for place in places]
     )
-    labels, periods, records = label_damped(p, states, phase, settling, **running)
+    labels, records = label_damped(p, states, phase, settling, **running)
     labels = labels.reshape(len(places), -1)
     same = np.all(labels == labels[0], axis=0)
     share = [np.mean(labels == index, axis=0) for index in range(len(records))]
@@ -261,7 +256,6 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
         "basin_label": np.where(same, labels[0], BASIN_LABEL["mixed"])
         .reshape(cells, cells)
         .astype(np.int8),
-        "basin_periods": periods.reshape(len(places), cells, cells).max(axis=0),
     }
     if len(places) > 1:
         data["basin_share"] = np.array(share).reshape(len(records), cells, cells)

@@ -30,7 +30,7 @@ from impact_damper.motions.start_states import describe_search, search_starts
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.motions.sweep import SAME, reached, sweep
 from impact_damper.theory.design_rule import rule_clearance
-from impact_damper.theory.optimum_clearance import analytical_table, excess_table
+from impact_damper.theory.optimum_clearance import analytical_table, straight_flight_ratio
 
 # Parameters of the damper that are the same at all clearances.
 SWEPT_WITH = {"mass_ratio", "restitution", "contact_stiffness"}
@@ -132,7 +132,12 @@ def clearance_sweep(
     branch = _quiet_branch(data, parameters, forcing / inertia)
     data |= _quiet_table(branch) | minimum_table(branch) | balance
     data |= {"largest_displacement": _largest(data)}
-    data |= excess_table(inertia * data["optimum_clearance"] / forcing, dampers[0])
+    data |= {
+        "optimum_ratio": inertia * data["optimum_clearance"] / forcing,
+        "straight_flight_ratio": straight_flight_ratio(
+            dampers[0].mass_ratio, dampers[0].restitution
+        ),
+    }
     made = describe(oscillator, settling) | swept | describe_search(starts, radius, seed)
     coordinates = {
         "clearance": clearances,

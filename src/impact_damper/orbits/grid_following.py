@@ -4,7 +4,6 @@ from collections import deque
 
 import numpy as np
 
-from impact_damper.data.datasets import flag
 from impact_damper.motions.following import Followed, follow
 
 # Between neighbouring cells a step that fails is halved, down to SHORTEST times their distance.
@@ -41,7 +40,6 @@ class Grid:
     extrapolating: As in `follow_line`. Its argument `behind` is the orbit of the neighbouring cell
         on the opposite side, if this orbit is known.
     orbits: Orbits, keyed by cell, a tuple of indices.
-    status: Status of the last search in each cell to which an orbit was followed, keyed by cell.
     """
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
@@ -51,11 +49,11 @@ class Grid:
         axes = range(len(self.shape)) if axes is None else axes
         unit = np.eye(len(self.shape), dtype=int)
         self._directions = [turn * unit[axis] for axis in axes for turn in (-1, 1)]
-        self.orbits, self.status = {}, {}
+        self.orbits = {}
 
     def put(self, cell, orbit):
         """Enter a known orbit in a cell."""
-        self.orbits[cell], self.status[cell] = orbit, "found"
+        self.orbits[cell] = orbit
 
     def spread(self):
         """Follow orbits into neighbouring cells until no further cell is reached.
@@ -71,7 +69,6 @@ class Grid:
                 if target is None or target in self.orbits:
                     continue
                 followed = self.follow(cell, direction)
-                self.status[target] = followed.status
                 if followed.arrived:
                     self.orbits[target] = followed.orbit
                     queue.append(target)
@@ -93,10 +90,3 @@ class Grid:
             extrapolating=self.extrapolating,
             behind=self.orbits.get(self.beside(cell, np.negative(direction))),
         )
-
-    def flags(self, variable):
-        """Return the status of all cells as flags of a variable; `not_attempted` without status."""
-        flags = np.full(self.shape, flag(variable, "not_attempted"))
-        for cell, status in self.status.items():
-            flags[cell] = flag(variable, status)
-        return flags

@@ -30,17 +30,6 @@ class Exit(NamedTuple):
     departure: float
 
 
-class Tension(NamedTuple):
-    """Pull of the wall on the loose mass at the end of a contact; NaN if the contact does not end.
-
-    The time is divided by the duration of the contact, impulse and peak by those of the push.
-    """
-
-    time: float
-    impulse: float
-    peak: float
-
-
 class _Wave(NamedTuple):
     """The function level + exp(-z s) (a cos(w s) + b sin(w s)), w = sqrt(1 - z^2)."""
 
@@ -117,19 +106,11 @@ def contact(restitution, load, rule) -> Exit:
     return Exit("released", end, math.sqrt(square))
 
 
-def tension(restitution, load) -> Tension:
-    """Return time, impulse and peak of the pull of the wall under the rule `zero_penetration`.
+def pull_time(restitution, load) -> float:
+    """Return the fraction of a contact in which the wall pulls, under the rule `zero_penetration`.
 
-    The impulse of the wall between two instants is the integral of G over s minus the change of u'.
+    It is NaN if the contact does not end.
     """
     penetration, force = _waves(restitution, load)
-    speed = penetration.slope()
     end = penetration.first_fall()
-    if end == math.inf:
-        return Tension(math.nan, math.nan, math.nan)
-    begin = min(force.first_fall(), end)
-    push = load * begin - (speed(begin) - 1)
-    pull = speed(end) - speed(begin) - load * (end - begin)
-    top, bottom = force.first_extrema()
-    most = max(0.0, -force(end), -force(bottom) if bottom < end else 0.0)
-    return Tension((end - begin) / end, pull / push, most / max(force(top), force(0.0)))
+    return math.nan if end == math.inf else (end - min(force.first_fall(), end)) / end

@@ -80,21 +80,6 @@ def analytical_table(oscillator, dampers, frequency):
     }
 
 
-def excess_table(ratio, damper):
-    """Return the fraction of the optimum's excess over rule (18) that each closed form explains.
-
-    `ratio` is rm W^2 d0 at the optimum, and the excess is ratio - 1.
-    """
-    straight = straight_flight_ratio(damper.mass_ratio, damper.restitution)
-    harmonic = FIRST_HARMONIC_RATIO if damper.restitution == 1 else np.nan
-    return {
-        "optimum_ratio": ratio,
-        "straight_flight_ratio": straight,
-        "first_harmonic_share": (harmonic - 1) / (ratio - 1),
-        "straight_flight_share": (straight - 1) / (ratio - 1),
-    }
-
-
 def rule_ratios(oscillator, damper, frequency):
     """Return the optimum rm W^2 d0 by each rule for each criterion.
 

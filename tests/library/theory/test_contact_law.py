@@ -11,7 +11,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import quad, solve_ivp
 
-from impact_damper.theory.contact_law import contact, damping_ratio, tension
+from impact_damper.theory.contact_law import contact, damping_ratio, pull_time
 
 CASES = [(e, g) for e in (0.1, 0.3, 0.75, 0.95, 1.0) for g in (-5, -0.3, 0, 0.02, 0.3, 2)]
 LONG = 20.0
@@ -63,12 +63,12 @@ def test_an_elastic_contact_returns_what_it_got_whatever_the_load(load):
     """A constant load does no work over a contact that ends where it began."""
     for rule in ("zero_penetration", "no_tension"):
         assert contact(1.0, load, rule).departure == pytest.approx(1, abs=1e-12)
-    assert tension(1.0, load) == pytest.approx((0, 0, 0), abs=1e-12)
+    assert pull_time(1.0, load) == pytest.approx(0, abs=1e-12)
 
 
 @pytest.mark.parametrize(("restitution", "load"), [(0.3, 0.05), (0.3, -1), (0.75, 0.2), (0.9, -3)])
-def test_energy_and_impulses(restitution, load):
-    """Energy lost in the dashpot and impulse of the pull against numerical integrals.
+def test_energy_and_pull(restitution, load):
+    """Energy lost in the dashpot and time of the pull against numerical integrals.
 
     The dashpot dissipates 2 z times the integral of u'^2.
     """
@@ -77,15 +77,6 @@ def test_energy_and_impulses(restitution, load):
     begin = integrated(restitution, load, "no_tension")[1][0]
     speed = contact(restitution, load, "zero_penetration").departure
 
-    def force(s):
-        u, v = solution.sol(s)
-        return u + 2 * z * v
-
     lost = quad(lambda s: 2 * z * solution.sol(s)[1] ** 2, 0, end)[0]
     assert 1 - speed**2 == pytest.approx(2 * lost, abs=1e-9)
-    found = tension(restitution, load)
-    push, pull = quad(force, 0, begin)[0], -quad(force, begin, end)[0]
-    s = np.linspace(0, end, 20001)
-    assert found.impulse == pytest.approx(pull / push, abs=1e-9)
-    assert found.time == pytest.approx((end - begin) / end, abs=1e-9)
-    assert found.peak == pytest.approx(-force(s).min() / force(s).max(), abs=1e-6)
+    assert pull_time(restitution, load) == pytest.approx((end - begin) / end, abs=1e-9)

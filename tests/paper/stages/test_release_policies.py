@@ -139,9 +139,6 @@ def test_the_interval_of_a_quantile_covers_it():
 
 @pytest.mark.thorough
 def test_the_dataset_of_a_small_comparison():
-    data = release_policies(CUBIC, [PAPER], [W], trials=20, tested=800, cells=16)
+    data = release_policies(CUBIC, [PAPER], [W], trials=20, cells=16)
     success = {name: data.policy_success.sel(policy=name) for name in data.policy.values}
     assert success["state"].sel(bound="lower").item() > success["settled"].sel(bound="upper").item()
-    share = data.realised_share.isel(case=0, frequency=0)
-    # Of 10 000 such releases with a finer release set 24.4 % lead to the goal.
-    assert share.sel(bound="lower") < 0.244 < share.sel(bound="upper")
