@@ -29,8 +29,22 @@ struct Motion {
     }
 };
 
+// The largest displacement after the time `lead`, from SAMPLES states within each step.
+struct Peak {
+    static constexpr int SAMPLES = 4;
+    double lead, size = 0.0;
+
+    template <class Stepper> void look(Stepper &stepper, double first, double last) {
+        State y;
+        for (int i = 1; i <= SAMPLES && last > lead; ++i) {
+            stepper.calc_state(first + (last - first) * i / SAMPLES, y);
+            size = std::max(size, std::abs(y[0]));
+        }
+    }
+};
+
 // Advance a state from the time t to `end` and return the number of contacts begun.
-long advance(Motion motion, State &y, double t, double end, double tolerance) {
+long advance(Motion motion, State &y, double t, double end, double tolerance, Peak *peak = nullptr) {
     using namespace boost::numeric::odeint;
     auto stepper = make_dense_output(tolerance, tolerance, runge_kutta_dopri5<State>());
     long contacts = 0;
@@ -41,6 +55,7 @@ long advance(Motion motion, State &y, double t, double end, double tolerance) {
         double first = stepper.previous_time(), last = std::min(stepper.current_time(), end);
         stepper.calc_state(last, y);
         if (!motion.changed(y)) {
+            if (peak) peak->look(stepper, first, last);
             if (last == end) return contacts;
             continue;
         }
@@ -50,11 +65,17 @@ long advance(Motion motion, State &y, double t, double end, double tolerance) {
             stepper.calc_state(middle, y);
             (motion.changed(y) ? last : first) = middle;
         }
+        if (peak) peak->look(stepper, stepper.previous_time(), last);
         stepper.calc_state(last, y);
         motion.side = motion.side ? 0 : (y[2] > 0 ? 1 : -1);
         contacts += motion.side != 0;
         stepper.initialize(y, last, step);
     }
+}
+
+Motion from(const double *given) {
+    return {given[0], given[1], given[2], given[3], given[4], given[5], given[6], given[7],
+            given[8], 0};
 }
 
 }  // namespace
@@ -63,12 +84,23 @@ long advance(Motion motion, State &y, double t, double end, double tolerance) {
 extern "C" void motions(
     const double *given, long count, double begin, double end, double tolerance, double *states,
     long *contacts) {
-    const Motion motion{given[0], given[1], given[2], given[3], given[4], given[5],
-                        given[6], given[7], given[8], 0};
     for (long i = 0; i < count; ++i) {
         State y;
         std::copy(states + 4 * i, states + 4 * i + 4, y.begin());
-        contacts[i] = advance(motion, y, begin, end, tolerance);
+        contacts[i] = advance(from(given), y, begin, end, tolerance);
         std::copy(y.begin(), y.end(), states + 4 * i);
+    }
+}
+
+// The largest displacement of each motion from the time `lead` to `end`.
+extern "C" void largest(
+    const double *given, long count, double begin, double lead, double end, double tolerance,
+    const double *states, double *sizes) {
+    for (long i = 0; i < count; ++i) {
+        State y;
+        std::copy(states + 4 * i, states + 4 * i + 4, y.begin());
+        Peak peak{lead};
+        advance(from(given), y, begin, end, tolerance, &peak);
+        sizes[i] = peak.size;
     }
 }

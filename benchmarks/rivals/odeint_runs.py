@@ -51,17 +51,30 @@ def _library():
     real = np.ctypeslib.ndpointer(float, flags="C")
     whole = np.ctypeslib.ndpointer(np.int64, flags="C")
     number = ctypes.c_double
-    loaded.motions.restype = None
+    loaded.motions.restype = loaded.largest.restype = None
     loaded.motions.argtypes = [real, ctypes.c_long, number, number, number, real, whole]
+    loaded.largest.argtypes = [real, ctypes.c_long, *[number] * 4, real, real]
     return loaded
+
+
+def numbers(p):
+    """Return the numbers that the program needs, from packed parameters."""
+    places = (CLEARANCE, CONTACT_STIFFNESS, DASHPOT, INVERSE_MASS_RATIO)
+    given = [p[DAMPING], *cubic_spring(p), forcing_amplitude.py_func(p), p[FREQUENCY]]
+    return np.array([*given, *p[list(places)]])
+
+
+def largest(p, states, begin, lead, end, tolerance) -> np.ndarray:
+    """Return the largest displacement of each motion from the time `lead` to `end`."""
+    sizes = np.empty(len(states))
+    states = np.ascontiguousarray(states)
+    _library().largest(numbers(p), len(states), begin, lead, end, tolerance, states, sizes)
+    return sizes
 
 
 def prepare(scene, tolerance):
     """Return a function from starts to the states at the end and the numbers of contacts."""
-    p, library = scene.parameters, _library()
-    places = (CLEARANCE, CONTACT_STIFFNESS, DASHPOT, INVERSE_MASS_RATIO)
-    given = [p[DAMPING], *cubic_spring(p), forcing_amplitude.py_func(p), p[FREQUENCY]]
-    given = np.array([*given, *p[list(places)]])
+    given, library = numbers(scene.parameters), _library()
 
     def run(starts):
         states, contacts = np.array(starts), np.zeros(len(starts), np.int64)

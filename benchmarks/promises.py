@@ -1,0 +1,172 @@
+"""Designs of machines drawn at random, and their promises held against another program.
+
+For each machine: the design; the share of new starts that exceed the promise by Boost.odeint
+(`rivals/odeint.cpp`), which shares no code with the library, at the gap, at both ends of its
+tolerance and between points of the grid; and the promised displacement of the best of 40 gaps in a
+sweep without search.
+"""
+
+import math
+import time
+
+import numpy as np
+import pandas as pd
+from scipy.stats import binom
+
+import impact_damper as idm
+from benchmarks.rivals import odeint_runs
+from impact_damper.data.datasets import decode
+from impact_damper.design.cells import Cell, run
+from impact_damper.design.promise import Promise, gap_sets
+from impact_damper.design.task import Task
+from impact_damper.motions.start_states import random_starts
+
+HARDENING = {"mass": 20, "linear_stiffness": 1.5e5, "cubic_stiffness": 8e8, "damping_ratio": 0.004,
+             "force": 60}  # fmt: skip
+BOARD = {"mass": 0.35, "linear_stiffness": 4.477e5, "damping_ratio": 0.01111,
+         "base_acceleration": 3 * 9.80665}  # fmt: skip
+PUMP = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005, "force": 40}
+# Machines that were designed wrongly before version 0.2: machine, and arguments of design_damper.
+KNOWN = {
+    "hardening, wide": (HARDENING, {"mass": 1.2, "restitution": 0.8, "contact": 1e7,
+        "band": (16, 20), "tolerances": {"gap": 0.05, "restitution": 0.1}}),
+    "hardening, narrow": (HARDENING, {"mass": 1.2, "restitution": 0.8, "contact": 1e7,
+        "band": (17.5, 18.5), "tolerances": {"gap": 0.05, "restitution": 0.1},
+        "displacement_limit": 3e-3}),
+    "board": (BOARD, {"mass": 0.015, "restitution": 0.7, "contact": 1e7, "band": (165, 195),
+        "displacement_limit": 0.52e-3}),
+    "pump": (PUMP, {"mass": 1.2, "restitution": 0.6, "contact": 2e7, "band": (20, 21)}),
+    "pump, light": (PUMP, {"mass": 0.6, "restitution": 0.7, "contact": 2e7, "band": (20.3, 20.8),
+        "tolerances": {"gap": 0.02}}),
+}  # fmt: skip
+EXCITATIONS = ("force", "base_displacement", "unbalance")
+# New starts; cycles of a run; least cycles, and decay times, that are left out first.
+STARTS, CYCLES, LEAD, DECAYS = 400, 1500, 300, 6
+TOLERANCE = 1e-8  # of the other program
+# The sweep: gaps, frequencies and starts, the fewest that bound a share of 95 %.
+GAPS, FREQUENCIES, SWEPT = 40, 15, 59
+# A promise counts as broken if so many starts exceed it with a probability below this.
+CHANCE = 1e-3
+
+
+def drawn(number) -> tuple:
+    """Return a machine and arguments of a design, drawn with a number as seed."""
+    random = np.random.default_rng([1995, number])
+    mass, frequency = 10 ** random.uniform(-1, 3), 10 ** random.uniform(0.5, 2.3)
+    stiffness = mass * (2 * math.pi * frequency) ** 2
+    damping = 10 ** random.uniform(math.log10(0.002), math.log10(0.03))
+    machine = {"mass": mass, "linear_stiffness": stiffness, "damping_ratio": damping}
+    static = 10 ** random.uniform(-4.5, -3)  # static deflection, m
+    excitation = EXCITATIONS[random.integers(3)]
+    if excitation == "base_displacement":  # with more damping the force is not approximated
+        machine["damping_ratio"] = damping = min(damping, 0.019)
+    size = {"force": stiffness * static, "base_displacement": static, "unbalance": mass * static}
+    machine[excitation] = size[excitation]
+    resonance = static / (2 * damping)
+    # The spring's frequency changes by `shift` at the displacement without the damper.
+    shift = random.choice([0.0, random.uniform(0.02, 0.2), -random.uniform(0.01, 0.04)])
+    if excitation != "base_displacement":
+        machine["cubic_stiffness"] = 8 / 3 * stiffness * shift / resonance**2
+    middle = frequency * (1 + max(0, shift if "cubic_stiffness" in machine else 0))
+    width = random.uniform(0.02, 0.2)
+    ratio = random.uniform(0.02, 0.12)
+    asked = {
+        "mass": ratio * mass,
+        "restitution": random.uniform(0.4, 0.9),
+        "contact": stiffness * 10 ** random.uniform(2, 3),
+        "band": (middle * (1 - width / 2), middle * (1 + width / 2)),
+        "tolerances": {"gap": random.choice([0.05, 0.1, 0.2])},
+    }
+    if random.random() < 0.5:
+        asked["displacement_limit"] = resonance * random.uniform(0.1, 0.6)
+    return machine, asked
+
+
+def exceeded(task, design) -> float:
+    """Return the largest share of new starts that exceed the promise, over cells of the tolerance.
+
+    The cells are the gap and both ends of its tolerance, at the worst frequency of the grid and
+    between it and its neighbours.
+    """
+    gap, promised = 1e-3 * float(design["design_gap"]), float(design["promised_displacement"])
+    worst = float(design["promised_frequency"])
+    grid = task.grid
+    near = grid[np.argsort(np.abs(grid - worst), kind="stable")[:3]]
+    frequencies = np.unique([worst, *(np.sort(near)[:-1] + np.diff(np.sort(near)) / 2)])
+    shares = []
+    for number, factors in enumerate(gap_sets(task)):
+        for frequency in frequencies:
+            cell = Cell(gap, frequency, tuple(factors))
+            system = task.system(*cell)
+            states, _ = random_starts(*system, STARTS, [2026, number], task.effort.settling)
+            period = 2 * math.pi / system[2]
+            decay = 1 / (math.pi * task.machine.viscous_damping / (2 * math.pi * task.machine.mass))
+            lead = min(max(LEAD, DECAYS * decay * frequency / 2), CYCLES - 200)
+            given = 0.0, lead * period, CYCLES * period, TOLERANCE
+            sizes = odeint_runs.largest(task.packed(*cell), states, *given)
+            shares.append(np.mean(~(task.millimetres(sizes) <= promised)))
+    return max(shares)
+
+
+def swept(task) -> tuple:
+    """Return the best of GAPS gaps (mm) and its displacement (mm), each bounded with few starts.
+
+    The displacement of a gap is the largest within the tolerance, interpolated between the gaps.
+    """
+    gaps = np.geomspace(*task.gap_span, GAPS)
+    frequencies = task.few(FREQUENCIES)
+    cells = [Cell(1e-3 * gap, f) for gap in gaps for f in frequencies]
+    bounds = run(task, cells, SWEPT, ("masses", 7)).largest(1)
+    sizes = task.millimetres(bounds).reshape(GAPS, -1).max(axis=1)
+    fine = np.geomspace(gaps[0], gaps[-1], 2000)
+    values = np.interp(np.log(fine), np.log(gaps), sizes)
+    t = task.gap_tolerance
+    within = [values[(fine >= g * (1 - t)) & (fine <= g * (1 + t))].max() for g in fine]
+    inside = (fine * (1 - t) >= gaps[0]) & (fine * (1 + t) <= gaps[-1])
+    k = int(np.argmin(np.where(inside, within, np.inf)))
+    return fine[k], within[k]
+
+
+def confirmed(task, gap) -> float:
+    """Return the promised displacement of a gap (mm) with all starts and frequencies, mm."""
+    return Promise(task, 1e-3 * gap, gap_sets(task), ("masses", 8)).refined().size
+
+
+def row(name, machine, asked, workers) -> dict:
+    """Return the row of one machine."""
+    begin = time.process_time()
+    effort = idm.Effort(workers=workers)
+    design = idm.design_damper(idm.Machine(**machine), **asked, effort=effort)
+    seconds = time.process_time() - begin
+    task = Task(machine=idm.Machine(**machine), **asked, effort=effort)
+    promised, own = (
+        float(design["promised_displacement"]),
+        float(design["gap_promised_displacement"]),
+    )
+    share = exceeded(task, design)
+    gap, best = swept(task)
+    if best < 0.9 * own:
+        best = confirmed(task, gap)
+    most = binom.ppf(1 - CHANCE, STARTS, 0.05) / STARTS
+    found = {
+        "machine": name,
+        "bare_mm": float(design["largest_bare_displacement"]),
+        "decision": decode(design["decision"]).item(),
+        "gap_mm": float(design["design_gap"]),
+        "promised_mm": promised,
+        "exceeded_share": share,
+        "promise": "holds" if share <= most else "broken",
+        "gap_alone_mm": own,
+        "best_swept_gap_mm": gap,
+        "best_swept_mm": best,
+        "as_good": "yes" if best >= 0.9 * own else "no",
+        "cpu_seconds": seconds,
+    }
+    print("  " + ", ".join(f"{k} {v}" for k, v in found.items()), flush=True)
+    return found
+
+
+def table(count, workers=1) -> pd.DataFrame:
+    """Return a row for each known machine and for `count` machines drawn at random."""
+    made = KNOWN | {f"random {k}": drawn(k) for k in range(count)}
+    return pd.DataFrame([row(name, *each, workers) for name, each in made.items()])
