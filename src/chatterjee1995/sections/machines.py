@@ -27,6 +27,7 @@ class Machine(machine_file.MachineEntry):
     def machines(self, config) -> dict:
         damper, ball = self.damper.values(), self.contact.values()
         stiffness = damper.pop("contact_stiffness", None)
+        damper.pop("inclination", None)  # it is only checked
         effort = {
             "frequencies": self.band.points,
             "candidates": self.candidates,

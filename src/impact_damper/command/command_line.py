@@ -234,12 +234,11 @@ def asked(given):
 def damper(given, gap):
     """Return the damper with a gap, and the stiffness of the contact as in a design, or None."""
     from impact_damper.design.task import Task
-    from impact_damper.model.units import si_value
 
     if gap is None:
         return None
-    task = Task(machine=machine(given), **asked(given))
-    return task.damper(si_value("gap", quantity(gap), "displacement"))
+    task = Task(machine=machine(given), **asked(given), gap=quantity(gap))
+    return task.damper(task.gap)
 
 
 def quantity(text):

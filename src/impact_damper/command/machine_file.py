@@ -27,18 +27,20 @@ from impact_damper.command.values import Allowed, count, number, points_of, star
 from impact_damper.model.bounds import RESTITUTION_RANGE, range_words
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.machine import Machine
-from impact_damper.model.units import QUANTITIES, check_si, si_value
+from impact_damper.model.units import QUANTITIES, absolute_value, check_si, si_value
 
 
 class AllowedQuantity(Allowed):
     """The allowed values of a physical quantity; the value stays as the user wrote it."""
 
-    def __init__(self, quantity, bounds, meaning):
+    def __init__(self, quantity, bounds, meaning, absolute=()):
         unit = QUANTITIES[quantity].unit
         allowed = range_words(**bounds)
         kind = f'a number in {unit}, or text such as "2 {unit}"' if unit else "a number"
+        if absolute:
+            allowed.append(f"or text in a unit such as {QUANTITIES[absolute[0]].label}")
         super().__init__(", ".join([kind, *allowed]), meaning, bounds.get("why", ""))
-        self.quantity, self.bounds = quantity, bounds
+        self.quantity, self.bounds, self.absolute = quantity, bounds, absolute
 
     def __get_pydantic_core_schema__(self, source, handler):
         return core_schema.with_info_plain_validator_function(self._quantity)
@@ -46,6 +48,8 @@ class AllowedQuantity(Allowed):
     def _quantity(self, value, info):
         # Reading units takes a third of a second, which a job of a checked configuration can save.
         if info.context:
+            return value
+        if any((absolute_value(value, each) or -1) > 0 for each in self.absolute):
             return value
         try:
             check_si("", value, self.quantity, **self.bounds)
@@ -55,9 +59,12 @@ class AllowedQuantity(Allowed):
         return value
 
 
-def quantity_of(quantity, meaning="", **bounds):
-    """Return the type of a physical quantity within bounds in SI units."""
-    return Annotated[Any, AllowedQuantity(quantity, bounds, meaning)]
+def quantity_of(quantity, meaning="", absolute=(), **bounds):
+    """Return the type of a physical quantity within bounds in SI units.
+
+    A relative deviation may also be given in a unit of one of the quantities `absolute`.
+    """
+    return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 
 
 def fields_of(part, *, optional=False):
@@ -114,24 +121,34 @@ Damper = create_model(
         ),
         None,
     ),
+    inclination=(
+        quantity_of(
+            "angle",
+            "angle between the gap and the horizontal (only checked, gravity is not modelled)",
+            least=0,
+            most=1.5708,
+        ),
+        None,
+    ),
 )
 Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 
-def share_of(what, meaning="largest relative deviation of"):
-    """Return an optional field for a relative deviation."""
-    return quantity_of("number", f"{meaning} {what}", least=0, most=0.9), None
+def deviation_of(what, *absolute):
+    """Return an optional field for a deviation, a fraction or in units of a quantity."""
+    meaning = f"largest deviation of {what}, as a fraction of it"
+    return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 
 
 Tolerances = create_model(
     "Tolerances",
     __base__=Given,
-    gap=share_of("the gap"),
-    restitution=share_of("the restitution"),
-    contact_stiffness=share_of("the contact stiffness"),
-    stiffness=share_of("both stiffnesses of the spring"),
-    damping=share_of("the damping of the machine"),
-    force=share_of("the excitation"),
+    gap=deviation_of("the gap", "displacement"),
+    restitution=deviation_of("the restitution"),
+    contact_stiffness=deviation_of("the contact stiffness", "stiffness"),
+    stiffness=deviation_of("both stiffnesses of the spring", "stiffness"),
+    damping=deviation_of("the damping of the machine", "damping"),
+    force=deviation_of("the excitation", "force", "displacement", "acceleration", "unbalance"),
 )
 Ball = create_model("Ball", __base__=Given, **fields_of(HertzContact, optional=True))
 
@@ -169,7 +186,9 @@ class MachineEntry(Section):
             return
         try:
             if not lacking:
-                self._task(machine)
+                task = self._task(machine)
+                if self.damper.inclination is not None:
+                    task.check_inclination(self.damper.inclination)
         except (TypeError, ValueError) as error:
             yield f"{dotted(path)}: {error}" if path else str(error)
 
@@ -224,18 +243,25 @@ def read_machine_file(path) -> dict:
     """Return the content of a machine's file, checked, with defaults for the keys left out.
 
     The keys are those of an entry of `machines` in the configuration; `band` may also be a list of
-    two frequencies. A ConfigurationError has a line for each problem.
+    two frequencies, and `frequencies` the number of frequencies, `band.points`.
+    A ConfigurationError has a line for each problem.
     """
     check_file(path)
     given = yaml.load(Path(path).read_bytes(), _Loader)
     if not isinstance(given, dict):
         raise ConfigurationError(f"{Path(path).name}: must have keys with values, such as machine:")
     content = DEFAULTS | given
-    band = content.get("band")
-    if isinstance(band, list) and len(band) == 2:
+    band, points = content.get("band"), content.pop("frequencies", POINTS)
+    if isinstance(band, list):
+        if len(band) != 2:
+            words = "must be least and greatest frequency; `frequencies` is their number"
+            raise ConfigurationError(problem(("band",), band, words))
         content["band"] = {"first": band[0], "last": band[1]}
     if isinstance(content.get("band"), dict):
-        content["band"] = {"points": POINTS} | content["band"]
+        content["band"] = {"points": points} | content["band"]
+        if "frequencies" in given and content["band"]["points"] != points:
+            words = "must be left out with band.points, which means the same"
+            raise ConfigurationError(problem(("frequencies",), points, words))
     try:
         entry = MachineEntry.model_validate(content)
     except ValidationError as error:
@@ -243,4 +269,5 @@ def read_machine_file(path) -> dict:
     problems = list(entry.contradictions((), None))
     if problems:
         raise ConfigurationError("\n".join(problems))
+    content["damper"] = {key: x for key, x in content["damper"].items() if key != "inclination"}
     return content

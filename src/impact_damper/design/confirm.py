@@ -62,15 +62,15 @@ def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
 def confirm(task, gap, turn, curve, ends, progress=None) -> Tried:
     """Return the promise of a gap (mm) from new starts, and put what it shows into the curve."""
     stream = "confirmed", turn
-    promise = Promise(task, 1e-3 * gap, factor_sets(task), stream, progress=progress).refined()
+    promise = Promise(task, 1e-3 * gap, factor_sets(task, gap), stream, progress=progress).refined()
     sizes = promise.by_set()
-    few = len(gap_sets(task))
+    few = len(gap_sets(task, gap))
     frequencies = [promise.over_frequency(k) for k in range(few)]
     worst = [f[np.argmax(bounds)] for f, bounds in frequencies]
     curve.put(gap * promise.sets[:few, 0], sizes[:few], worst, replace=True)
     by_gap = float(sizes[:few].max())
     # The worst frequency may lie between those of the search, or the motion may be rare.
-    reach = 1.1 * (1 + task.gap_tolerance)
+    reach = 1.1 * (1 + task.deviations(gap)[0])
     near = curve.gaps[(curve.gaps > gap / reach) & (curve.gaps < gap * reach)]
     critical = np.unique(worst)
     stream = "compared", 100 + turn
@@ -94,7 +94,7 @@ def conclude(task, found, curve, ranges, status) -> xr.Dataset:
     ends, beyond = curve.keeping(found.gap, KEEPS * promise.size)
     built = promise.size <= (1 - WORTH) * most
     limit_status = "none" if np.isnan(limit) else "met" if promise.size <= limit else "missed"
-    few = gap_sets(task)
+    few = gap_sets(task, found.gap)
     nominal = [place for place, cell in enumerate(promise.cells) if cell[0] == 0]
     order = np.argsort([promise.cells[place][1] for place in nominal])
     records = promise.motions.records[nominal][order]
@@ -179,5 +179,4 @@ def _end(beyond, size):
 
 def _tolerated(task, curve: Curve):
     """Return the largest displacement within the tolerance of each searched gap."""
-    t = task.gap_tolerance
-    return curve.within(curve.gaps * (1 - t), curve.gaps * (1 + t))
+    return curve.within(*task.gap_ends(curve.gaps))

@@ -59,7 +59,8 @@ def design_damper(
         (18) in half a forcing cycle, and its pressure for the impacts of the design.
     tolerances : dict, optional
         Largest relative deviations of gap, restitution, contact_stiffness, stiffness, damping and
-        force, such as {"gap": "10 %"}; by default 20 % of the gap.
+        force, such as {"gap": "10 %"}, or absolute ones with a unit, such as {"gap": "0.2 mm"}; by
+        default 20 % of the gap.
     displacement_limit : float or str, optional
         Displacement of the machine, m, with which the promised one is compared.
     share : float
@@ -187,6 +188,8 @@ def answer(task, decide, title, folder, progress) -> xr.Dataset:
     damper = describe_si(task.machine, task.damper(1e-3 * float(decision["design_gap"])))
     departure = contact_law(task.restitution, 0.0, "no_tension").departure
     used = task.describe() | {"pull_free_restitution": departure}
+    if "gap" in task.tolerances:
+        used["tolerances"]["gap"] = float(task.deviations(float(decision["design_gap"]))[0])
     failed = {key: value for key, value in decision.attrs.items() if key.startswith("failed_")}
     data.attrs = failed | {
         "Conventions": "CF-1.11",

@@ -115,9 +115,9 @@ def beside_peak(frequencies, bounds) -> list:
     return [float(middle) for middle in (ends[1:] + ends[:-1]) / 2]
 
 
-def factor_sets(task) -> np.ndarray:
-    """Return nominal factors, then those of the ends of the gap, then of corners of tolerances."""
-    widths = [task.tolerances.get(name, 0.0) for name in VARIED]
+def factor_sets(task, gap) -> np.ndarray:
+    """Return factors at a gap (mm): nominal, at the ends of the gap, at corners of tolerances."""
+    widths = task.deviations(gap)
     signs = [(-1, 1) if width else (0,) for width in widths]
     corners = np.array(list(itertools.product(*signs)), float)
     if len(corners) > CORNERS:
@@ -131,7 +131,7 @@ def factor_sets(task) -> np.ndarray:
     return rows[np.sort(np.unique(rows, axis=0, return_index=True)[1])]
 
 
-def gap_sets(task) -> np.ndarray:
+def gap_sets(task, gap) -> np.ndarray:
     """Return the rows of `factor_sets` in which at most the gap deviates."""
-    rows = factor_sets(task)
+    rows = factor_sets(task, gap)
     return rows[(rows[:, 1:] == np.array(NOMINAL)[1:]).all(axis=1)]

@@ -84,10 +84,10 @@ class Curve:
 
     def nominal(self) -> tuple:
         """Return many nominal gaps, and the largest displacement within the tolerance of each."""
-        t = self.task.gap_tolerance
-        first, last = self.gaps[0] / (1 - t), self.gaps[-1] / (1 + t)
+        share, width = self.task.gap_tolerance
+        first, last = (self.gaps[0] + width) / (1 - share), (self.gaps[-1] - width) / (1 + share)
         gaps = np.geomspace(first, max(last, first), NOMINAL_GAPS)
-        return gaps, self.within(gaps * (1 - t), gaps * (1 + t))
+        return gaps, self.within(*self.task.gap_ends(gaps))
 
     def ranges(self) -> list:
         """Return the candidates, `Range`s of nominal gaps that do nearly as well as the best."""
@@ -122,9 +122,9 @@ class Curve:
 
     def unclear(self) -> np.ndarray:
         """Return gaps at which the curve is to be computed next, those that matter most first."""
-        t, (gaps, values) = self.task.gap_tolerance, self.nominal()
+        gaps, values = self.nominal()
         good = values <= CANDIDATE * values.min()
-        low, high = gaps[good] * (1 - t), gaps[good] * (1 + t)
+        low, high = self.task.gap_ends(gaps[good])
         widths = np.diff(np.log(self.gaps))
         jumps = np.abs(np.diff(np.log(self.sizes))) > np.log(JUMP)
         matters = np.array(

@@ -26,11 +26,11 @@ from impact_damper.model.bounds import (
     shown,
 )
 from impact_damper.model.hertz import HertzContact
-from impact_damper.model.machine import Machine, MachineDamper, describe_si
+from impact_damper.model.machine import EXCITATIONS, Machine, MachineDamper, describe_si
 from impact_damper.model.packed import pack
 from impact_damper.model.settling import Settling, check_settling
 from impact_damper.model.text import with_unit
-from impact_damper.model.units import check_si
+from impact_damper.model.units import absolute_value, check_si
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 
 # Values that may deviate from their nominal ones; the last three belong to the machine. NOMINAL:
@@ -40,6 +40,17 @@ NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 # Ends of a range or of a confidence interval.
 SIDES = ["lower", "upper"]
+# Acceleration of gravity, m/s^2, and angles between the gap and the horizontal, radian.
+GRAVITY = 9.81
+INCLINATION = {"least": 0, "most": 1.5708}
+# Largest relative deviation, and quantities of absolute ones. The excitation has its own quantity.
+MOST_DEVIATION = 0.9
+ABSOLUTE = {
+    "gap": "displacement",
+    "contact_stiffness": "stiffness",
+    "stiffness": "stiffness",
+    "damping": "damping",
+}
 # Least gap that a design considers: a fraction of the gap of rule (18), and of the gap that the
 # machine without damper no longer touches, twice its largest displacement.
 LEAST_GAP = 0.15
@@ -158,19 +169,29 @@ class Task:
         self._check_excitation()
         self._set("band", checked_band(self.machine, self.band, self.resonance))
         self._set("contact_stiffness", self._stiffness())
-        self._set("tolerances", checked_tolerances(self.tolerances))
+        self._set("tolerances", self._checked_tolerances())
         check_number("share", self.share, least=0.5, most=0.999)
         least, effort = starts_needed(self.share), self.effort
         why = f"a share of {self.share:g} at 95 % confidence needs {least}"
         check_count("starts", effort.starts, least=least, most=10**5, why=why)
         check_starts(effort.starts, effort.frequencies * effort.candidates, least)
         if self.displacement_limit is not None:
-            limit = check_si("displacement_limit", self.displacement_limit, "displacement", above=0)
-            self._set("displacement_limit", limit)
+            why = "the machine without damper moves no further"
+            self._check_length("displacement_limit", 1e-3 * float(self.bare.max()), why)
+        if self.gap is not None:
+            most = 2 * max(1e-3 * float(self.bare.max()), self.machine.resonant_displacement)
+            why = "full play; the machine without damper does not touch the walls of a larger gap"
+            self._check_length("gap", most, why)
         self._check_deviations()
 
     def _set(self, name, value):
         object.__setattr__(self, name, value)
+
+    def _check_length(self, name, most, why):
+        """Check a length, at most `most` m; infinite if the machine without damper escapes."""
+        bounds = {"most": most, "why": why} if math.isfinite(most) else {}
+        length = check_si(name, getattr(self, name), "displacement", above=0, **bounds)
+        self._set(name, length)
 
     def _stiffness(self):
         """Return the stiffness of the contact.
@@ -198,6 +219,8 @@ class Task:
 
     def _check_deviations(self):
         """Raise ValueError if a damper within the tolerances is not allowed."""
+        gap = self.gap or 1e-3 * self.gap_span[0]
+        widths = self.deviations(1e3 * gap)
         least = self.restitution * (1 - self.tolerances.get("restitution", 0.0))
         if least < RESTITUTION_RANGE["least"]:
             raise ValueError(
@@ -205,19 +228,56 @@ class Task:
                 f"{self.restitution:g} may fall to {least:.3g}, must stay at least "
                 f"{RESTITUTION_RANGE['least']:g} ({RESTITUTION_RANGE['why']})"
             )
-        gap = self.gap or 1e-3 * self.gap_span[0]
-        least, most = (
-            [1 + sign * self.tolerances.get(name, 0.0) for name in VARIED] for sign in (-1, 1)
-        )
-        for factors in (NOMINAL, least, most):
+        for factors in (NOMINAL, 1 - widths, 1 + widths):
             self.damper(gap, factors).check_for(self.machine)
             for frequency in self.band:
                 self.packed(gap, frequency, factors)
 
-    @property
-    def gap_tolerance(self) -> float:
-        """Largest relative deviation of the gap."""
-        return self.tolerances.get("gap", 0.0)
+    def _checked_tolerances(self):
+        """Return the largest relative deviations as numbers, and of the gap an absolute as text."""
+        if not isinstance(self.tolerances, Mapping):
+            raise TypeError(f"tolerances = {shown(self.tolerances)}: must be a dictionary")
+        machine, found = self.machine, {}
+        given = next(name for name in EXCITATIONS if getattr(machine, name) is not None)
+        excitation = machine.__dataclass_fields__[given].metadata["quantity"]
+        quantities = ABSOLUTE | {"force": excitation}
+        nominal = {
+            "contact_stiffness": self.contact_stiffness,
+            "stiffness": machine.linear_stiffness,
+            "damping": machine.viscous_damping,
+            "force": getattr(machine, given),
+        }
+        for name, value in self.tolerances.items():
+            if name not in VARIED:
+                raise ValueError(f"tolerances = {shown(name)}: must be of {', '.join(VARIED)}")
+            told = f"tolerances[{name!r}]"
+            width = absolute_value(value, quantities.get(name))
+            if width is not None and name == "gap":
+                found[name] = f"{check_number(told, width, above=0)!r} m"
+                continue
+            if width is not None and nominal[name]:
+                value = width / nominal[name]
+            why = "relative deviation: at 1 the nominal value would become 0"
+            found[name] = check_si(told, value, "number", least=0, most=MOST_DEVIATION, why=why)
+        return found
+
+    @cached_property
+    def gap_tolerance(self) -> tuple[float, float]:
+        """Largest deviation of the gap as a fraction of it and in mm, one of them 0."""
+        value = self.tolerances.get("gap", 0.0)
+        return (value, 0.0) if isinstance(value, float) else (0.0, 1e3 * float(value.split()[0]))
+
+    def gap_ends(self, gaps) -> tuple:
+        """Return the least and the greatest gaps within the tolerance of nominal gaps, mm."""
+        share, width = self.gap_tolerance
+        reach = np.minimum(share + width / gaps, MOST_DEVIATION)
+        return gaps * (1 - reach), gaps * (1 + reach)
+
+    def deviations(self, gap) -> np.ndarray:
+        """Return the largest relative deviations in the order of VARIED, at a gap (mm)."""
+        share, width = self.gap_tolerance
+        others = [self.tolerances.get(name, 0.0) for name in VARIED[1:]]
+        return np.array([min(share + width / gap, MOST_DEVIATION), *others])
 
     @cached_property
     def gap_span(self) -> tuple[float, float]:
@@ -274,6 +334,21 @@ class Task:
         oscillators = [self.machine.oscillator(f) for f in frequencies]
         sizes = map(balance_amplitudes, oscillators, turning)
         return self.millimetres(np.array([ascending[-1] for ascending in sizes]))
+
+    def check_inclination(self, angle) -> None:
+        """Raise ValueError if the loose mass of an inclined damper (radian) stays on one wall.
+
+        Gravity is not in the equations. Without acceleration above its component along the gap the
+        machine does not lift the loose mass.
+        """
+        least = GRAVITY * math.sin(check_si("inclination", angle, "angle", **INCLINATION))
+        most = float(np.max(1e-3 * self.bare * (2 * math.pi * self.grid) ** 2))
+        if most < least:
+            raise ValueError(
+                f"inclination = {shown(angle)}: the machine accelerates by at most {most:.3g} "
+                f"m/s^2, less than gravity along the gap, {least:.3g} m/s^2, so that the loose "
+                "mass stays on its lower wall"
+            )
 
     @property
     def absorber_band(self) -> tuple[float, float]:
@@ -389,8 +464,11 @@ def resonance_of(machine) -> tuple[float, float]:
 
 def checked_band(machine, band, resonance) -> tuple[float, float]:
     """Return the ends of a band, Hz; it must reach into the range `resonance`."""
-    if not isinstance(band, Sequence | np.ndarray) or len(band) != 2:
-        raise ValueError(f"band = {shown(band)}: must be least and greatest frequency")
+    if not isinstance(band, Sequence | np.ndarray) or isinstance(band, str) or len(band) != 2:
+        raise ValueError(
+            f"band = {shown(band)}: must be least and greatest frequency (how many frequencies "
+            "between them are computed is `frequencies` of the effort)"
+        )
     ends = tuple(machine.check_frequency(f"band[{i}]", value) for i, value in enumerate(band))
     low, high = resonance
     if not ends[0] < ends[1] or ends[1] < low or ends[0] > high:
@@ -401,22 +479,3 @@ def checked_band(machine, band, resonance) -> tuple[float, float]:
             f"{where} (away from its resonance a machine needs no damper)"
         )
     return ends
-
-
-def checked_tolerances(tolerances) -> dict:
-    """Return the largest relative deviations as numbers, keyed by names of VARIED."""
-    if not isinstance(tolerances, Mapping):
-        raise TypeError(f"tolerances = {shown(tolerances)}: must be a dictionary")
-    found = {}
-    for name, value in tolerances.items():
-        if name not in VARIED:
-            raise ValueError(f"tolerances = {shown(name)}: must be of {', '.join(VARIED)}")
-        found[name] = check_si(
-            f"tolerances[{name!r}]",
-            value,
-            "number",
-            least=0,
-            most=0.9,
-            why="relative deviation: at 1 the nominal value would become 0",
-        )
-    return found

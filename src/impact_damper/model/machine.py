@@ -1,7 +1,7 @@
 """A machine on a spring with its excitation, and its impact damper, in SI units."""
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from functools import cached_property
 
 from impact_damper.model.bounds import (
@@ -23,6 +23,10 @@ EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
 LIGHT = 0.02
 # Largest damping ratio. At 1, critical damping, the machine no longer vibrates.
 MOST_DAMPING = 0.99
+
+
+class Derived(float):
+    """A value of a machine that was computed from others; a changed copy computes it again."""
 
 
 @names_arguments
@@ -87,7 +91,8 @@ class Machine:
 
     Each value is a number in the SI unit, text with units such as "12 kg", or a quantity of pint;
     the fields hold numbers. The restoring force at the deflection x is
-    linear_stiffness x + cubic_stiffness x^3. Give either the damping ratio or the damping, and one
+    linear_stiffness x + cubic_stiffness x^3. The natural frequency may be given in place of the
+    linear stiffness, and the damping as damping ratio, quality factor or damping. Give one
     excitation. Functions that take a machine take frequencies in Hz, states in m and m/s, and
     return datasets in mm, Hz, N, m/s and s. The force of an unbalance is unbalance w^2. On a moving
     base the spring must be linear, and displacements are measured in a frame at rest, because the
@@ -118,13 +123,23 @@ class Machine:
         most=1e30,
         default=0.0,
     )
+    natural_frequency: float | None = physical(
+        "frequency",
+        "frequency of small undamped vibrations (in place of `linear_stiffness`)",
+        above=0,
+        most=1e15,
+        default=None,
+    )
     damping_ratio: float | None = physical(
         "number",
-        "damping divided by the critical damping (give this or `damping`)",
+        "damping divided by the critical damping (give this or one of the next two keys)",
         above=0,
         most=MOST_DAMPING,
         why="at 1, critical damping, nothing vibrates; 1 per cent is 0.01 or '1 %'",
         default=None,
+    )
+    quality_factor: float | None = physical(
+        "number", "1 / (2 damping_ratio)", above=0.5 / MOST_DAMPING, default=None
     )
     damping: float | None = physical("damping", "coefficient of the dashpot", above=0, default=None)
     force: float | None = physical(
@@ -149,7 +164,11 @@ class Machine:
     )
 
     def __post_init__(self):
+        for each in fields(self):
+            if isinstance(getattr(self, each.name), Derived):
+                object.__setattr__(self, each.name, each.default)
         convert(self)
+        self._derive()
         self._check_spring()
         self._check_damping()
         given = [name for name in EXCITATIONS if getattr(self, name) is not None]
@@ -168,6 +187,29 @@ class Machine:
                 "to the base"
             )
 
+    def _derive(self):
+        """Compute stiffness and damping ratio from the values given in their place."""
+        if self.natural_frequency is None:
+            found = math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
+            object.__setattr__(self, "natural_frequency", Derived(found))
+        elif self.linear_stiffness:
+            raise ValueError(
+                f"natural_frequency = {with_unit(self.natural_frequency, 'Hz')}: must be left out "
+                "with linear_stiffness, from which it follows"
+            )
+        else:
+            found = self.mass * (2 * math.pi * self.natural_frequency) ** 2
+            most = self.__dataclass_fields__["linear_stiffness"].metadata["bounds"]["most"]
+            check_si("natural_frequency: stiffness", found, "stiffness", above=0, most=most)
+            object.__setattr__(self, "linear_stiffness", Derived(found))
+        if self.quality_factor is not None and self.damping_ratio is None and self.damping is None:
+            object.__setattr__(self, "damping_ratio", Derived(0.5 / self.quality_factor))
+        elif self.quality_factor is not None:
+            raise ValueError(
+                f"quality_factor = {self.quality_factor:g}: must be left out with damping_ratio or "
+                "damping, from which it follows"
+            )
+
     def _check_spring(self):
         if self.linear_stiffness == 0 and self.cubic_stiffness <= 0:
             raise ValueError(
@@ -178,7 +220,10 @@ class Machine:
 
     def _check_damping(self):
         if (self.damping_ratio is None) == (self.damping is None):
-            raise ValueError("damping: must be given, or damping_ratio in its place, and not both")
+            raise ValueError(
+                "damping: must be given, or damping_ratio or quality_factor in its place, and one "
+                "alone"
+            )
         critical = 2 * math.sqrt(self.linear_stiffness * self.mass)
         if self.damping_ratio is not None and not critical:
             raise ValueError(
@@ -197,11 +242,6 @@ class Machine:
         if self.damping is not None:
             return self.damping
         return 2 * self.damping_ratio * math.sqrt(self.linear_stiffness * self.mass)
-
-    @property
-    def natural_frequency(self) -> float:
-        """Frequency of small undamped vibrations, Hz; 0 without linear stiffness."""
-        return math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
 
     @cached_property
     def scales(self) -> Scales:
@@ -347,8 +387,13 @@ def static_deflection(force, linear, cubic) -> float:
 
 
 def describe_si(machine, damper=None) -> dict:
-    """Return the given values of a machine and its damper, in SI units, the gap as full play."""
-    found = {name: value for name, value in asdict(machine).items() if value is not None}
+    """Return the values of a machine and its damper, in SI units, the gap as full play."""
+    others = ("natural_frequency", "quality_factor")  # they follow from stiffness and damping ratio
+    found = {
+        name: float(value)
+        for name, value in asdict(machine).items()
+        if value is not None and name not in others
+    }
     if damper is not None:
         values = asdict(damper)
         found |= {"damper_mass": values.pop("mass")} | values

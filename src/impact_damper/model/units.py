@@ -161,6 +161,16 @@ def check_si(name, value, quantity, **bounds) -> float:
     return check_number(name, si_value(name, value, quantity), unit=unit, given=given, **bounds)
 
 
+def absolute_value(value, quantity) -> float | None:
+    """Return a deviation with the unit of a quantity in its SI unit; None if it is relative."""
+    if quantity is None or not (isinstance(value, str) or hasattr(value, "units")):
+        return None
+    try:
+        return si_value("", value, quantity)
+    except (TypeError, ValueError):
+        return None
+
+
 def physical(quantity, meaning="", **others):
     """Return a dataclass field for a quantity; `others` are `default` and bounds in SI units."""
     default = {key: others.pop(key) for key in ("default",) if key in others}

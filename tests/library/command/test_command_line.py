@@ -128,6 +128,43 @@ def test_wrong_value_names_key_and_range(machine_file):
     assert "did you mean force?" in str(raised.value)
 
 
+def test_frequencies_and_tolerances_in_the_words_of_python(machine_file):
+    """`frequencies` and absolute tolerances mean in a file the same as for `design_damper`."""
+    machine_file.write_text(f"{FILE}frequencies: 15\ntolerances: {{gap: 0.1 mm, force: 2 N}}\n")
+    given = read_machine_file(machine_file)
+    assert given["band"]["points"] == 15
+    task = Task(
+        machine=command_line.machine(given),
+        **command_line.asked(given),
+        tolerances=given["tolerances"],
+    )
+    np.testing.assert_allclose(task.deviations(2.0), [0.05, 0, 0, 0, 0, 0.05])
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "told"),
+    [
+        ("[20 Hz, 21 Hz]", "[20, 20.5, 21]", "band = .*: must be least and greatest frequency"),
+        ("restitution: 0.7", "restitution: 0.7, inclination: 100 deg", "damper.inclination = '100"),
+        (
+            "force: 40 N}\ndamper: {",
+            "force: 4 N}\ndamper: {inclination: 30 deg, ",
+            "inclination = '30 deg': the machine accelerates by at most",
+        ),
+        ("band:", "frequencies: 9\nband:", None),
+        ("linear_stiffness: 2e5 N/m", "natural_frequency: 20.5 Hz", None),
+        ("damping_ratio: 5 %", "quality_factor: 10", None),
+    ],
+)
+def test_other_keys_of_a_file(machine_file, before, after, told):
+    machine_file.write_text(FILE.replace(before, after))
+    if told is None:
+        assert read_machine_file(machine_file)
+    else:
+        with pytest.raises(ConfigurationError, match=told):
+            read_machine_file(machine_file)
+
+
 def test_numbers_with_an_exponent_are_numbers(machine_file):
     """YAML 1.1 takes 2e5 for text."""
     machine_file.write_text(FILE.replace("2e5 N/m", "2e5").replace("2e6 N/m", ".2E+7"))

@@ -7,6 +7,7 @@ import pytest
 from helpers.design_tasks import task
 
 import impact_damper as idm
+from impact_damper.design.promise import factor_sets
 
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
 NATURAL = math.sqrt(2e5 / 12) / (2 * math.pi)
@@ -18,6 +19,14 @@ NATURAL = math.sqrt(2e5 / 12) / (2 * math.pi)
         ({"band": (25, 30)}, r"band = 25 Hz to 30 Hz: .* resonance of the machine, at 20.55 Hz"),
         ({"band": (21, 20)}, r"band = 21 Hz to 20 Hz: must ascend"),
         ({"band": (20,)}, r"band = .*: must be least and greatest frequency"),
+        ({"band": np.linspace(20, 21, 9)}, r"`frequencies` of the effort"),
+        ({"tolerances": {"gap": "0.2 N"}}, r"tolerances\['gap'\] = '0.2 N': must be a number"),
+        ({"tolerances": {"force": "80 N"}}, r"tolerances\['force'\] = 2: .* at most 0.9"),
+        (
+            {"displacement_limit": 1.5},
+            r"displacement_limit = 1.5 m: .* at most 0.02.* m \(the",
+        ),
+        ({"gap": 2}, r"gap = 2 m: .* at most 0.04.* m \(full play; .* does not touch"),
         ({"mass": 0}, r"mass = 0 kg: must be at least"),
         ({"mass": "13 kg"}, r"mass = '13 kg': .* at most 12 kg \(mass of the machine"),
         ({"mass": "1 m"}, r"mass = '1 m': must be a number in kg"),
@@ -39,6 +48,25 @@ NATURAL = math.sqrt(2e5 / 12) / (2 * math.pi)
 def test_a_wrong_value_is_refused_with_its_reason(changed, told):
     with pytest.raises(ValueError, match=told):
         task(**changed)
+
+
+def test_absolute_tolerances_are_fractions_of_the_nominal_values():
+    """Of the gap they are fractions of each gap: 0.2 mm are 5 % of 4 mm and 20 % of 1 mm."""
+    given = {"gap": "0.2 mm", "force": "2 N", "contact_stiffness": "1e6 N/m", "restitution": 0.1}
+    made = task(tolerances=given)
+    np.testing.assert_allclose(made.deviations(4.0), [0.05, 0.1, 0.05, 0, 0, 0.05])
+    np.testing.assert_allclose(made.gap_ends(np.array([1.0, 4.0])), [[0.8, 3.8], [1.2, 4.2]])
+    relative = task(tolerances=given | {"gap": "5 %"})
+    np.testing.assert_array_equal(factor_sets(made, 4.0), factor_sets(relative, 4.0))
+
+
+def test_a_vertical_damper_needs_more_acceleration_than_gravity():
+    """At resonance the machine accelerates by F/(2 z m) = 333 m/s^2 for F = 40 N."""
+    task().check_inclination("90 deg")
+    weak = task(machine=idm.Machine(**SPRING, force=1.17))
+    weak.check_inclination("80 deg")
+    with pytest.raises(ValueError, match=r"accelerates by at most 9.75 .* gravity .* 9.81 m/s\^2"):
+        weak.check_inclination("90 deg")
 
 
 def test_the_number_of_starts_is_the_least_for_the_confidence():

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from impact_damper.model.machine import Machine, static_deflection
+from impact_damper.model.machine import Machine, describe_si, static_deflection
 
 HARD = Machine(mass=12, linear_stiffness=2e5, cubic_stiffness=4e9, damping_ratio=0.005, force=40)
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
@@ -66,6 +66,18 @@ def test_the_static_deflection_carries_the_force(force, linear, cubic):
         return
     x = static_deflection(force, linear, cubic)
     assert linear * x + cubic * x**3 == pytest.approx(force, rel=1e-12)
+
+
+def test_a_measured_resonance_describes_spring_and_dashpot():
+    """k = m (2 pi f)^2 and c = m 2 pi f/Q; a changed mass keeps what was given."""
+    rate = 2 * math.pi * 20
+    made = Machine(mass=12, natural_frequency="20 Hz", quality_factor=100, force=40)
+    assert made.linear_stiffness == pytest.approx(12 * rate**2, rel=1e-12)
+    assert made.viscous_damping == pytest.approx(12 * rate / 100, rel=1e-12)
+    heavy = replace(made, mass=24)
+    assert heavy.natural_frequency == 20 and heavy.viscous_damping == pytest.approx(24 * rate / 100)
+    assert replace(HARD, mass=48).natural_frequency == pytest.approx(HARD.natural_frequency / 2)
+    assert Machine(**describe_si(made)).scales == made.scales
 
 
 def test_damping_is_a_ratio_or_a_coefficient():
