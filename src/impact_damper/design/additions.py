@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from impact_damper.data.datasets import named
 from impact_damper.data.shares import starts_needed
 from impact_damper.design.absorbers import SHARES, absorber_responses
 from impact_damper.design.cells import Cell
@@ -19,8 +20,9 @@ from impact_damper.motions.strobe_map import strobe_time
 
 # Largest number of frequencies of the map over the force.
 FREQUENCIES = 9
-# Masses divided by the nominal mass.
-MASSES = (0.5, 2.0)
+# Other mass divided by the nominal one: lighter if the damper does its task, otherwise heavier. For
+# the other mass so many gaps are compared closely.
+LIGHTER, HEAVIER, GAPS = 0.5, 2.0, 8
 # Cycles over which the contact force of a motion that is not periodic is measured.
 WATCHED = 100
 
@@ -39,14 +41,17 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 
 
 def other_masses(task, decision, progress=None) -> xr.Dataset:
-    """Return this damper and those of other masses, each designed as this one."""
+    """Return this damper, and one of another mass that is designed as this one."""
     rows = [_row(task, decision)]
-    for factor in MASSES:
-        if factor * task.mass <= task.machine.mass:
-            effort = replace(task.effort, starts=starts_needed(task.share))
-            made = {"contact": task.contact_stiffness, "effort": effort, "gap": None}
-            other = replace(task, mass=factor * task.mass, **made)
-            rows.append(_row(other, find_gap(other, progress)))
+    fails = named(decision, "decision") == "do_not_build"
+    fails |= named(decision, "limit_status") == "missed"
+    mass = (HEAVIER if fails else LIGHTER) * task.mass
+    if mass <= task.machine.mass:
+        candidates = min(GAPS, task.effort.candidates)
+        effort = replace(task.effort, starts=starts_needed(task.share), candidates=candidates)
+        made = {"contact": task.contact_stiffness, "effort": effort, "gap": None}
+        other = replace(task, mass=mass, **made)
+        rows.append(_row(other, find_gap(other, progress)))
     masses, gaps, sizes, forces = np.array(sorted(rows)).T
     values = {"other_gap": gaps, "other_displacement": sizes, "other_force": forces}
     return labelled(values, other_mass=masses)

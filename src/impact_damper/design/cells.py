@@ -30,10 +30,11 @@ DRAWN, FOLLOWED, TOGETHER = 4, 8, 8
 APART = 1.3
 # A record is known if the motions of the regime were run for POOLED cycles in all, and the last
 # doubling of this number let it grow by less than GROWN. Run for MOST_POOLED cycles, it counts as
-# it is, with a flag.
-POOLED, GROWN, MOST_POOLED = 40_000, 0.01, 320_000
-# Before, it may grow by MISSING for each doubling up to POOLED.
+# it is, with a flag. Before, it may grow by MISSING for each doubling up to POOLED.
+POOLED, GROWN, MOST_POOLED = 25_000, 0.01, 200_000
 MISSING = 0.04
+# A motion that approaches an orbit may exceed it by SLACK.
+SLACK = 0.001
 # Cycles in which a motion that is followed must settle to be found on an orbit.
 CHECKED = 100
 
@@ -117,7 +118,7 @@ class Motions:
 
     def numbers(self, k) -> tuple:
         """Return the displacement with which each start of cell k counts, and if it is known."""
-        sizes, known = self.peaks[k].copy(), self.settled[k].copy()
+        sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
             if len(regime):
                 known[regime] = self.is_known(k, regime)
@@ -137,14 +138,9 @@ class Motions:
             found[0][k], found[1][k] = sizes[place], known[place]
         return found
 
-    def grows(self) -> bool:
-        """Return whether the record of a regime still grew when it was run for MOST_POOLED."""
-        return any(
-            self.cycles[k] * len(regime) >= MOST_POOLED and self.growth(k, regime) >= GROWN
-            for k in range(len(self.peaks))
-            for regime in self.regimes(k)
-            if len(regime)
-        )
+    def grows(self, k) -> bool:
+        """Return whether a record of cell k still grew when it was run for MOST_POOLED."""
+        return any(self.growth(k, regime) >= GROWN for regime in self.regimes(k) if len(regime))
 
     def largest(self, rank) -> np.ndarray:
         """Return the bounds of all cells, after those that may be the largest are known."""

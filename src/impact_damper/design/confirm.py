@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import flag
-from impact_damper.data.shares import bounding_rank
+from impact_damper.data.shares import bounding_rank, starts_needed
 from impact_damper.design.absorbers import DETUNINGS, absorber_responses
 from impact_damper.design.promise import Promise, factor_sets, gap_sets
 from impact_damper.design.search import Curve, score, search, search_around
@@ -15,6 +15,8 @@ from impact_damper.design.task import SIDES, VARIED, Task, labelled
 # A promised displacement is confirmed once it is at most CONFIRMED times the value of any other gap
 # in the search. At most ROUNDS gaps are tried.
 CONFIRMED, ROUNDS = 1.1, 4
+# A promised displacement above SURPRISE times the one of the search is also looked for nearby.
+SURPRISE = 1.1
 # Gaps around the chosen one keep the promised displacement up to this factor.
 KEEPS = 1.1
 # A damper that takes less than this share off the largest displacement is not worth building.
@@ -67,14 +69,15 @@ def confirm(task, gap, turn, curve, ends, progress=None) -> Tried:
     few = len(gap_sets(task, gap))
     frequencies = [promise.over_frequency(k) for k in range(few)]
     worst = [f[np.argmax(bounds)] for f, bounds in frequencies]
+    by_gap, t = float(sizes[:few].max()), task.deviations(gap)[0]
+    expected = curve.within(np.array([gap * (1 - t)]), np.array([gap * (1 + t)]))[0]
     curve.put(gap * promise.sets[:few, 0], sizes[:few], worst, replace=True)
-    by_gap = float(sizes[:few].max())
-    # The worst frequency may lie between those of the search, or the motion may be rare.
-    reach = 1.1 * (1 + task.deviations(gap)[0])
-    near = curve.gaps[(curve.gaps > gap / reach) & (curve.gaps < gap * reach)]
-    critical = np.unique(worst)
-    stream = "compared", 100 + turn
-    curve.put(near, *score(task, near, critical, task.effort.starts, stream, progress))
+    if by_gap > SURPRISE * expected:
+        # The worst frequency lies between those of the search, or few starts lead to the motion.
+        reach = SURPRISE * (1 + t)
+        near = curve.gaps[(curve.gaps > gap / reach) & (curve.gaps < gap * reach)]
+        count, stream = starts_needed(task.share), ("compared", 100 + turn)
+        curve.put(near, *score(task, near, np.unique(worst), count, stream, progress))
     return Tried(gap, promise, by_gap, ends)
 
 
@@ -94,7 +97,6 @@ def conclude(task, found, curve, ranges, status) -> xr.Dataset:
     ends, beyond = curve.keeping(found.gap, KEEPS * promise.size)
     built = promise.size <= (1 - WORTH) * most
     limit_status = "none" if np.isnan(limit) else "met" if promise.size <= limit else "missed"
-    few = gap_sets(task, found.gap)
     nominal = [place for place, cell in enumerate(promise.cells) if cell[0] == 0]
     order = np.argsort([promise.cells[place][1] for place in nominal])
     records = promise.motions.records[nominal][order]
@@ -122,7 +124,8 @@ def conclude(task, found, curve, ranges, status) -> xr.Dataset:
         "confirmation": flag("confirmation", status),
         "peak_status": flag("peak_status", "known" if promise.peak_known else "not_known"),
         "record_status": flag(
-            "record_status", "still_grows" if promise.motions.grows() else "known"
+            "record_status",
+            "still_grows" if promise.motions.grows(int(np.argmax(promise.bounds))) else "known",
         ),
         "largest_bare_displacement": most,
         "largest_bare_frequency": task.worst_frequency,
@@ -146,7 +149,6 @@ def conclude(task, found, curve, ranges, status) -> xr.Dataset:
         "candidate_displacement": [each.size for each in ranges],
         "range_gap": found.range,
     }
-    assert len(few) <= len(promise.sets)
     return labelled(
         values,
         frequency=task.grid,

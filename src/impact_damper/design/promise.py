@@ -13,7 +13,7 @@ CORNERS = 8
 # A set of factors is refined over the frequency if its largest displacement is at least NEAR times
 # that of all sets. A peak is known if the last splitting of the intervals beside it raised it by
 # at most PEAK, and a parabola through it and its neighbours exceeds it by at most as much.
-NEAR, PEAK, SPLITS = 0.9, 0.01, 6
+NEAR, PEAK, SPLITS = 0.9, 0.01, 4
 
 
 class Promise:

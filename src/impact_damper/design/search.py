@@ -15,7 +15,7 @@ from impact_damper.design.task import Task
 # First search over all gaps: largest number of gaps, of frequencies, and starts.
 GAPS, FREQUENCIES, STARTS = 40, 9, 12
 # Comparison near the best gaps: frequencies, starts, and rounds of at most `candidates` gaps.
-CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 13, 32, 4
+CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 4
 # Typical record of a regime divided by the record of few motions over a short time.
 RECORD = 1.1
 # Neighbouring displacements with a larger ratio are a jump. Intervals between gaps, as logarithms,
@@ -120,6 +120,10 @@ class Curve:
             beyond.append(self.sizes[j + step] if 0 <= j + step < len(self.gaps) else np.nan)
         return ends, beyond
 
+    def critical(self) -> np.ndarray:
+        """Return the worst frequencies at gaps that do nearly as well as the best."""
+        return np.unique(self.worst[self.sizes <= CANDIDATE * self.nominal()[1].min()])
+
     def unclear(self) -> np.ndarray:
         """Return gaps at which the curve is to be computed next, those that matter most first."""
         gaps, values = self.nominal()
@@ -174,7 +178,7 @@ def search(task, progress=None) -> Curve:
         gaps = curve.unclear()[: task.effort.candidates]
         if not len(gaps):
             break
-        few = task.few(CLOSE_FREQUENCIES, *np.unique(curve.worst))
+        few = task.few(CLOSE_FREQUENCIES, *curve.critical())
         stream = "compared", turn
         curve.put(gaps, *score(task, gaps, few, CLOSE_STARTS, stream, progress))
     return curve
