@@ -27,7 +27,7 @@ STROBE = math.pi / 2
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # The phase of an orbit is kept if the nearest contact is further away than MARGIN (radian).
 MARGIN = 0.15
-# Largest number of contacts in a forcing cycle, and of extrema of Z2 in a segment.
+# Contacts in a forcing cycle, and extrema of Z2 in a segment, for which there is room at first.
 CONTACTS, TURNS = 64, 256
 
 
@@ -166,12 +166,13 @@ class Orbit:
         if side_of(self.p, states[0]) != 0:
             # The contact of the first state has no beginning in the cycle, but in the next one.
             phases = self.phases[0] + np.array([0.0, 2 * self.cycle])
-        log, sums = np.empty((2 * CONTACTS * (self.periods + len(states)), 5)), np.empty((2, 2))
-        count, largest = survey(self.p, states, phases, POLISH_TOLERANCE, log, sums)
-        if count > len(log):
-            raise ArithmeticError(
-                f"{count} contacts in an orbit: more than {CONTACTS} in a forcing cycle"
-            )
+        room, sums = 2 * CONTACTS * (self.periods + len(states)), np.empty((2, 2))
+        while True:
+            log, given = np.empty((room, 5)), states.copy()
+            count, largest = survey(self.p, given, phases, POLISH_TOLERANCE, log, sums)
+            if count <= room:
+                break
+            room = count
         within = log[:count, 1] < self.phases[-1] / self.p[FREQUENCY]
         return log[:count][within], largest, sums @ [1, 1j]
 
@@ -223,11 +224,13 @@ class Orbit:
         A row holds the segment, the phase, 1 for a maximum of |Z2| or 0 for a minimum, and |Z2|
         minus the clearance.
         """
-        turns = np.empty((TURNS * len(self.states), 4))
-        count = list_turns(self.p, self.states.copy(), self.phases, POLISH_TOLERANCE, turns)
-        if count > len(turns):
-            raise ArithmeticError(f"{count} extrema of Z2 in an orbit: more than {len(turns)}")
-        return turns[:count]
+        room = TURNS * len(self.states)
+        while True:
+            turns = np.empty((room, 4))
+            count = list_turns(self.p, self.states.copy(), self.phases, POLISH_TOLERANCE, turns)
+            if count <= room:
+                return turns[:count]
+            room = count
 
     @cached_property
     def deviation(self):
