@@ -92,7 +92,7 @@ def test_the_peak_of_a_resonance_is_found_between_points():
 def test_new_starts_of_another_program_keep_the_promise(name):
     damper, asked, gap, known = EXAMPLES[name]
     made = task(**damper, **asked, frequencies=3, candidates=4, starts=59)
-    found = Promise(made, 1e-3 * gap, gap_sets(made), ("confirmed", 0)).refined()
+    found = Promise(made, 1e-3 * gap, gap_sets(made, gap), ("confirmed", 0)).refined()
     assert found.size < known
     k, frequency = found.worst
     p = made.packed(1e-3 * gap, frequency, tuple(found.sets[k]))
