@@ -109,6 +109,22 @@ FUNCTIONS = {
             "displacement_limit": no_si.filter(lambda value: value is not None) | st.just(0),
         },
     ),
+    "evaluate_damper": (
+        {
+            "machine": MACHINE,
+            "damper": MACHINE.damper(mass=0.6, gap=0.005, restitution=0.7, contact_stiffness=2e7),
+            "band": (20, 21),
+        },
+        {
+            "machine": no_oscillator,
+            "damper": st.sampled_from([None, 3, MACHINE, {}]),
+            "band": st.sampled_from([(21, 20), (30, 34), ("20 m", 21), (-20, 21)]),
+            "effort": st.sampled_from([3, {"starts": 96}, MACHINE]),
+            "tolerances": st.sampled_from([0.2, "gap", {"gap": 1.2}, {"mass": 0.1}]),
+            "share": no_numbers | not_finite | st.sampled_from([0.1, 1.0]),
+            "displacement_limit": no_si.filter(lambda value: value is not None) | st.just(0),
+        },
+    ),
     "Effort": (
         {},
         {

@@ -26,6 +26,7 @@ Harmonic balance
 Design
     clearance_sweep             the clearance with the smallest quiet motion
     design_damper               a damper for a machine and a band of frequencies
+    evaluate_damper             what a machine does with a damper that exists
     Effort                      how much a design computes
 
 Reading results

@@ -113,7 +113,7 @@ class Motions:
     def is_known(self, k, regime) -> bool:
         """Return whether the record of a regime is known, or will not be known better."""
         pooled = self.cycles[k] * len(regime)
-        certain = pooled >= POOLED and self.growth(k, regime) < GROWN
+        certain = self.followed[k] and pooled >= POOLED and self.growth(k, regime) < GROWN
         return certain or pooled >= MOST_POOLED or np.isinf(self.peaks[k, regime]).any()
 
     def numbers(self, k) -> tuple:
@@ -123,7 +123,7 @@ class Motions:
             if len(regime):
                 known[regime] = self.is_known(k, regime)
                 left = max(GROWN, self.growth(k, regime))
-                if not known[regime[0]]:
+                if not known[regime[0]] and self.cycles[k] * len(regime) < POOLED:
                     doublings = np.log2(POOLED / (self.cycles[k] * len(regime)))
                     left = max(left, MISSING * doublings)
                 sizes[regime] = self.peaks[k, regime].max() * (1 + left)

@@ -43,7 +43,7 @@ def find_gap(task: Task, progress=None) -> xr.Dataset:
             break
         tried.append(confirm(task, choice.gap, turn, curve, (choice.low, choice.high), progress))
         best = min(tried, key=lambda each: each.promise.size)
-        harm = best.promise.size / best.by_gap
+        harm = best.promise.size / best.by_gap if np.isfinite(best.by_gap) else 1.0
         if best.promise.size <= CONFIRMED * harm * curve.choose().size:
             status = "confirmed"
             break
@@ -91,7 +91,7 @@ def conclude(task, found, curve, ranges, status) -> xr.Dataset:
     worst_set, worst_frequency = promise.worst
     bare = task.bare_at(frequencies)
     most = float(task.bare.max())
-    ratio = table[0] / bare
+    ratio = np.where(np.isfinite(bare), table[0] / bare, 0.0)  # without damper it escapes
     k = int(np.nanargmax(ratio))
     limit = np.nan if task.displacement_limit is None else 1e3 * task.displacement_limit
     ends, beyond = curve.keeping(found.gap, KEEPS * promise.size)

@@ -13,8 +13,8 @@ from impact_damper.design.additions import ADDITIONS
 from impact_damper.design.confirm import evaluate_gap, find_gap
 from impact_damper.design.task import TOLERANCES, Effort, Task, labelled
 from impact_damper.model.arguments import read_system
-from impact_damper.model.bounds import names_arguments
-from impact_damper.model.machine import describe_si
+from impact_damper.model.bounds import names_arguments, shown
+from impact_damper.model.machine import Machine, describe_si
 from impact_damper.theory.contact_law import contact as contact_law
 
 # Errors that numerical methods raise; an addition that fails with one of them is named.
@@ -152,6 +152,8 @@ def evaluate_damper(
     >>> damper = machine.damper(gap="3.8 mm", **made)
     >>> found = idm.evaluate_damper(machine, damper, band=(20, 21))  # doctest: +SKIP
     """
+    if not isinstance(machine, Machine):
+        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
     read_system(machine, damper, needs_damper=True)
     task = Task(
         machine=machine,
