@@ -26,7 +26,6 @@ FLOORS = (
     "impact_damper.plot",
     "impact_damper.command",
     "impact_damper",
-    "chatterjee1995.variables",
     "chatterjee1995",
     "chatterjee1995.methods",
     "chatterjee1995.stages",

@@ -5,13 +5,16 @@ The claims and the figures come from `results/` or, if it does not exist, from t
 """
 
 import os
+import pkgutil
 import re
 import shutil
+from importlib import import_module
 from pathlib import Path
 
 import pandas as pd
 from typer.testing import CliRunner
 
+import chatterjee1995
 from chatterjee1995.claims.verdicts import document
 from chatterjee1995.sections.reference import reference
 from impact_damper.command.command_line import app as command
@@ -44,7 +47,9 @@ def write_pages(app):
 
 
 def variables():
-    """Return the page that lists all variables of datasets."""
+    """Return the page that lists all variables of datasets; the paper's modules register theirs."""
+    for module in pkgutil.walk_packages(chatterjee1995.__path__, "chatterjee1995."):
+        import_module(module.name)
     parts = [
         "# Variables of the datasets\n",
         "In datasets of a machine the attribute `units` holds the unit of a variable. A variable "

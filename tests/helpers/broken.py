@@ -6,8 +6,8 @@ from typing import NamedTuple
 from hypothesis import strategies as st
 from snakemake.utils import update_config
 
+from chatterjee1995.sections.clearance import AXES as STUDY_AXES
 from chatterjee1995.sections.configuration import without_left_out
-from chatterjee1995.variables import AXES as STUDY_AXES
 from helpers import configurations
 from helpers.running import ROOT
 

@@ -10,6 +10,7 @@ from functools import cache
 import numpy as np
 import xarray as xr
 
+import helpers.every_variable  # noqa: F401
 from helpers.made_up_orbits import branch, branches
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION

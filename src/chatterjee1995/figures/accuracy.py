@@ -7,8 +7,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from chatterjee1995.methods.integrators import runs_of_accuracy
 from chatterjee1995.methods.labels import colour_of, method_in_words
-from impact_damper.data.datasets import parameters_of
-from impact_damper.data.variables import VARIABLES
+from impact_damper.data.datasets import decode, parameters_of
 from impact_damper.plot.style import (
     BLACK,
     GREY,
@@ -42,6 +41,8 @@ QUANTITIES = {
     "exponent": ("exponent", "Relative error of the Lyapunov exponent"),
 }
 FINEST = 1e-16  # smallest error drawn: below the rounding error of a double
+# Ends of runs that have a result.
+ENDED = "ok", "missed_contacts", "invented_contacts"
 DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 
@@ -63,14 +64,13 @@ def _panel(axes, data):
     quantity, chaotic = made["accuracy"]["quantity"], made["motion"] == "chaotic"
     name, label = QUANTITIES[quantity]
     error, bars = _errors(axes, data, quantity) if chaotic else (data[name].values, None)
-    error, status = np.maximum(error, FINEST), data["run_status"].values
-    meanings = VARIABLES["run_status"].flags
-    ended = status <= meanings["invented_contacts"]
+    error, status = np.maximum(error, FINEST), decode(data["run_status"]).values
+    ended = np.isin(status, ENDED)
     low = 1e-4 if chaotic else 10 ** np.floor(np.log10(np.min(error[ended])))
     high, work = 1.0 if chaotic else 30, data["operations"].values
     for method, role in _roles(data).items():
         of = data["method"].values == method
-        right = status == meanings["ok"]
+        right = status == "ok"
         _method(axes, role, work, error, bars, of & ended & right, of & ended & ~right)
         stopped = work[of & ~ended & (work > 0)]
         if len(stopped) > 0:

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 
-from impact_damper.data.datasets import flag, has_damper, parameters_of
+from impact_damper.data.datasets import decode, has_damper, parameters_of
 from impact_damper.plot.maps import edges_of
 from impact_damper.plot.maps import hatch as hatch_cells
 from impact_damper.plot.style import (
@@ -122,7 +122,7 @@ def _guide(data, at):
     if not used.any():
         return [], []
     highest, error = highest[used], np.log(error[used])
-    exponential = data["decay_kind"] == flag("decay_kind", "exponential")
+    exponential = decode(data["decay_kind"]) == "exponential"
     decay = -at["decay_predicted"].item() * (highest if exponential else np.log(highest))
     return highest, 3 * np.exp(decay + np.mean(error - decay))
 
@@ -130,9 +130,9 @@ def _guide(data, at):
 def _draw_cold(axes, harmonics):
     """Draw the result of each cold start, one row for each motion."""
     for index, data in enumerate(harmonics):
-        highest, status = data["highest_harmonic"].values, data["cold_status"].values
+        highest, status = data["highest_harmonic"].values, decode(data["cold_status"]).values
         for meaning, (words, look) in COLD.items():
-            chosen = highest[status == flag("cold_status", meaning)]
+            chosen = highest[status == meaning]
             look = look | {"color": curve(index)["color"], "linestyle": "none"}
             if len(chosen):
                 axes.plot(chosen, np.full(len(chosen), -index), **look, label=words)
@@ -187,11 +187,11 @@ def draw_balance_map(*, balance_map):
 def _draw_classes(axes, data, name, classes):
     """Draw the cells in the colours and hatchings of their verdicts."""
     grid = data["frequency_ratio"].values, data["map_value"].values
-    values = data[name].values
+    values = decode(data[name]).values
     for meaning, (label, color, hatch) in classes.items():
-        chosen = values == flag(name, meaning)
+        chosen = values == meaning
         if chosen.any():
-            cells = np.ma.masked_where(~chosen, values)
+            cells = np.ma.masked_where(~chosen, np.ones(chosen.shape))
             axes.pcolormesh(*grid, cells, cmap=ListedColormap([color]), rasterized=True)
             look = {"hatch": hatch, "edgecolor": GREY}
             if hatch:
@@ -201,7 +201,7 @@ def _draw_classes(axes, data, name, classes):
 
 def _draw_edge(axes, verdict):
     """Draw the boundary of the cells with a stable solution of harmonic balance."""
-    stable = verdict == flag(verdict.name, "stable")
+    stable = decode(verdict) == "stable"
     if stable.any() and not stable.all():
         line = {"colors": [BLACK], "linewidths": 1.0, "linestyles": "dashed"}
         axes.contour(verdict["frequency_ratio"], verdict["map_value"], stable, [0.5], **line)
@@ -211,7 +211,7 @@ def _draw_edge(axes, verdict):
 
 def _draw_ends(axes, data):
     """Draw where exact quiet orbits end, for walls of finite stiffness and for rigid walls."""
-    inside = data["quiet_end_event"] != flag("quiet_end_event", "map_ends")
+    inside = decode(data["quiet_end_event"]) != "map_ends"
     for end in data["quiet_end"].where(inside).values.T:
         axes.plot(end, data["map_value"], color=BLACK, linewidth=1.6)
     axes.plot([], [], color=BLACK, linewidth=1.6, label="end of the exact orbit")
@@ -223,8 +223,8 @@ def _draw_ends(axes, data):
 
 def _draw_chaos(axes, data):
     """Dot the cells in which a run from the quiet solution of harmonic balance becomes chaotic."""
-    kinds = [flag("quiet_run_motion", name) for name in ("low_chaotic", "high_chaotic")]
-    row, column = np.nonzero(np.isin(data["quiet_run_motion"], kinds))
+    chaotic = np.isin(decode(data["quiet_run_motion"]), ["low_chaotic", "high_chaotic"])
+    row, column = np.nonzero(chaotic)
     place = data["frequency_ratio"].values[column], data["map_value"].values[row]
     look = {"color": BLACK, "marker": ".", "markersize": 1.6, "linestyle": "none"}
     axes.plot(*place, markeredgewidth=0, label="a run from the solution becomes chaotic", **look)

@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.data.datasets import decode, parameters_of
 from impact_damper.plot.maps import edges_of, hatch, mesh
 from impact_damper.plot.style import (
     BLACK,
@@ -84,7 +84,7 @@ def _draw_sweep(axes, data, name):
     for rule in ("balance", "gap_harmonic"):
         level = data["rule_ratio"].sel(rule=rule).values.flat[0]
         axes.axhline(level, **RULES[rule])
-    unstable = data["best_stability"] == flag("best_stability", "unstable")
+    unstable = decode(data["best_stability"]) == "unstable"
     crossed = data["best_ratio"].where(unstable).stack(cell=[...])
     axes.plot(crossed[name], crossed, **UNSTABLE)
     words = parameter_label(parameters_of(data), "damping", "linear_frequency")

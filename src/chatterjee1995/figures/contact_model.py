@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import FuncFormatter
 
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import decode
 from impact_damper.plot.maps import contours, marked, mesh
 from impact_damper.plot.style import (
     BLACK,
@@ -46,7 +46,7 @@ def draw_contact_model(*, contact_model):
         shown = np.maximum(error, norm.vmin)
         cells = mesh(axes, x, y, shown, norm, "the contact does not end")
         contours(axes, x, y, error, LEVELS)
-        back = cell["contact_verdict"].values == flag("contact_verdict", "falls_back")
+        back = decode(cell["contact_verdict"]).values == "falls_back"
         marked(axes, x, y, back, PALE_ORANGE, "the loose mass falls back")
         axes.set_yscale("symlog", linthresh=LINEAR)
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

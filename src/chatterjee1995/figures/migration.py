@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from chatterjee1995.variables import POLICIES
-from impact_damper.data.datasets import flag, named, parameters_of
+from chatterjee1995.reading.datasets import POLICIES
+from impact_damper.data.datasets import decode, parameters_of
 from impact_damper.plot.basin_plane import basins as basins_plot
 from impact_damper.plot.motions import migration as migration_plot
 from impact_damper.plot.style import (
@@ -82,13 +82,13 @@ def draw_release(*, migration):
 
 def _draw_releases(axes, releases):
     """Draw the releases from one motion with damper."""
+    reached = decode(releases["release_destination"]).values
     for destination, look in DESTINATIONS.items():
-        value = flag("release_destination", destination)
-        chosen = releases["release_destination"].values == value
+        chosen = reached == destination
         if chosen.any():
             x, y = releases["release_displacement"], releases["release_velocity"]
             axes.plot(x[chosen], y[chosen], **look)
-    axes.set_title(MOTIONS[named(releases, "damped_kind")])
+    axes.set_title(MOTIONS[decode(releases["damped_kind"]).item()])
 
 
 @style({"axes.titley": None})

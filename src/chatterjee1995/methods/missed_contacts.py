@@ -14,11 +14,33 @@ from chatterjee1995.methods.integrator import check_resolutions
 from chatterjee1995.methods.integrators import integrators
 from chatterjee1995.methods.passages import TOLERANCE, draw_passages, without_walls
 from impact_damper.data.datasets import dataset
+from impact_damper.data.variables import register
 from impact_damper.model.arguments import read_increasing
 from impact_damper.model.bounds import RADIUS_RANGE, RUNS_RANGE, check_count, check_number
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.units import UNITLESS
+
+register(
+    """
+integrator | integrator | | | method of integration
+method_tolerance | method_tolerance | | | tolerance of the method
+depth | depth | | | distance by which a passage would go beyond the wall if it were not there
+contact_outcome | contact_outcome | | | result of a method at a contact
+passage_count | integrator method_tolerance depth contact_outcome | | | number of contacts that a
+  method finds, misses between two steps, or does not reach because its motion is inaccurate, and
+  number of failed runs
+contacts_missed | integrator method_tolerance depth | | | share of completed runs in which the
+  contact is not found
+spurious_count | integrator method_tolerance depth | | | number of contacts that a method reports
+  in passages without contact
+motion_error | integrator method_tolerance | | | median error of the largest |Z2| of a passage,
+  failed runs excluded
+fixed_steps | method_tolerance | | | steps per cycle of the fixed-step method
+expected_unseen | method_tolerance depth | | | expected share of contacts at random times that
+  begin and end within one fixed step
+    """,
+)
 
 # The docstring of `missed_contacts` explains the outcomes.
 OUTCOMES = ("found", "unseen", "not_reached", "failed")

@@ -13,6 +13,7 @@ import numpy as np
 
 from chatterjee1995.methods.integrators import integrators
 from impact_damper.data.datasets import dataset, is_settled
+from impact_damper.data.variables import register
 from impact_damper.model.arguments import read_increasing
 from impact_damper.model.bounds import (
     MOST_STEPS_RANGE,
@@ -29,6 +30,24 @@ from impact_damper.motions.following import StrobeOrbit
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.orbits.grid_following import Grid
 from impact_damper.orbits.quiet_orbits import compliant_orbit
+
+register(
+    """
+fixed_method | fixed_method | | | method with equal steps
+scaled_step | scaled_step | | h omega_c | step times contact frequency
+accuracy | accuracy | | | relative deviation allowed in max |Z1|
+step_deviation | fixed_method contact_stiffness scaled_step | | | largest relative deviation of
+  max |Z1| in any period, infinite if the run diverged
+stable_step | fixed_method contact_stiffness accuracy | | h | largest step that keeps the accuracy
+  together with all smaller ones
+step_slope | fixed_method accuracy | | | slope of log(1/h) as a function of log r1, h the largest
+  stable step
+step_slope_error | fixed_method accuracy | | | standard error of step_slope
+linear_limit | fixed_method | | | largest product of step and contact frequency by linear
+  stability theory
+contact_frequency | contact_stiffness | | omega_c | natural frequency of an undamped contact
+    """,
+)
 
 # A run keeps the quiet motion with an accuracy if max |Z1| of every cycle differs relatively by at
 # most this number from the exact orbit.

@@ -6,8 +6,7 @@ of the stage `harmonic_balance`, `response` one of the stage `response`.
 
 import numpy as np
 
-from impact_damper.data.datasets import flag, has_damper, parameters_of
-from impact_damper.data.variables import VARIABLES
+from impact_damper.data.datasets import decode, flag, has_damper, parameters_of
 
 # Entries of the configuration. CAPTIONS: dampers with d0 of the captions of figure 3, by increasing
 # omega_l. RULES: the same with d0 by rule (19). BY_MASS: dampers of figure 5, by increasing rm.
@@ -17,6 +16,13 @@ RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")
 BY_MASS = ("figure_05a", "figure_05b", "figure_05c")
 ELASTIC = (*BY_MASS, "figure_08")
 INELASTIC = "figure_10"
+# Words for the policies of release in tables and figures.
+POLICIES = {
+    "settled": "random phase once settled",
+    "hold": "fixed number of cycles",
+    "phase": "fixed phase",
+    "state": "state in the goal's basin",
+}
 
 
 class Missing(LookupError):
@@ -56,10 +62,9 @@ def parameters(data, *names):
     return tuple(parameters_of(data)[name] for name in names)
 
 
-def meaning(name, value):
-    """Return the meaning of a value of the flag `name` in words: "settled" for an outcome of 1."""
-    flags = VARIABLES[name].flags
-    return next(key for key, known in flags.items() if known == value).replace("_", " ")
+def meaning(value):
+    """Return the meaning of a flag in words: "settled" for an outcome of 1."""
+    return decode(value).item().replace("_", " ")
 
 
 def is_outcome(data, *meanings):

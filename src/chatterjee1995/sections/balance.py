@@ -17,11 +17,13 @@ from chatterjee1995.sections.system import (
     keys_of,
     range_of,
 )
-from chatterjee1995.variables import MAPPED
 from impact_damper.command.section import missing, problem
 from impact_damper.command.values import choice, count, number
 from impact_damper.model.bounds import FREQUENCY_RANGE, HARMONIC_RANGE
 from impact_damper.model.text import plain
+
+# Parameters that may change from row to row of a map.
+MAPPED = ("damping", "mass_ratio", "clearance", "restitution")
 
 
 class HarmonicConvergence(MaybeWithDamper):

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from chatterjee1995.variables import MAPPED, NEAR
 from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wall
+from impact_damper.data.variables import OUTCOME, register
 from impact_damper.model.arguments import read_increasing
 from impact_damper.model.bounds import check_number
 from impact_damper.model.packed import pack
@@ -31,6 +31,63 @@ from impact_damper.theory.free_oscillator import resonance
 from impact_damper.theory.single_harmonic import impacting_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
+BALANCE_VERDICT = {"none": 0, "stable": 1, "unstable": 2, "unresolved": 3}
+RUN_MOTION = {
+    "not_run": -1,
+    "unresolved": 0,
+    "quiet": 1,
+    "other_low": 2,
+    "low_chaotic": 3,
+    "high": 4,
+    "high_chaotic": 5,
+    "no_contact": 6,
+}
+register(
+    """
+map_value | map_value | | | value of the parameter that differs between the rows of a map
+frequency_ratio | frequency_ratio | | Omega/Omega_p | forcing frequency over the peak frequency
+balance_quiet | map_value frequency_ratio | | | stability of the quiet solution of harmonic
+  balance by the slow flow
+  : BALANCE_VERDICT
+balance_quiet_amplitude | map_value frequency_ratio | | |a| | |a| of the quiet solution of
+  harmonic balance
+quiet_orbit_displacement | map_value frequency_ratio | | max |Z1| | largest displacement in the
+  quiet orbit
+quiet_orbit_harmonic | map_value frequency_ratio | | | amplitude of the first harmonic of Z1 in
+  the quiet orbit
+quiet_verdict | map_value frequency_ratio | | | quiet motion: stability by harmonic balance, then
+  stability of the exact orbit
+  : unresolved 0, stable_stable 1, stable_unstable 2, stable_absent 3,
+  : unstable_stable 4, unstable_unstable 5, unstable_absent 6, none_stable 7, none_unstable 8,
+  : none_absent 9
+quiet_end | map_value edge | | | Omega/Omega_p at the ends of the range of quiet orbits in a row
+quiet_end_event | map_value edge | | | event that ends the range of quiet orbits in a row
+  : map_ends 0, fold 1, contacts_change 2, not_converged 3, no_orbit 4
+straight_flight_end | map_value | | | Omega/Omega_p at the upper end of quiet orbits, for rigid
+  walls at high frequency
+quiet_run_motion | map_value frequency_ratio | | | motion to which a start at the quiet solution
+  of harmonic balance leads
+  : RUN_MOTION
+balance_high | map_value frequency_ratio | | | stability of the high solution of harmonic balance
+  : BALANCE_VERDICT
+high_run_motion | map_value frequency_ratio | | | motion to which the high run leads; the run
+  starts at the high solution of harmonic balance or, where none exists, on the free resonance
+  branch
+  : RUN_MOTION
+high_run_outcome | map_value frequency_ratio | | | outcome of the high run
+  : OUTCOME
+high_verdict | map_value frequency_ratio | | | high motion: result of harmonic balance, then
+  motion to which the high run leads
+  : not_run -1, unresolved 0, stable_near 1, stable_far 2, stable_chaotic 3, stable_low 4,
+  : stable_no_contact 5, none_settled 6, none_chaotic 7, none_low 8, none_no_contact 9
+    """,
+    BALANCE_VERDICT=BALANCE_VERDICT,
+    RUN_MOTION=RUN_MOTION,
+    OUTCOME=OUTCOME,
+)
+
+# A settled motion is near a predicted one if max |Z1| differs relatively by at most NEAR.
+NEAR = 0.2
 # A motion is high if its amplitude is at least HIGH times the free resonance amplitude, and quiet
 # if its amplitude is below this limit.
 HIGH = 0.5
@@ -186,8 +243,6 @@ def balance_map(
 
 
 def _rows(parameter, values, ratios, fixed):
-    if parameter not in MAPPED:
-        raise ValueError(f"parameter = {parameter!r}: must be one of {', '.join(MAPPED)}")
     if parameter in fixed:
         raise ValueError(f"fixed: must not hold {parameter}, which changes from row to row")
     values = read_increasing(UNITLESS, "values", values, count=2)

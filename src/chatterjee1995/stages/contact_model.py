@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.data.variables import register
 from impact_damper.kernel.equation import acceleration
 from impact_damper.model.arguments import read_frequencies, read_increasing
 from impact_damper.model.bounds import (
@@ -31,6 +32,26 @@ from impact_damper.theory.contact_law import (
     contact,
     natural_frequency,
     pull_time,
+)
+
+register(
+    """
+exit_rule | exit_rule | | | rule for the end of a contact
+load | load | | g/(omega_n v0) | load in contact
+realised_restitution | exit_rule load restitution | | | departure speed divided by approach speed
+contact_verdict | exit_rule load restitution | | | realised restitution: within 1 % of e, within 5
+  %, or farther; or none, because the loose mass falls back or the contact does not end
+  : close 0, fair 1, off 2, falls_back 3, no_release 4
+used | used | | e | coefficient of restitution of a damper
+unloaded_restitution | exit_rule used | | | realised restitution without load
+unloaded_duration | exit_rule used | | | time in contact / time in an elastic contact, without
+  load
+unloaded_pull_time | used | | | fraction of the time in contact in which the force is tensile
+size | size | | | smallest settled or largest motion to which random starts lead
+contact_used | contact | | | index along the dimension `used` of a contact
+contact_size | contact | | | index along the dimension `size` of a contact
+contact_load | contact | | | load at the beginning of a contact
+    """,
 )
 
 # The loads of the map are evenly spaced up to |G| of about LINEAR, and logarithmically above it.

@@ -13,6 +13,7 @@ from scipy.optimize import minimize_scalar
 from tqdm import tqdm
 
 from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.variables import MINIMUM, STABILITY, register
 from impact_damper.model.arguments import read_frequencies, read_increasing
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import Damper, describe
@@ -22,6 +23,28 @@ from impact_damper.motions.traces import states_at
 from impact_damper.orbits.quiet_orbits import compliant_orbit
 from impact_damper.theory.optimum_clearance import CRITERIA, RULES, rule_ratios
 from impact_damper.theory.straight_flight import flight_of
+
+register(
+    """
+criterion | criterion | | | quantity that is smallest at an optimum
+rule | rule | | | rule for the clearance
+best_ratio | mass_ratio restitution contact_stiffness frequency criterion | | | r_m Omega^2 d0
+  (dimensionless clearance) at the optimum
+best_size | mass_ratio restitution contact_stiffness frequency criterion | | | value of the
+  criterion at the optimum, times Omega^2
+best_kind | mass_ratio restitution contact_stiffness frequency criterion | | | kind of minimum
+  : MINIMUM
+best_stability | mass_ratio restitution contact_stiffness frequency criterion | |  | stability of
+  the motion at the optimum
+  : STABILITY
+rule_ratio | mass_ratio restitution contact_stiffness frequency criterion rule | | | r_m Omega^2
+  d0 by the rule
+rule_excess | mass_ratio restitution contact_stiffness frequency rule | | | relative excess of max
+  |Z1|, at the clearance by the rule, above the smallest max |Z1|
+    """,
+    MINIMUM=MINIMUM,
+    STABILITY=STABILITY,
+)
 
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
 # Number of values of Z1 in a cycle for the integral of the first harmonic.

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from chatterjee1995.stages.releases import PAPER_CYCLES
-from chatterjee1995.variables import POLICIES
 from impact_damper.data.datasets import dataset
 from impact_damper.data.shares import BOUNDS, QUANTILE, wilson
+from impact_damper.data.variables import register
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import side_of, workspace
 from impact_damper.kernel.tangents import advance
@@ -26,6 +26,29 @@ from impact_damper.motions.attractors import PHASES, release_set
 from impact_damper.motions.legs import HOLD, PHASE, SETTLED, STATE, hold
 from impact_damper.motions.strobe_map import strobe_time
 
+register(
+    """
+case | case | | | index of a damper
+policy | policy | | | policy by which the damper is switched off
+quantile | quantile | | | quantile over all trials
+case_mass_ratio | case | | rm | mass ratio of a damper
+case_clearance | case | clearance | d0 | clearance of a damper
+case_restitution | case | | e | coefficient of restitution of a damper
+policy_success | case frequency policy bound | | | share of trials that reach the goal within 350
+  cycles
+policy_cycles | case frequency policy quantile bound | | | cycles until the motion has settled on
+  the goal, infinite without success
+policy_damper | case frequency policy | | | median of the cycles with the damper on
+policy_impacts | case frequency policy | | | median of the impacts
+policy_releases | case frequency policy | | | mean number of releases
+policy_hold | case frequency policy | | | cycles for which the policy keeps the damper on; for
+  release by state, at most
+policy_phase | case frequency policy | angle | | phase Omega T of the release that the policy
+  chose
+    """,
+)
+
+POLICIES = ["settled", "hold", "phase", "state"]
 # Fixed numbers of cycles that are tried, each about 1.6 times the one before.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 # Quantiles of the cycles until the goal that are stored.
@@ -102,7 +125,7 @@ def release_policies(
     coordinates = {
         "case": np.arange(len(dampers)),
         "frequency": frequencies,
-        "policy": list(POLICIES),
+        "policy": POLICIES,
         "quantile": QUANTILES,
         "bound": BOUNDS,
     }

@@ -13,6 +13,7 @@ import numpy as np
 from chatterjee1995.methods.rigid_impacts import mended_orbit, rigid_orbit
 from chatterjee1995.stages.contact_model import extreme_motions
 from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.variables import register
 from impact_damper.model.arguments import read_frequencies, read_increasing
 from impact_damper.model.bounds import RUNS_RANGE, check_count, check_frequency
 from impact_damper.model.packed import pack
@@ -21,6 +22,29 @@ from impact_damper.model.settling import check_settling
 from impact_damper.model.units import UNITLESS
 from impact_damper.orbits.grid_following import Grid, follow_line
 from impact_damper.orbits.quiet_orbits import compliant_orbit
+
+register(
+    """
+stiffness | stiffness | | r1 | contact stiffness
+rigid_error | frequency stiffness | | | relative error of max |Z1| if walls are taken as rigid
+mended_error | frequency stiffness | | | relative error of max |Z1| with corrected rigid walls
+rigid_verdict | frequency stiffness | | | which of the compliant and rigid orbits were found, and
+  whether their stability agrees
+  : both_stable 0, both_unstable 1, stability_differs 2, rigid_only 3, compliant_only 4,
+  : neither 5
+threshold | threshold | | | relative error of max |Z1| that is allowed
+needed_stiffness | threshold frequency | | r1 | contact stiffness above which rigid_error is below
+  the threshold
+needed_status | threshold frequency | | | whether needed_stiffness lies within, below or above the
+  grid
+  : absent -1, found 0, below_grid 1, above_grid 2
+rigid_order | frequency | | | exponent n of rigid_error ~ r1^-n for short contacts
+mended_order | frequency | | | exponent n of mended_error ~ r1^-n for short contacts
+own_displacement | | | max |Z1| | largest displacement with the damper's own r1
+own_error | | | | relative error of own_displacement if walls are taken as rigid
+own_mended_error | | | | relative error of own_displacement with corrected rigid walls
+    """,
+)
 
 # Relative errors of max |Z1|. The dataset says from which stiffness the error is smaller.
 THRESHOLDS = (0.01, 0.1)

@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from chatterjee1995.variables import AXES, OUTCOMES
 from impact_damper.data.datasets import dataset, flag, is_settled, load, oscillator_of, save
+from impact_damper.data.variables import OUTCOME, register
 from impact_damper.data.whole_files import BrokenFileError
 from impact_damper.model.arguments import read_increasing
 from impact_damper.model.bounds import RUNS_RANGE, SEED_RANGE, check_count
@@ -30,6 +30,20 @@ from impact_damper.motions.start_states import (
 )
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
 
+register(
+    """
+cell | cell | | | number of the cell in the grid, the last axis fastest
+counted_outcome | counted_outcome | | | outcome of a random start
+outcome_count | cell counted_outcome | | | number of random starts with the outcome
+quiet_count | cell | | | number of random starts that lead to the quiet orbit, which has period 1
+  and touches each wall once in a cycle, symmetrically
+best_clearance | mass_ratio frequency restitution | | d0 | clearance of the grid at which the
+  largest motion that starts lead to is smallest
+    """,
+)
+
+AXES = ("mass_ratio", "clearance", "frequency", "restitution")
+OUTCOMES = tuple(name for name, value in OUTCOME.items() if value >= 0)
 # Results of a cell: number of random starts with each outcome and of those that lead to the quiet
 # orbit; largest displacement of all motions, and smallest one on a quiet orbit.
 CELL = np.dtype(

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, touches_no_wall
+from impact_damper.data.variables import register
 from impact_damper.kernel.single import side_of
 from impact_damper.model import packed
 from impact_damper.model.arguments import read_frequencies
@@ -22,6 +23,22 @@ from impact_damper.motions.following import record_at
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
 from impact_damper.motions.sweep import SAME, sweep
+
+register(
+    """
+free_subharmonic | frequency | displacement | max |Z1| | largest displacement of the subharmonic
+  without the damper
+damped_subharmonic | frequency | displacement | max |Z1| | largest displacement of any subharmonic
+  with the damper
+subharmonic_ratio | frequency | | | damped_subharmonic divided by free_subharmonic, 0 if the
+  damper removes it
+suppression | frequency | | | effect of the damper on the subharmonic, judged by all motions found
+  : no_subharmonic_without_damper 0, removed 1, reduced 2, unchanged 3
+switched_motion | switched_motion | | | kind of motion that follows when the damper is switched on
+switched_share | frequency switched_motion | | | share of starts on the free subharmonic that lead
+  to each motion when the damper is switched on
+    """,
+)
 
 # Number of frequencies at which the free subharmonic is searched for.
 SEARCHED = 81

@@ -6,11 +6,11 @@ import pandas as pd
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.columns import parameter_columns
-from chatterjee1995.variables import BALANCE_VERDICT, NEAR
-from impact_damper.data.datasets import flag, is_settled, parameters_of
+from impact_damper.data.datasets import decode, is_settled, parameters_of
 from impact_damper.data.shares import wilson
-from impact_damper.data.variables import VARIABLES
 
+# An amplitude of harmonic balance is near the exact one if they differ relatively by at most NEAR.
+NEAR = 0.2
 # Errors of the amplitude for which the table lists the harmonics needed.
 ACCURACIES = {0.01: "1 %", 1e-3: "1e-3", 1e-6: "1e-6"}
 # What is asked about each cell of a map, and the variable that holds the answer as a flag.
@@ -90,13 +90,14 @@ def harmonic_convergence(datasets) -> pd.DataFrame:
 
 def _convergence(data):
     """Return the row of a motion in the table of convergence."""
-    highest, cold = data["highest_harmonic"].values, data["cold_status"]
+    highest, cold = data["highest_harmonic"].values, decode(data["cold_status"]).values
     error = data["series_error"].sel(error_measure="maximum").values
     decay = data.sel(error_measure="maximum")
-    lost = highest[cold.values > flag("cold_status", "same_motion")]
+    exponential = decode(data["decay_kind"]) == "exponential"
+    lost = highest[~np.isin(cold, ["not_tried", "same_motion"])]
 
     def ended(meaning):
-        return int(np.sum(cold == flag("cold_status", meaning)))
+        return int(np.sum(cold == meaning))
 
     return (
         {"displacement max |Z1|": float(data["exact_maximum"])}
@@ -105,15 +106,15 @@ def _convergence(data):
             for accuracy, words in ACCURACIES.items()
         }
         | {
-            "decrease with harmonics N": "exp(-rate N)" if data["decay_kind"] == 1 else "N^-power",
+            "decrease with harmonics N": "exp(-rate N)" if exponential else "N^-power",
             "power or rate, observed": float(decay["decay_observed"]),
             "power or rate, predicted": float(decay["decay_predicted"]),
-            "cold starts": int(np.sum(cold.values >= 0)),
+            "cold starts": int(np.sum(cold != "not_tried")),
             "cold starts that find the motion": ended("same_motion"),
             "cold starts that find another motion": ended("another_motion"),
             "cold starts that stall": ended("stalled"),
             "first lost at N": int(lost[0]) if len(lost) else np.nan,
-            "failed": int(np.sum(data["series_status"] != flag("series_status", "converged"))),
+            "failed": int(np.sum(decode(data["series_status"]) != "converged")),
         }
         | parameter_columns(data, "damping", "frequency", "mass_ratio", "clearance", "restitution")
     )
@@ -135,9 +136,9 @@ def balance_map(datasets) -> pd.DataFrame:
     for name, data in datasets.get("balance_map", {}).items():
         found = []
         for question, variable in QUESTIONS.items():
-            values = data[variable].values
-            for meaning, value in VARIABLES[variable].flags.items():
-                count = int(np.sum(values == value))
+            values = decode(data[variable]).values
+            for meaning in data[variable].attrs["flag_meanings"].split():
+                count = int(np.sum(values == meaning))
                 if count:
                     found.append(_cells(question, *_answers(meaning), count, values.size))
         over = f"Ω/Ωp and {parameters_of(data)['parameter']}"
@@ -148,7 +149,7 @@ def balance_map(datasets) -> pd.DataFrame:
 def _answers(meaning):
     """Return the answers of harmonic balance and of the exact motions from a flag's meaning."""
     balance, _, truth = meaning.partition("_")
-    if balance not in BALANCE_VERDICT or not truth:
+    if balance not in ("none", "stable", "unstable") or not truth:
         balance, truth = "", meaning
     words = truth.replace("_", " ")
     return balance, TRUTHS.get(words, words)
@@ -171,12 +172,12 @@ def _cells(question, balance, truth, count, total):
 
 def _summary(data):
     """Yield rows on chaos among the violent motions, and on cells with a stable quiet orbit."""
-    kinds = data["high_run_motion"].values
-    chaotic = np.sum(kinds == flag("high_run_motion", "high_chaotic"))
-    settled = np.sum(kinds == flag("high_run_motion", "high"))
+    kinds = decode(data["high_run_motion"])
+    chaotic = np.sum(kinds == "high_chaotic")
+    settled = np.sum(kinds == "high")
     yield _cells("violent motions found", "", "chaotic", chaotic, chaotic + settled)
-    agreed = data["quiet_verdict"].values == flag("quiet_verdict", "stable_stable")
-    landed = data["quiet_run_motion"].values[agreed] == flag("quiet_run_motion", "quiet")
+    agreed = decode(data["quiet_verdict"]).values == "stable_stable"
+    landed = decode(data["quiet_run_motion"]).values[agreed] == "quiet"
     question = "balance stable, orbit stable"
     reached = "reached from the balance's solution"
     yield _cells(question, "", reached, landed.sum(), len(landed))

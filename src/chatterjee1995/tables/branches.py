@@ -58,9 +58,8 @@ def _branches(datasets):
 
 def _ends_of(data, branch):
     """Return why a branch ends, at both ends, with the number of the branch that it meets there."""
-    ends, met = (data[name].values[branch] for name in ("branch_end", "branch_met"))
-    names = [reading.meaning("branch_end", end) for end in ends]
-    names = [LEFT.get(name, name) for name in names]
+    ends, met = data["branch_end"][branch], data["branch_met"].values[branch]
+    names = [LEFT.get(name, name) for name in map(reading.meaning, ends)]
     return [
         name if other < 0 else f"{name} of branch {other + 1}"
         for name, other in zip(names, met, strict=True)
@@ -87,7 +86,7 @@ def bifurcations(datasets) -> pd.DataFrame:
         for k in np.flatnonzero(_next_to_stable(data)):
             event = data.isel(event=k)
             branch = int(event["event_branch"])
-            kind = reading.meaning("event_kind", int(event["event_kind"]))
+            kind = reading.meaning(event["event_kind"])
             rows.append(
                 {
                     "curve": name,

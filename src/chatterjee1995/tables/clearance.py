@@ -5,7 +5,7 @@ import pandas as pd
 
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.tables.columns import parameter_columns
-from impact_damper.data.datasets import damper_of, flag, oscillator_of, parameters_of
+from impact_damper.data.datasets import damper_of, decode, oscillator_of, parameters_of
 from impact_damper.theory.optimum_clearance import RULES, rule_ratios
 
 WITHIN = (1, 10)  # errors in per cent within which predicted optima are counted
@@ -35,7 +35,7 @@ def optimum(datasets) -> pd.DataFrame:
                 "optimum d0 by equations (7)": float(data.analytical_optimum),
                 "d0 by rule (18)": rule,
                 "least displacement max |Z1|": float(data.optimum_displacement),
-                "kind of optimum": reading.meaning("optimum_kind", data.optimum_kind),
+                "kind of optimum": reading.meaning(data.optimum_kind),
                 "at most 10 % more max |Z1| from d0": lower,
                 "to d0": upper,
                 "excess over (18)": best / rule - 1,
@@ -68,10 +68,11 @@ def design_rules(datasets) -> pd.DataFrame:
 def _grids(datasets):
     """Yield a frame for each grid, with one row for each design, criterion and rule."""
     for name, data in datasets.get("design_rules", {}).items():
-        cells = data.to_dataframe().reset_index()
+        named = {name: decode(data[name]) for name in ("best_kind", "best_stability")}
+        cells = data.assign(named).to_dataframe().reset_index()
         cells["group"] = name
-        cells["found"] = cells.best_kind != flag("best_kind", "not_found")
-        cells["stable"] = cells.best_stability == flag("best_stability", "stable")
+        cells["found"] = cells.best_kind != "not_found"
+        cells["stable"] = cells.best_stability == "stable"
         cells["rule_excess"] = cells.rule_excess.where(cells.criterion == "displacement")
         yield cells.replace({"rule": RULE_NAMES, "criterion": CRITERIA})
 

@@ -5,7 +5,7 @@ import pandas as pd
 
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.tables.columns import parameter_columns
-from impact_damper.data.variables import VARIABLES
+from impact_damper.data.datasets import decode
 
 EXITS = {
     "zero_penetration": "at zero penetration, as in appendix B",
@@ -13,9 +13,9 @@ EXITS = {
 }
 
 
-def _count(name, values, meaning):
+def _count(values, meaning):
     """Return the number of values of a flag with one meaning."""
-    return int(np.sum(values == VARIABLES[name].flags[meaning]))
+    return int(np.sum(decode(values) == meaning))
 
 
 def contact_model(datasets) -> pd.DataFrame:
@@ -24,14 +24,14 @@ def contact_model(datasets) -> pd.DataFrame:
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
             cells = data.sel(exit_rule=rule)
-            values = cells.contact_verdict.values
+            values = cells.contact_verdict
             counts = {
                 "map cells": values.size,
-                "cells within 1 % of e": _count("contact_verdict", values, "close"),
-                "cells within 1 % to 5 %": _count("contact_verdict", values, "fair"),
-                "cells beyond 5 %": _count("contact_verdict", values, "off"),
-                "cells that fall back": _count("contact_verdict", values, "falls_back"),
-                "cells without release": _count("contact_verdict", values, "no_release"),
+                "cells within 1 % of e": _count(values, "close"),
+                "cells within 1 % to 5 %": _count(values, "fair"),
+                "cells beyond 5 %": _count(values, "off"),
+                "cells that fall back": _count(values, "falls_back"),
+                "cells without release": _count(values, "no_release"),
             }
             for i in range(data.sizes["used"]):
                 head = {"case": name, "exit rule": EXITS[str(rule)]}
@@ -59,7 +59,7 @@ def rigid_limit(datasets) -> pd.DataFrame:
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=reading.parameter(data, "frequency"), method="nearest")
-        verdict = data.rigid_verdict.values
+        verdict = data.rigid_verdict
         rows.append(
             {"case": name}
             | parameter_columns(data, "mass_ratio", "restitution")
@@ -72,7 +72,7 @@ def rigid_limit(datasets) -> pd.DataFrame:
             }
             | _needed(own)
             | {
-                f"map cells in which {words}": _count("rigid_verdict", verdict, meaning)
+                f"map cells in which {words}": _count(verdict, meaning)
                 for meaning, words in VERDICTS.items()
             }
             | {"map cells": verdict.size}
@@ -96,6 +96,6 @@ def _needed(own):
     columns = {}
     for k, level in enumerate(own.threshold.values):
         value = float(own.needed_stiffness[k])
-        why = reading.meaning("needed_status", int(own.needed_status[k]))
+        why = reading.meaning(own.needed_status[k])
         columns[f"stiffness r1 for {100 * level:g} %"] = why if np.isnan(value) else value
     return columns

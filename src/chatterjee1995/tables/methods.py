@@ -6,7 +6,7 @@ import pandas as pd
 from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
 from chatterjee1995.methods.labels import MODELS, method_in_words
 from chatterjee1995.reading import datasets as reading
-from impact_damper.data.datasets import flag, parameters_of
+from impact_damper.data.datasets import decode, parameters_of
 
 # Text of a required accuracy for each quantity; `{:g}` takes the largest error allowed.
 WORDS = {
@@ -53,13 +53,11 @@ def models(datasets) -> pd.DataFrame:
                     "method": method_in_words(method),
                     "tolerance or highest harmonic": float(of.setting),
                     "work [floating-point operations]": float(of.operations) or np.nan,
-                    "meets the required accuracy": reading.meaning(
-                        "meets_accuracy", of.meets_accuracy
-                    ),
+                    "meets the required accuracy": reading.meaning(of.meets_accuracy),
                     "choice": choice,
                     "error of max |Z1|": np.nan,
                     "contacts a cycle": np.nan,
-                    "status": reading.meaning("run_status", of.run_status),
+                    "status": reading.meaning(of.run_status),
                 }
                 | errors
             )
@@ -68,7 +66,7 @@ def models(datasets) -> pd.DataFrame:
 
 def cheapest(data, labels):
     """Return the index of the accurate run with the least work among methods, None without any."""
-    meets = data["meets_accuracy"].values == flag("meets_accuracy", "yes")
+    meets = decode(data["meets_accuracy"]).values == "yes"
     meets &= np.isin(data["method"].values, labels)
     work = np.where(meets, data["operations"].values, np.inf)
     return int(np.argmin(work)) if meets.any() else None

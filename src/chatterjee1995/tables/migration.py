@@ -4,10 +4,13 @@ import numpy as np
 import pandas as pd
 
 from chatterjee1995.reading import datasets as reading
+from chatterjee1995.reading.datasets import POLICIES
 from chatterjee1995.tables.columns import DAMPER, parameter_columns
-from chatterjee1995.variables import POLICIES
 from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true
+from impact_damper.data.variables import DAMPED_MOTION
+
+KINDS = {number: kind for kind, number in DAMPED_MOTION.items()}
 
 
 def migration(datasets) -> pd.DataFrame:
@@ -27,7 +30,7 @@ def migration(datasets) -> pd.DataFrame:
             "median switchings of runs that arrive": float(case.switchings.where(reached).median()),
         }
         for k in range(case.sizes["damped"]):
-            kind = reading.meaning("damped_kind", case.damped_kind[k])
+            kind = reading.meaning(case.damped_kind[k])
             shares = case.release_share.isel(damped=k)
             rows.append(
                 {"case": name}
@@ -77,7 +80,7 @@ def release_scan(datasets) -> pd.DataFrame:
                 rows.append(
                     {
                         "scan": name,
-                        "released from": reading.meaning("damped_kind", kind),
+                        "released from": KINDS[kind],
                         "period of the damped motion [cycles]": int(period),
                         "leads to": destinations.replace("_", "-"),
                         "at Ω": _ranges(scan.frequency.values, part.index),

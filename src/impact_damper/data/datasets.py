@@ -150,12 +150,6 @@ def flag(name, meaning) -> int:
     return VARIABLES[name].flags[meaning]
 
 
-def named(data, name) -> str:
-    """Return the meaning of a flag of a dataset."""
-    flags = VARIABLES[name].flags
-    return next(meaning for meaning, value in flags.items() if value == int(data[name]))
-
-
 def decode(values) -> xr.DataArray:
     """Return the names of the numbers in a flag variable, such as "settled" for 1.
 

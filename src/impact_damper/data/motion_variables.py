@@ -35,6 +35,7 @@ register(
 # coordinates
 frequency | frequency | frequency | Omega | forcing frequency
 clearance | clearance | clearance | d0 | clearance of the loose mass
+mass_ratio | mass_ratio | | r_m | mass ratio
 restitution | restitution | | e | coefficient of restitution
 contact_stiffness | contact_stiffness | stiffness | r1 | stiffness of the contact
 time | time | time | T | time

@@ -116,7 +116,6 @@ END = {
     "period_doubling": 3,
     "neimark_sacker": 4,
 }
-SUPPRESSION = {"no_subharmonic_without_damper": 0, "removed": 1, "reduced": 2, "unchanged": 3}
 # Labels of states that lead to no attractor. With a damper a state of the primary mass is `mixed`
 # if the place of the loose mass decides to which attractor it leads.
 BASIN_LABEL = {

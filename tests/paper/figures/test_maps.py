@@ -1,5 +1,6 @@
 """Maps: every class of cells is drawn and named, unsettled cells are hatched, edges lie midway."""
 
+import helpers.every_variable  # noqa: F401
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -7,8 +8,9 @@ from matplotlib.patches import PathPatch
 
 from chatterjee1995.figures.balance import QUIET, VIOLENT, draw_balance_map
 from chatterjee1995.figures.clearance import draw_studies
-from chatterjee1995.variables import AXES, HIGH_VERDICT, OUTCOMES, QUIET_VERDICT
+from chatterjee1995.stages.studies import AXES, OUTCOMES
 from impact_damper.data.datasets import dataset
+from impact_damper.data.variables import VARIABLES
 from impact_damper.plot.maps import edges
 from impact_damper.plot.style import style
 
@@ -25,8 +27,8 @@ def balance_map():
         return np.broadcast_to(np.resize(list(values), COLUMNS), shape)
 
     data = {
-        "quiet_verdict": cells(QUIET_VERDICT.values()),
-        "high_verdict": cells(HIGH_VERDICT.values()),
+        "quiet_verdict": cells(VARIABLES["quiet_verdict"].flags.values()),
+        "high_verdict": cells(VARIABLES["high_verdict"].flags.values()),
         "balance_quiet": cells([0] * 4 + [1] * 8),
         "balance_high": cells([1] * 6 + [0] * 6),
         "quiet_run_motion": cells([1, 3]),
@@ -58,7 +60,8 @@ def test_every_class_is_named(drawing):
 
 
 def test_classes_have_names_for_all_flags_and_looks_of_their_own():
-    for classes, flags in ((QUIET, QUIET_VERDICT), (VIOLENT, HIGH_VERDICT)):
+    for classes, name in ((QUIET, "quiet_verdict"), (VIOLENT, "high_verdict")):
+        flags = VARIABLES[name].flags
         assert set(classes) == set(flags)
         assert len({(color, hatch) for _, color, hatch in classes.values()}) == len(flags)
 

@@ -99,7 +99,6 @@ def test_counts_add_up(over_restitution):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("frequency", [1, 2], [1, 2], FIXED), "must be one of damping"),
         (("clearance", [1, 2], [1, 2], FIXED), "must not hold clearance"),
         (("restitution", [1, 0.9], [1, 2], FIXED), "must be increasing"),
         (("restitution", [0.9, 1.1], [1, 2], FIXED), "restitution = 1.1"),

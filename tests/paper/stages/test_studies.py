@@ -12,8 +12,7 @@ from helpers.known_orbits import PAPER
 from numpy.testing import assert_allclose, assert_array_equal
 
 from chatterjee1995.stages import studies
-from chatterjee1995.stages.studies import gather_chunks
-from chatterjee1995.variables import OUTCOMES
+from chatterjee1995.stages.studies import OUTCOMES, gather_chunks
 from impact_damper.data.datasets import dataset, load, save
 from impact_damper.data.whole_files import BrokenFileError
 from impact_damper.model.parameters import Damper
