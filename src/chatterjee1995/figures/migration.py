@@ -3,7 +3,7 @@
 import numpy as np
 
 from chatterjee1995.reading.datasets import POLICIES
-from impact_damper.data.datasets import decode, parameters_of
+from impact_damper.data.datasets import decode, named, parameters_of
 from impact_damper.plot.basin_plane import basins as basins_plot
 from impact_damper.plot.motions import migration as migration_plot
 from impact_damper.plot.style import (
@@ -88,7 +88,7 @@ def _draw_releases(axes, releases):
         if chosen.any():
             x, y = releases["release_displacement"], releases["release_velocity"]
             axes.plot(x[chosen], y[chosen], **look)
-    axes.set_title(MOTIONS[decode(releases["damped_kind"]).item()])
+    axes.set_title(MOTIONS[named(releases, "damped_kind")])
 
 
 @style({"axes.titley": None})

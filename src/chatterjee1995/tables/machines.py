@@ -9,7 +9,7 @@ import json
 import numpy as np
 import pandas as pd
 
-from impact_damper.data.datasets import decode, parameters_of
+from impact_damper.data.datasets import named, parameters_of
 
 # Advice for each decision.
 ADVICE = {"build": "build it", "do_not_build": "do not build it"}
@@ -28,7 +28,7 @@ def _row(name, data):
         "loose mass [kg]": made["damper_mass"],
         "band [Hz]": " to ".join(f"{end:g}" for end in asked["band"]),
         "gap, full play [mm]": _gap(data, asked["tolerances"].get("gap", 0.0)),
-        "advice": ADVICE[decode(data["decision"]).item()],
+        "advice": ADVICE[named(data, "decision")],
         "largest displacement without damper [mm]": float(data["largest_bare_displacement"]),
         "promised displacement [mm]": escape_or(data["promised_displacement"]),
         "promised for the share of starts": float(data["promised_share"]),

@@ -150,6 +150,11 @@ def flag(name, meaning) -> int:
     return VARIABLES[name].flags[meaning]
 
 
+def named(data, name) -> str:
+    """Return the meaning of a flag of a dataset."""
+    return decode(data[name]).item()
+
+
 def decode(values) -> xr.DataArray:
     """Return the names of the numbers in a flag variable, such as "settled" for 1.
 

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from impact_damper.data.datasets import decode, flag, parameters_of
+from impact_damper.data.datasets import flag, named, parameters_of
 from impact_damper.data.sweeps import known_range, quiet_gaps
 from impact_damper.model.text import number, percent, with_unit
 
@@ -83,8 +83,8 @@ def numbers_of(data) -> dict:
     found = TABLES | {
         "asked": asked,
         "made": json.loads(data.attrs["machine"]),
-        "choice": decode(data["design_choice"]).item(),
-        "promise": decode(data["promise"]).item(),
+        "choice": named(data, "design_choice"),
+        "promise": named(data, "promise"),
         "gap": gap,
         "restitution": asked["restitution"],
         "limit": limit,
