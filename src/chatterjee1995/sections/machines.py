@@ -43,6 +43,7 @@ class Machine(machine_file.MachineEntry):
                 "share": self.share,
                 "displacement_limit": self.displacement_limit,
                 "tolerances": self.tolerances.values(),
+                "absorber": self.absorber.values() or None,
                 "effort": {"Effort": effort | config.settling.job()},
             }
         )

@@ -161,22 +161,39 @@ def response(
     )
     rows = []
     for i, hertz in enumerate(found["frequency"].values):
-        each = found.isel(frequency=i)
-        exists = each["outcome"] >= 0
-        sizes = each["maximum_displacement"].values[exists]
-        settled = is_settled(each)[exists]
-        rows.append(
-            {
-                "frequency_hz": float(hertz),
-                "settled_mm": sorted(float(x) for x in sizes[settled]),
-                "other_mm": sorted(float(x) for x in sizes[~settled]),
-            }
-        )
-    words = ["Hz        largest displacement of each motion, mm (in brackets if not periodic)"]
+        each, row = found.isel(frequency=i), {"frequency_hz": float(hertz)}
+        settled = is_settled(each)
+        for name, chosen in (("settled", settled), ("other", ~settled & (each["outcome"] >= 0))):
+            sizes = different(each["maximum_displacement"].values[chosen])
+            row[f"{name}_mm"] = [size for size, _ in sizes]
+            counts = each["motion_starts"].values[chosen]
+            row[f"{name}_share"] = [float(counts[same].sum()) / starts for _, same in sizes]
+        rows.append(row)
+    words = [
+        "Hz        largest displacement of each motion, mm (in brackets if not periodic), and the "
+        "share of starts that lead to it"
+    ]
     for row in rows:
-        sizes = [f"{x:.4g}" for x in row["settled_mm"]] + [f"({x:.4g})" for x in row["other_mm"]]
-        words.append(f"{row['frequency_hz']:<9.4g} {'  '.join(sizes)}")
+        told = [
+            form.format(size, 100 * share)
+            for name, form in (("settled", "{:.4g}: {:.0f} %"), ("other", "({:.4g}): {:.0f} %"))
+            for size, share in zip(row[f"{name}_mm"], row[f"{name}_share"], strict=True)
+        ]
+        words.append(f"{row['frequency_hz']:<9.4g} {'  '.join(told)}")
     tell(as_json, words + kept(found, output), {"response": rows})
+
+
+def different(sizes, alike=1e-4):
+    """Return ascending sizes that differ, each with the places of the motions that have it.
+
+    A motion and its mirror image have the same size.
+    """
+    found = []
+    for place in sorted(range(len(sizes)), key=lambda i: sizes[i]):
+        if not found or sizes[place] > found[-1][0] * (1 + alike):
+            found.append((float(sizes[place]), []))
+        found[-1][1].append(place)
+    return found
 
 
 @app.command()
@@ -224,11 +241,12 @@ def hertz_contact(given):
 
 
 def asked(given):
-    """Return mass, restitution, contact and band of a file's content, arguments of a design."""
+    """Return mass, restitution, contact, band and absorber of a file, arguments of a design."""
     values, band = dict(given["damper"]), given["band"]
     stiffness = values.pop("contact_stiffness", None)
     contact = hertz_contact(given) or stiffness
-    return values | {"contact": contact, "band": (band["first"], band["last"])}
+    values |= {"contact": contact, "band": (band["first"], band["last"])}
+    return values | {"absorber": given.get("absorber")}
 
 
 def damper(given, gap):

@@ -26,7 +26,7 @@ from impact_damper.command.section import (
 from impact_damper.command.values import Allowed, count, number, points_of, starts_of
 from impact_damper.model.bounds import RESTITUTION_RANGE, range_words
 from impact_damper.model.hertz import HertzContact
-from impact_damper.model.machine import Machine
+from impact_damper.model.machine import Machine, TunedAbsorber
 from impact_damper.model.units import QUANTITIES, absolute_value, check_si, si_value
 
 
@@ -151,6 +151,7 @@ Tolerances = create_model(
     force=deviation_of("the excitation", "force", "displacement", "acceleration", "unbalance"),
 )
 Ball = create_model("Ball", __base__=Given, **fields_of(HertzContact, optional=True))
+Rival = create_model("Rival", __base__=Given, **fields_of(TunedAbsorber, optional=True))
 
 
 class MachineEntry(Section):
@@ -159,6 +160,7 @@ class MachineEntry(Section):
     machine: Body
     damper: Damper
     contact: Ball = Ball()
+    absorber: Rival = Rival()
     band: span_of("frequency", "end of the band of forcing frequencies")
     candidates: count("gaps that are compared", least=4, most=1000)
     starts: starts_of("at each gap and frequency")
@@ -194,7 +196,10 @@ class MachineEntry(Section):
 
     def _lacking(self, path):
         """Yield a line for each missing key of the contact."""
-        ball = self.contact.values()
+        rival, ball = self.absorber.values(), self.contact.values()
+        for key in Rival.model_fields:
+            if rival and key not in rival:
+                yield missing((*path, "absorber", key), "needed for a tuned absorber")
         for key in ("radius", "youngs_modulus", "poissons_ratio"):
             if ball and key not in ball:
                 yield missing((*path, "contact", key), "needed for a contact after Hertz")
@@ -219,6 +224,7 @@ class MachineEntry(Section):
             band=(self.band.first, self.band.last),
             share=self.share,
             tolerances=self.tolerances.values(),
+            absorber=self.absorber.values() or None,
             displacement_limit=self.displacement_limit,
             effort=Effort(
                 frequencies=self.band.points, candidates=self.candidates, starts=self.starts

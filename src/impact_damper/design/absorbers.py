@@ -19,7 +19,6 @@ from impact_damper.model.units import UNITLESS
 """
 
 import math
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -29,9 +28,9 @@ from scipy.optimize import minimize_scalar
 from impact_damper.data.datasets import flag
 from impact_damper.design.task import labelled
 from impact_damper.model.arguments import read_numbers
-from impact_damper.model.bounds import MASS_RATIO_RANGE, check_number, shown
-from impact_damper.model.machine import Machine
-from impact_damper.model.units import UNITLESS, check_si, convert, physical
+from impact_damper.model.bounds import MASS_RATIO_RANGE, shown
+from impact_damper.model.machine import Machine, TunedAbsorber
+from impact_damper.model.units import UNITLESS, check_si
 from impact_damper.theory.roots import polynomial_roots
 from impact_damper.theory.tuned_mass_damper import Tuning, den_hartog, exact_optimum
 
@@ -48,40 +47,10 @@ BAND_DAMPINGS = np.geomspace(1e-3, 0.3, 10)
 TUNING_TOLERANCE, DAMPING_TOLERANCE = 1e-11, 1e-10
 
 
-COMPETITORS = ("bare", "tuned")
+COMPETITORS = ("bare", "tuned", "own")
 # Force shares: factors of the machine's excitation, from a quarter to four.
 SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
 DETUNINGS = (-0.1, 0.0, 0.1)
-
-
-@dataclass(frozen=True, kw_only=True)
-class TunedAbsorber:
-    """A mass that is connected to a machine by a spring and a dashpot.
-
-    Each value is a number in the SI unit, text with units, or a quantity of pint.
-
-    Attributes
-    ----------
-    mass, stiffness, damping : float
-        kg, N/m and N s/m.
-
-    Examples
-    --------
-    >>> TunedAbsorber(mass="0.6 kg", stiffness="9e3 N/m", damping=20).stiffness
-    9000.0
-    """
-
-    mass: float = physical("mass", above=0)
-    stiffness: float = physical("stiffness", above=0)
-    damping: float = physical("damping", least=0)
-
-    def __post_init__(self):
-        convert(self)
-
-    def detuned(self, detuning) -> "TunedAbsorber":
-        """Return the absorber with its stiffness times 1 + detuning."""
-        factor = 1 + check_number("detuning", detuning, above=-1, most=10)
-        return replace(self, stiffness=self.stiffness * factor)
 
 
 class LinearMachine(NamedTuple):
@@ -99,7 +68,7 @@ class LinearMachine(NamedTuple):
 
 
 def absorber_responses(
-    machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None
+    machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None, own=None
 ):
     """Return the displacements of a machine alone and with a tuned absorber.
 
@@ -119,6 +88,8 @@ def absorber_responses(
         Lowest and highest frequency, Hz, over which the absorber is tuned; by default all
         frequencies or, for a machine with `base_acceleration`, those from the first to the last of
         `frequencies`.
+    own : TunedAbsorber, optional
+        An absorber of one's own, the third competitor, "own".
 
     Returns
     -------
@@ -134,20 +105,25 @@ def absorber_responses(
     )
     if band is None and machine.base_acceleration is not None:
         band = frequencies[[0, -1]]
-    sizes = np.full((len(COMPETITORS), len(detunings), len(frequencies), len(shares)), np.nan)
+    names = COMPETITORS[: 2 if own is None else 3]
+    sizes = np.full((len(names), len(detunings), len(frequencies), len(shares)), np.nan)
     sizes[0] = response(machine, None, frequencies, shares)
     springs = np.full((2, *sizes.shape[:2]), np.nan)
     kind = "one_harmonic" if machine.cubic_stiffness else "exact"
-    status, closed = [kind, "not_possible"], {}
-    if machine.linear_stiffness:
-        status[1] = kind
-        absorber = exact_absorber(machine, mass, band)
-        for column, detuning in enumerate(detunings):
-            built = absorber.detuned(detuning)
-            sizes[1, column] = response(machine, built, frequencies, shares)
-            springs[:, 1, column] = built.stiffness, built.damping
+    status, closed, absorbers = [kind] * len(names), {}, {}
+    if own is not None:
+        absorbers[2] = own
+    if not machine.linear_stiffness:
+        status[1] = "not_possible"
+    else:
+        absorbers[1] = exact_absorber(machine, mass, band)
         made = den_hartog_absorber(machine, mass)
         closed = {"den_hartog_stiffness": made.stiffness, "den_hartog_damping": made.damping}
+    for row, absorber in absorbers.items():
+        for column, detuning in enumerate(detunings):
+            built = absorber.detuned(detuning)
+            sizes[row, column] = response(machine, built, frequencies, shares)
+            springs[:, row, column] = built.stiffness, built.damping
     values = closed | {
         "competitor_displacement": 1e3 * sizes,
         "competitor_status": [flag("competitor_status", each) for each in status],
@@ -156,7 +132,7 @@ def absorber_responses(
     }
     return labelled(
         values,
-        competitor=list(COMPETITORS),
+        competitor=list(names),
         detuning=detunings,
         frequency=frequencies,
         force_share=shares,

@@ -75,7 +75,9 @@ def _row(task, decision):
 def competitors(task, decision, progress=None) -> xr.Dataset:
     """Return the responses of the machine alone and with a tuned absorber of the same mass."""
     band = task.absorber_band
-    found = absorber_responses(task.machine, task.mass, task.grid, SHARES, band=band)
+    found = absorber_responses(
+        task.machine, task.mass, task.grid, SHARES, band=band, own=task.absorber
+    )
     return found.assign_coords(labelled({}, frequency=task.grid).coords)
 
 

@@ -7,7 +7,7 @@ import xarray as xr
 
 from impact_damper.data.datasets import flag
 from impact_damper.data.shares import bounding_rank, starts_needed
-from impact_damper.design.absorbers import DETUNINGS, absorber_responses
+from impact_damper.design.absorbers import absorber_responses
 from impact_damper.design.promise import Promise, factor_sets, gap_sets
 from impact_damper.design.search import Curve, score, search, search_around
 from impact_damper.design.task import SIDES, VARIED, Task, labelled
@@ -162,14 +162,23 @@ def conclude(task, found, curve, ranges, status) -> xr.Dataset:
 def rivals(task) -> xr.Dataset:
     """Return the largest displacement with a tuned absorber of the same mass, and with it detuned.
 
-    NaN if the machine has no linear stiffness to which an absorber can be tuned.
+    The last number is with the absorber of the task. It is NaN without one, and the others if the
+    machine has no linear stiffness to which an absorber can be tuned.
     """
     band = task.absorber_band
-    found = absorber_responses(task.machine, task.mass, task.grid, [1.0], band=band)
-    sizes = found["competitor_displacement"].sel(competitor="tuned", force_share=1.0)
-    worst = sizes.max("frequency", skipna=False).values
-    at = list(DETUNINGS).index(0.0)
-    return labelled({"tuned_displacement": worst[at], "detuned_displacement": worst.max()})
+    found = absorber_responses(
+        task.machine, task.mass, task.grid, [1.0], band=band, own=task.absorber
+    )
+    sizes = found["competitor_displacement"].sel(force_share=1.0).max("frequency", skipna=False)
+    worst = sizes.sel(competitor="tuned")
+    values = {
+        "tuned_displacement": worst.sel(detuning=0.0),
+        "detuned_displacement": worst.max(skipna=False),
+        "own_displacement": np.nan,
+    }
+    if task.absorber is not None:
+        values["own_displacement"] = sizes.sel(competitor="own", detuning=0.0)
+    return labelled({name: float(value) for name, value in values.items()})
 
 
 def _end(beyond, size):

@@ -32,6 +32,7 @@ def design_damper(
     tolerances=None,
     displacement_limit=None,
     share=0.95,
+    absorber=None,
     effort=None,
     folder=None,
     progress=False,
@@ -65,6 +66,9 @@ def design_damper(
         Displacement of the machine, m, with which the promised one is compared.
     share : float
         Share of the starts for which the displacement is promised.
+    absorber : dict, optional
+        A tuned absorber to compare with beside the optimum one: its `mass`, `stiffness` and
+        `damping`, in kg, N/m and N s/m.
     effort : Effort, optional
         How many frequencies, gaps and starts are computed, and with how many threads.
     folder : str or pathlib.Path, optional
@@ -106,6 +110,7 @@ def design_damper(
         tolerances=TOLERANCES if tolerances is None else tolerances,
         displacement_limit=displacement_limit,
         share=share,
+        absorber=absorber,
         effort=Effort() if effort is None else effort,
     )
     return answer(task, find_gap, "Design of an impact damper for a machine", folder, progress)
@@ -120,6 +125,7 @@ def evaluate_damper(
     tolerances=None,
     displacement_limit=None,
     share=0.95,
+    absorber=None,
     effort=None,
     folder=None,
     progress=False,
@@ -131,7 +137,7 @@ def evaluate_damper(
     machine : Machine
     damper : MachineDamper
         By `Machine.damper`.
-    band, tolerances, displacement_limit, share, effort, folder, progress
+    band, tolerances, displacement_limit, share, absorber, effort, folder, progress
         As for `design_damper`.
 
     Returns
@@ -165,6 +171,7 @@ def evaluate_damper(
         tolerances=TOLERANCES if tolerances is None else tolerances,
         displacement_limit=displacement_limit,
         share=share,
+        absorber=absorber,
         effort=Effort() if effort is None else effort,
     )
     return answer(task, evaluate_gap, "Evaluation of an impact damper", folder, progress)

@@ -26,7 +26,13 @@ from impact_damper.model.bounds import (
     shown,
 )
 from impact_damper.model.hertz import HertzContact
-from impact_damper.model.machine import EXCITATIONS, Machine, MachineDamper, describe_si
+from impact_damper.model.machine import (
+    EXCITATIONS,
+    Machine,
+    MachineDamper,
+    TunedAbsorber,
+    describe_si,
+)
 from impact_damper.model.packed import pack
 from impact_damper.model.settling import Settling, check_settling
 from impact_damper.model.text import with_unit
@@ -135,6 +141,8 @@ class Task:
 
     Attributes
     ----------
+    absorber : TunedAbsorber or None
+        A tuned absorber to compare with.
     gap : float or None
         Gap of a damper that exists, m; None if it is to be found.
     contact : float or HertzContact
@@ -152,6 +160,7 @@ class Task:
     displacement_limit: float | None = None
     share: float = 0.95
     gap: float | None = None
+    absorber: TunedAbsorber | None = None
     effort: Effort = field(default_factory=Effort)
     contact_stiffness: float = field(init=False)
 
@@ -182,6 +191,12 @@ class Task:
             most = 2 * max(1e-3 * float(self.bare.max()), self.machine.resonant_displacement)
             why = "full play; the machine without damper does not touch the walls of a larger gap"
             self._check_length("gap", most, why)
+        if isinstance(self.absorber, Mapping):
+            self._set("absorber", TunedAbsorber(**self.absorber))
+        if self.absorber is not None and not isinstance(self.absorber, TunedAbsorber):
+            raise TypeError(
+                f"absorber = {shown(self.absorber)}: must have mass, stiffness and damping"
+            )
         self._check_deviations()
 
     def _set(self, name, value):
@@ -439,6 +454,7 @@ class Task:
             "displacement_limit": self.displacement_limit,
             "share": self.share,
             "gap": self.gap,
+            "absorber": self.absorber and asdict(self.absorber),
             "compared_settling": asdict(self.hurried),
         }
 

@@ -1,7 +1,7 @@
 """A machine on a spring with its excitation, and its impact damper, in SI units."""
 
 import math
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
 
 from impact_damper.model.bounds import (
@@ -11,6 +11,7 @@ from impact_damper.model.bounds import (
     MASS_RATIO_RANGE,
     RESTITUTION_RANGE,
     STIFFNESS_RANGE,
+    check_number,
     names_arguments,
 )
 from impact_damper.model.parameters import Damper, Oscillator
@@ -373,6 +374,32 @@ class Machine:
         damper = MachineDamper(mass=mass, gap=gap, **contact)
         damper.check_for(self)
         return damper
+
+
+@names_arguments
+@dataclass(frozen=True, kw_only=True)
+class TunedAbsorber:
+    """A mass that is connected to a machine by a spring and a dashpot.
+
+    Each value is a number in the SI unit, text with units, or a quantity of pint.
+
+    Examples
+    --------
+    >>> TunedAbsorber(mass="0.6 kg", stiffness="9e3 N/m", damping=20).stiffness
+    9000.0
+    """
+
+    mass: float = physical("mass", "mass of a tuned absorber", above=0)
+    stiffness: float = physical("stiffness", "stiffness of its spring", above=0)
+    damping: float = physical("damping", "coefficient of its dashpot", least=0)
+
+    def __post_init__(self):
+        convert(self)
+
+    def detuned(self, detuning) -> "TunedAbsorber":
+        """Return the absorber with its stiffness times 1 + detuning."""
+        factor = 1 + check_number("detuning", detuning, above=-1, most=10)
+        return replace(self, stiffness=self.stiffness * factor)
 
 
 def static_deflection(force, linear, cubic) -> float:

@@ -77,6 +77,29 @@ def test_response_of_the_bare_machine(machine_file):
         w = 2 * np.pi * row["frequency_hz"]
         exact = 40 / np.hypot(2e5 - 12 * w**2, 2 * 0.05 * np.sqrt(2e5 * 12) * w)
         assert row["settled_mm"] == pytest.approx([1e3 * exact], rel=1e-4)
+        assert row["settled_share"] == [1] and row["other_mm"] == []
+
+
+def test_a_motion_and_its_mirror_image_are_told_once_with_their_starts(machine_file):
+    """The shares of all motions of the library's response sum to those of the command."""
+    asked = ("--gap", "2.5 mm", "--starts", 12, "--json")
+    told = json.loads(run("response", machine_file, *asked))["response"]
+    given = read_machine_file(machine_file)
+    machine, damper = command_line.machine(given), command_line.damper(given, "2.5 mm")
+    frequencies = [row["frequency_hz"] for row in told]
+    found = idm.frequency_response(machine, damper, frequencies, starts=12)
+    for i, row in enumerate(told):
+        sizes, shares = (
+            row["settled_mm"] + row["other_mm"],
+            row["settled_share"] + row["other_share"],
+        )
+        assert len({f"{size:.4g}" for size in sizes}) == len(sizes)
+        assert 12 * sum(shares) == pytest.approx(np.maximum(found["motion_starts"][i], 0).sum())
+
+
+def test_equal_sizes_are_told_once():
+    found = command_line.different(np.array([2.0, 1.0, 2.0 + 1e-9, 3.0]))
+    assert [places for _, places in found] == [[1], [0, 2], [3]]
 
 
 @pytest.mark.thorough
@@ -152,6 +175,8 @@ def test_frequencies_and_tolerances_in_the_words_of_python(machine_file):
             "inclination = '30 deg': the machine accelerates by at most",
         ),
         ("band:", "frequencies: 9\nband:", None),
+        ("band:", "absorber: {mass: 1, damping: 9}\nband:", "absorber.stiffness: missing"),
+        ("band:", "absorber: {mass: 1, damping: 9, stiffness: 1e4}\nband:", None),
         ("linear_stiffness: 2e5 N/m", "natural_frequency: 20.5 Hz", None),
         ("damping_ratio: 5 %", "quality_factor: 10", None),
     ],

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from helpers.design_tasks import task
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
@@ -18,7 +19,7 @@ from impact_damper.design.absorbers import (
     response,
     tuning_of,
 )
-from impact_damper.model.machine import Machine
+from impact_damper.model.machine import Machine, TunedAbsorber
 from impact_damper.theory.tuned_mass_damper import exact_optimum
 
 SPRING = {"mass": 12, "linear_stiffness": 2e5}
@@ -40,6 +41,23 @@ PERIODS, SAMPLES = 200, 64
 def test_without_damping_the_optimum_is_the_closed_form(mass):
     found = tuning_of(UNDAMPED, exact_absorber(UNDAMPED, mass))
     assert_allclose(found, exact_optimum(mass / 12), rtol=1e-6)
+
+
+def test_an_absorber_of_ones_own_moves_as_the_two_masses_do():
+    """The amplitudes solve (K + i w C - w^2 M) x = F of machine and absorber."""
+    own = TunedAbsorber(mass="0.5 kg", stiffness="8 N/mm", damping=12)
+    found = absorber_responses(LINEAR, 0.6, FREQUENCIES, own=own)["competitor_displacement"]
+    for hertz in FREQUENCIES:
+        w = 2 * math.pi * hertz
+        link, spring = 8e3 + 12j * w, 2e5 + 1j * w * LINEAR.viscous_damping
+        matrix = [[spring + link - 12 * w**2, -link], [-link, link - 0.5 * w**2]]
+        exact = 1e3 * abs(np.linalg.solve(matrix, [40, 0])[0])
+        at = {"frequency": hertz, "detuning": 0.0, "force_share": 1.0}
+        assert_allclose(found.sel(competitor="own", **at), exact, rtol=1e-12)
+    assert "own" not in absorber_responses(LINEAR, 0.6, FREQUENCIES).competitor
+    task(absorber={"mass": 0.5, "stiffness": 8e3, "damping": 12})
+    with pytest.raises(ValueError, match="stiffness = 0 N/m"):
+        task(absorber={"mass": 0.5, "stiffness": 0, "damping": 12})
 
 
 @pytest.mark.parametrize("name", [each for each in EXCITED if each != "base_acceleration"])
