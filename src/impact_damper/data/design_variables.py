@@ -61,7 +61,8 @@ tuned_displacement | | displacement | | largest displacement over the band with 
   the same mass
 detuned_displacement | | displacement | | largest displacement over the band with this absorber
   detuned by 10 per cent
-own_displacement | | displacement | | largest displacement over the band with the absorber given
+own_absorber_displacement | | displacement | | largest displacement over the band with
+  the absorber given
 least_ratio | | | | least displacement with the damper divided by the one without it, over the band
 worst_ratio | | | | greatest displacement with the damper divided by the one without it
 worst_ratio_frequency | | frequency | | frequency of worst_ratio

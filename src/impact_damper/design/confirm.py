@@ -174,10 +174,10 @@ def rivals(task) -> xr.Dataset:
     values = {
         "tuned_displacement": worst.sel(detuning=0.0),
         "detuned_displacement": worst.max(skipna=False),
-        "own_displacement": np.nan,
+        "own_absorber_displacement": np.nan,
     }
     if task.absorber is not None:
-        values["own_displacement"] = sizes.sel(competitor="own", detuning=0.0)
+        values["own_absorber_displacement"] = sizes.sel(competitor="own", detuning=0.0)
     return labelled({name: float(value) for name, value in values.items()})
 
 
