@@ -19,6 +19,8 @@ from impact_damper.kernel.single import workspace
 from impact_damper.kernel.tangents import advance
 
 NO_TANGENTS = np.empty((0, 4))
+# Largest number of evaluations of the rate in a run of a slow integrator.
+MOST_EVALUATIONS = 200_000
 
 
 class TimedMethod(NamedTuple):
@@ -105,12 +107,13 @@ def rival(label):
     integrator, locate = runs_of_accuracy()[label]
 
     def prepare(scene, tolerance):
-        given = scene.begin, scene.periods, tolerance, locate
+        given = scene.begin, scene.periods, tolerance, locate, MOST_EVALUATIONS
 
-        def run(starts):
-            return np.array([integrator.end(scene.parameters, y, *given) for y in starts])
+        def end(start):
+            status, _, _, states = integrator.steps(scene.parameters, start, *given)
+            return states[-1] if status == "ended" else np.full(4, np.nan)
 
-        return run
+        return lambda starts: np.array([end(start) for start in starts])
 
     return TimedMethod(method_in_words(label), prepare, integrator.slow)
 

@@ -1,7 +1,6 @@
 """Changes of the invented datasets of `made_up.world`, each of which makes a claim fail.
 
-The functions return a change: a function that takes the datasets, keyed by stage and name, and
-changes them. `power` is a change itself.
+A change is a function that takes the datasets, keyed by stage and name, and replaces one of them.
 """
 
 import json
@@ -9,58 +8,53 @@ import json
 from impact_damper.data.datasets import parameters_of
 
 
+def edit(stage, name, new):
+    """Return the change that replaces a dataset by `new(dataset)`."""
+    return lambda data: data[stage].update({name: new(data[stage][name])})
+
+
 def scale(stage, name, **factors):
     """Return the change that multiplies variables of a dataset by factors."""
-
-    def change(data):
-        for variable, factor in factors.items():
-            data[stage][name] = data[stage][name].assign(
-                {variable: data[stage][name][variable] * factor}
-            )
-
-    return change
+    return edit(
+        stage, name, lambda old: old.assign({key: old[key] * by for key, by in factors.items()})
+    )
 
 
 def assign(stage, name, **values):
     """Return the change that sets variables of a dataset to constant values."""
+    return edit(
+        stage,
+        name,
+        lambda old: old.assign({key: old[key].where(False, to) for key, to in values.items()}),
+    )
 
-    def change(data):
-        for variable, value in values.items():
-            old = data[stage][name][variable]
-            data[stage][name] = data[stage][name].assign({variable: old.where(False, value)})
 
-    return change
+def put(stage, name, dataset):
+    """Return the change that replaces a dataset by a given one."""
+    return edit(stage, name, lambda _: dataset)
+
+
+def renamed(stage, name, **values):
+    """Return the change that sets parameters in the attribute of a dataset."""
+    return edit(
+        stage,
+        name,
+        lambda old: old.assign_attrs(parameters=json.dumps(parameters_of(old) | values)),
+    )
 
 
 def each(names, change):
     """Return the change that applies `change(name)` for several names of datasets."""
-
-    def changes(data):
-        for name in names:
-            change(name)(data)
-
-    return changes
-
-
-def put(stage, name, dataset):
-    """Return the change that replaces the dataset `name` by a given one."""
-
-    def change(data):
-        data[stage][name] = dataset
-
-    return change
+    return lambda data: [change(name)(data) for name in names]
 
 
 def unstable(name, lower, upper):
-    """Return the change that makes all orbits between two frequencies unstable.
-
-    `lower` and `upper` are ratios to the peak frequency.
-    """
+    """Return the change that makes all orbits between two frequencies over Wp unstable."""
 
     def change(data):
         old = data["branches"][name]
-        peak = float(data["harmonic_balance"][name].peak_frequency)
-        kept = (old.followed_value < lower * peak) | (old.followed_value > upper * peak)
+        ratio = old.followed_value / float(data["harmonic_balance"][name].peak_frequency)
+        kept = (ratio < lower) | (ratio > upper)
         multipliers = old.orbit_multiplier_real.where(kept, 2.0)
         data["branches"][name] = old.assign(orbit_multiplier_real=multipliers)
 
@@ -68,38 +62,27 @@ def unstable(name, lower, upper):
 
 
 def share(name, kind, subharmonic):
-    """Return the change that sets where releases (switching the damper off) lead.
+    """Return the change of the share of releases that lead to the subharmonic.
 
-    `kind` is the motion before the release, "unsettled" or "quiet". `subharmonic` is the share of
-    releases that lead to the subharmonic; the others lead to the non-resonance motion.
+    `kind` is the motion before the release, "unsettled" or "quiet". The other releases lead to the
+    non-resonance motion.
     """
 
-    def change(data):
-        case = data["migration"][name].copy(deep=True)
+    def new(old):
+        case = old.copy(deep=True)
         row = {"damped": ["unsettled", "quiet"].index(kind)}
         case.release_share.loc[row | {"free_motion": "subharmonic"}] = subharmonic
         case.release_share.loc[row | {"free_motion": "non_resonance"}] = 1 - subharmonic
-        data["migration"][name] = case
+        return case
 
-    return change
+    return edit("migration", name, new)
 
 
-def power(data):
-    """Set the penetration to the value by the expansion of equation (6e) as printed."""
-    old = data["harmonic_balance"]["figure_05a"]
+def _power(old):
     clearance = parameters_of(old)["clearance"]
     depth = old.relative_amplitude - clearance
-    data["harmonic_balance"]["figure_05a"] = old.assign(
-        relative_amplitude=clearance + depth ** (1 / 3) / 100
-    )
+    return old.assign(relative_amplitude=clearance + depth ** (1 / 3) / 100)
 
 
-def renamed(stage, name, **values):
-    """Return the change that sets parameters in the attribute of a dataset."""
-
-    def change(data):
-        old = data[stage][name].copy()
-        old.attrs["parameters"] = json.dumps(parameters_of(old) | values)
-        data[stage][name] = old
-
-    return change
+# The penetration is that of the expansion of equation (6e) as printed.
+power = edit("harmonic_balance", "figure_05a", _power)

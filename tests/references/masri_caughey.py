@@ -13,12 +13,10 @@ from scipy.optimize import brentq
 
 # Times in a flight between which changes of sign of a velocity are searched for.
 SAMPLES = 200
-# Ratios pi w/(2 W d0) between which changes of stability are searched for, and bisections of them.
-RATIOS, BISECTIONS = np.linspace(0.02, 2.5, 249), 48
 
 
 class Motion(NamedTuple):
-    """A motion: its state before the impact at Z2 = -d0, and multipliers over half a cycle.
+    """A motion: speed of the loose mass, largest |Z1|, and multipliers over half a cycle.
 
     `room` is the smallest distance to a wall within a flight, divided by d0. If it is negative,
     the loose mass would pass through a wall.
@@ -26,8 +24,6 @@ class Motion(NamedTuple):
 
     clearance: float
     speed: float
-    phase: float
-    impact: np.ndarray
     displacement: float
     multipliers: np.ndarray
     room: float
@@ -36,16 +32,6 @@ class Motion(NamedTuple):
     def stable(self):
         """Whether the motion exists and all multipliers are less than 1 in modulus."""
         return bool(self.room > 0 and abs(self.multipliers[0]) < 1)
-
-    @property
-    def event(self):
-        """The event that a motion at an end of a stable range is about to undergo."""
-        value = self.multipliers[0]
-        if self.room < 1 - abs(value):
-            return "third_contact"
-        if abs(value.imag) > 1e-6:
-            return "neimark_sacker"
-        return "fold" if value.real > 0 else "symmetry_breaking"
 
 
 def two_impact_motions(oscillator, damper, frequency):
@@ -63,20 +49,6 @@ def flight_with_speed(oscillator, damper, frequency, ratio):
     clearance, phase, impact = family.impact(ratio)
     parts = family.motions(ratio, clearance, phase, impact)
     return clearance, phase + np.pi / 2, np.concatenate([part(family.half / 2) for part in parts])
-
-
-def stability_boundaries(oscillator, damper, frequency):
-    """Return the motions at the ends of the ranges of s with stable motions, by ascending s."""
-    family, found = Family(oscillator, damper, frequency), []
-    ratios = RATIOS * 2 * frequency / np.pi
-    stable = np.array([family.motion(ratio).stable for ratio in ratios])
-    for k in np.flatnonzero(stable[:-1] != stable[1:]):
-        inner, outer = ratios[k : k + 2][:: 1 if stable[k] else -1]
-        for _ in range(BISECTIONS):
-            middle = (inner + outer) / 2
-            inner, outer = (middle, outer) if family.motion(middle).stable else (inner, middle)
-        found.append(family.motion(inner))
-    return found
 
 
 class Family:
@@ -137,7 +109,7 @@ class Family:
         largest = max([abs(primary(time)[0]) for time in self._turns(primary)] + [abs(impact[0])])
         rooms = [clearance - abs(relative(time)[0]) for time in self._turns(relative)]
         multipliers, room = self._multipliers(impact, phase), min(rooms, default=np.inf) / clearance
-        return Motion(clearance, ratio * clearance, phase, impact, largest, multipliers, room)
+        return Motion(clearance, ratio * clearance, largest, multipliers, room)
 
     def _turns(self, motion):
         """Return the times in a flight at which the velocity of a motion changes its sign."""

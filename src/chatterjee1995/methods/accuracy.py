@@ -15,8 +15,6 @@ from chatterjee1995.methods.integrators.taylor import taylor
 from chatterjee1995.methods.labels import ERRORS, START_HARMONICS, STATISTICS
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import register
-from impact_damper.model.arguments import Model, read_state
-from impact_damper.model.bounds import PERIODS_RANGE, check_count
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper, Oscillator, describe, pick
 from impact_damper.motions.simulate import COMPONENTS
@@ -64,11 +62,10 @@ class ComparisonScene(NamedTuple):
     "within", the largest error that a user accepts.
     """
 
-    name: str
     oscillator: Oscillator
     damper: Damper | None
     frequency: float
-    state: object
+    state: list
     periods: int
     motion: str
     accuracy: dict
@@ -77,18 +74,6 @@ class ComparisonScene(NamedTuple):
     def p(self):
         """Packed parameters."""
         return pack(self.oscillator, self.damper, self.frequency)
-
-    def check(self):
-        """Raise TypeError or ValueError if an attribute is not of its kind or out of range."""
-        check_count("periods", self.periods, **PERIODS_RANGE)
-        read_state(Model(self.oscillator, self.damper), self.state)
-        quantity = self.accuracy["quantity"]
-        allowed = STATISTICS if self.motion == "chaotic" else ERRORS
-        if quantity not in allowed:
-            raise ValueError(
-                f"accuracy: quantity = {quantity!r}: must be one of {', '.join(allowed)} "
-                f"for a {self.motion} motion"
-            )
 
 
 class Reference(NamedTuple):
@@ -116,35 +101,25 @@ def reference_of(scene, stored):
     return Reference(np.array(stored["state"]), times, stored["amplitude"])
 
 
-def accuracy(
-    system, damper, *, name, frequency, state, periods, motion, accuracy, settings, references
-):
-    """Return `error_against_work` for a scene; `references` are those of all scenes, by name."""
-    scene = ComparisonScene(name, system, damper, frequency, state, periods, motion, accuracy)
-    return error_against_work(scene, settings, references.get(name))
-
-
-def error_against_work(scene, settings, stored=None):
+def accuracy(system, damper, *, name, settings, references, **given):
     """Return a dataset with errors and work of each method on a test case (scene), for each `run`.
 
-    `settings` are those of the section `comparison` of the configuration, `stored` the stored
-    reference of the scene, which a chaotic motion does not need.
+    `given` are the other attributes of a `ComparisonScene`, `settings` the section `comparison` of
+    the configuration. `references` are stored references of scenes, by name; a chaotic motion needs
+    none.
     """
-    scene.check()
+    scene = ComparisonScene(oscillator=system, damper=damper, **given)
     if scene.motion == "chaotic":
         data = _averages(scene, settings)
     else:
-        if stored is None:
-            raise ValueError("stored: a motion that is not chaotic needs its reference")
-        data = _errors(scene, settings, reference_of(scene, stored))
-    names = ("name", "frequency", "periods", "motion", "accuracy")
-    made = describe(scene.oscillator, scene.damper) | {name: getattr(scene, name) for name in names}
-    made["scene"] = made.pop("name")
+        data = _errors(scene, settings, reference_of(scene, references[name]))
+    made = describe(system, damper) | given | {"scene": name}
+    del made["state"]
     coordinates = {"component": list(COMPONENTS), "statistic": list(STATISTICS)}
     return dataset(data, coordinates, made, "Error of methods against work")
 
 
-def integrations(scene, settings, slow_periods):
+def _integrations(scene, settings, slow_periods):
     """Yield label, tolerance, `Run` and forcing cycles of each integrator at each tolerance.
 
     Slow integrators run for `slow_periods` cycles, and only with their loosest tolerance if the
@@ -179,27 +154,20 @@ def _errors(scene, settings, reference):
     """Return the variables of the dataset for a test case that has a reference."""
     rows = [
         (label, setting, run, run.contact_times)
-        for label, setting, run, _ in integrations(scene, settings, scene.periods)
+        for label, setting, run, _ in _integrations(scene, settings, scene.periods)
     ]
     orbits = _orbits(scene, settings) if scene.motion == "steady" else []
-    rows += [
-        (method, setting, model, _times(scene, model, reference))
-        for method, setting, model in orbits
-    ]
+    rows += [(*orbit, _times(scene, orbit[-1], reference)) for orbit in orbits]
     status, errors = [], []
     for _, _, found, times in rows:
         wrong = len(times) - len(reference.contact_times)
         away = np.abs(times - reference.contact_times) if wrong == 0 else np.full(1, np.nan)
         ended = found.status == "ended"
         status.append(_status(found.status, wrong))
-        errors.append(
-            (
-                abs(found.displacement / reference.displacement - 1),
-                np.max(np.abs(found.state - reference.state)),
-                np.max(away, initial=0.0) if ended else np.nan,
-                wrong if ended else np.nan,
-            )
-        )
+        size = abs(found.displacement / reference.displacement - 1)
+        state = np.max(np.abs(found.state - reference.state))
+        latest = np.max(away, initial=0.0) if ended else np.nan
+        errors.append((size, state, latest, wrong if ended else np.nan))
     errors = np.array(errors, float).T
     names = "amplitude_error", "state_error", "contact_time_error", "contact_excess"
     judged = dict(zip(ERRORS, errors, strict=True))
@@ -271,7 +239,7 @@ def _averages(scene, settings):
     batch, begin = settings["batch"], strobe_time(scene.p)
     rows, found = [], []
     short = min(settings["scipy_periods"], scene.periods)
-    for label, setting, run, periods in integrations(scene, settings, short):
+    for label, setting, run, periods in _integrations(scene, settings, short):
         measured = {}
         if run.status == "ended":
             measured = averages.of_run(p, run, begin, periods, batch)

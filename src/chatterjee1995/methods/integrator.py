@@ -6,10 +6,7 @@ import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
 from chatterjee1995.methods.equations import rate, wall_at
-from impact_damper.model.arguments import read_increasing, read_numbers
-from impact_damper.model.bounds import METHOD_TOLERANCE_RANGE, STEPS_RANGE, check_count
 from impact_damper.model.packed import CLEARANCE
-from impact_damper.model.units import UNITLESS
 
 # Number of bisections that locate a root, enough for the accuracy of floating-point numbers.
 HALVINGS = 54
@@ -47,7 +44,7 @@ class Integrator:
     `resolution` is a tolerance, or with fixed steps the number of steps in a cycle.
 
     `place` is the place among the integrators in figures and tables. `compared` are the stages that
-    compare it; REQUIRED names the method that each stage calls. `fixed`: it takes equal steps in
+    compare it; each stage needs one of the methods in REQUIRED. `fixed`: it takes equal steps in
     place of a tolerance. For the stage `accuracy`: `located`, the values of `locate` with which it
     runs; `tolerances`, a name in `labels.TOLERANCE_KEYS`; `slow`, whether evaluations and length of
     its runs are limited. For the stage `stable_steps`: `stability_limit`, the largest product of
@@ -55,9 +52,9 @@ class Integrator:
     """
 
     REQUIRED: ClassVar = {
-        "accuracy": "run",
-        "missed_contacts": "flight",
-        "stable_steps": "largest_displacements",
+        "accuracy": ("steps", "run"),
+        "missed_contacts": ("flight",),
+        "stable_steps": ("largest_displacements",),
     }
 
     name = title = tolerances = ""
@@ -71,13 +68,19 @@ class Integrator:
         """Return the label of its runs with contacts located or not, such as "merson_kink"."""
         return f"{self.name}_{'located' if locate else 'kink'}"
 
-    def run(self, p, start, begin, periods, tolerance, locate, most_evaluations=None) -> Run:
-        """Return the run. A slow integrator stops after `most_evaluations` of the rate."""
+    def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations):
+        """Return status and operations of a run, and times (n,) and states (n, 4) of its steps.
+
+        A slow integrator stops after `most_evaluations` of the rate.
+        """
         raise NotImplementedError
 
-    def end(self, p, start, begin, periods, tolerance, locate) -> np.ndarray:
-        """Return the state at the end, NaN if the run fails, as fast as possible (benchmarks)."""
-        return self.run(p, start, begin, periods, tolerance, locate).state
+    def run(self, p, *given) -> Run:
+        """Return the run; the arguments are those of `steps`."""
+        status, work, times, ends = self.steps(p, *given)
+        if status != "ended" or not np.isfinite(ends).all():
+            return stopped("failed" if status == "ended" else status, work)
+        return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
         """Return |Z2| at the ends of the steps of a flight over [0, end], and |Z2| at `time`.
@@ -97,29 +100,12 @@ class Integrator:
         raise NotImplementedError
 
 
-def check_resolutions(tolerances, steps):
-    """Check increasing tolerances, and as many increasing numbers of steps in a cycle.
-
-    Return the tolerances and the numbers of steps, reversed: the fewest steps take the place of the
-    largest tolerance.
-    """
-    tolerances = read_numbers(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
-    read_increasing(UNITLESS, "tolerances", tolerances)
-    steps = [check_count("steps", value, **STEPS_RANGE) for value in steps]
-    read_increasing(UNITLESS, "steps", steps)
-    if len(steps) != len(tolerances):
-        raise ValueError(f"steps: must be as many as tolerances, {len(tolerances)}; {steps} given")
-    return tolerances, steps[::-1]
-
-
 def read_off(p, work, times, ends):
     """Return the `Run` with the times (n,) and the states (n, 4) at the ends of its steps.
 
     Beginnings of contacts and maxima of |Z1| within a step are those of the polynomial of degree 5
     that agrees with the states and their rates at both ends of the step.
     """
-    if not np.isfinite(ends).all():
-        return stopped("failed", work)
     at, peaks = _turning_points(p, times, ends)
     began = _beginnings(p, times, ends)
     return Run("ended", work, ends[-1], began, at, peaks, float(np.max(peaks)))

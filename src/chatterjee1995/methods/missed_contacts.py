@@ -10,13 +10,12 @@ import math
 
 import numpy as np
 
-from chatterjee1995.methods.integrator import check_resolutions
 from chatterjee1995.methods.integrators import integrators
 from chatterjee1995.methods.passages import TOLERANCE, draw_passages, without_walls
 from impact_damper.data.datasets import dataset
 from impact_damper.data.variables import register
 from impact_damper.model.arguments import read_increasing
-from impact_damper.model.bounds import RADIUS_RANGE, RUNS_RANGE, check_count, check_number
+from impact_damper.model.bounds import METHOD_TOLERANCE_RANGE
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.units import UNITLESS
@@ -42,7 +41,8 @@ expected_unseen | method_tolerance depth | | | expected share of contacts at ran
     """,
 )
 
-# The docstring of `missed_contacts` explains the outcomes.
+# `unseen`: the computed motion passes the wall and returns within one step. `not_reached`: it does
+# not reach the wall, since its error exceeds the depth. `failed`: it did not reach its end.
 OUTCOMES = ("found", "unseen", "not_reached", "failed")
 
 
@@ -54,29 +54,18 @@ def missed_contacts(
     Each of the `passages` starts in a ball of the `radius`. Walls are nearer than the largest |Z2|,
     or farther away, by the increasing `depths`. Integrators run with the increasing `tolerances`,
     or with as many increasing numbers of `steps` in a cycle.
-
-    Returns
-    -------
-    xarray.Dataset
-        `passage_count` for each (integrator, method_tolerance, depth, contact_outcome). Outcomes:
-        found; unseen (the computed motion passes the wall and returns within one step); not reached
-        (the computed motion does not reach the wall, since its error exceeds the depth); failed
-        (the run did not reach its end). `contacts_missed`: share of the runs that ended in which no
-        contact was found. `spurious_count`: contacts reported where none exists. `motion_error`:
-        median error of the largest |Z2|. `expected_unseen`: share expected to be unseen if fixed
-        steps h end at random times, the mean of max(0, 1 - b/h), with the time
-        b = 2 sqrt(2 depth/|Z2''|) that the motion spends beyond the wall.
     """
-    check_count("passages", passages, **RUNS_RANGE)
-    check_number("radius", radius, **RADIUS_RANGE)
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
-    tolerances, steps = check_resolutions(tolerances, steps)
+    tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
+    steps = steps[::-1]  # the fewest steps take the place of the largest tolerance
+    if len(steps) != len(tolerances):
+        raise ValueError(f"steps = {steps}: must be as many as tolerances, {len(tolerances)}")
     p = pack(oscillator, None, frequency)
     drawn = draw_passages(p, passages, radius, depths[-1], seed)
     data = _count_table(without_walls(p), drawn, depths, tolerances, steps)
     data |= {
         "expected_unseen": _expected(drawn, depths, steps, 2 * math.pi / p[FREQUENCY]),
-        "fixed_steps": np.array(steps),
+        "fixed_steps": steps,
     }
     made = describe(oscillator) | {
         "frequency": frequency,
@@ -95,11 +84,10 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return counts of contacts and the error of an integrator without walls in `p`.
+    """Return passages by depth and outcome, spurious contacts by depth, and the motion's error.
 
-    The counts (depth, outcome) are of passages whose wall is nearer by the depth, and (depth,) of
-    contacts reported although the wall is farther away. The error is the median error of the
-    largest |Z2|, NaN if all runs failed.
+    A contact is spurious if the wall is farther away than the largest |Z2|, by the depth. The error
+    is the median error of the largest |Z2|, NaN if all runs failed. `p` has no walls.
     """
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
@@ -143,7 +131,11 @@ def _count_table(p, passages, depths, tolerances, steps):
 
 
 def _expected(passages, depths, steps, period):
-    """Return the shares expected to be unseen with fixed steps, shape (steps, depth)."""
+    """Return the shares expected to be unseen, shape (steps, depth), if steps end at random times.
+
+    They are the mean of max(0, 1 - b/h) with the step h and the time b = 2 sqrt(2 depth/|Z2''|)
+    that the motion spends beyond the wall.
+    """
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])
     return np.array([np.maximum(0, 1 - beyond * n / period).mean(axis=0) for n in steps])

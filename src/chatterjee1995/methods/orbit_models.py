@@ -21,14 +21,13 @@ from chatterjee1995.methods.integrators.taylor import (
 from chatterjee1995.methods.rigid_impacts import (
     MOST_IMPACTS,
     mended_orbit,
-    mended_walls,
     rebound,
     rigid_map,
     rigid_orbit,
     without_dashpot,
 )
 from impact_damper.kernel.single import step, workspace
-from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
+from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import SPRING_POWER
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.orbits.shooting import find_orbit
@@ -189,27 +188,22 @@ def rigid_impacts(oscillator, damper, frequency, start):
     """
     if damper is None:
         return dict.fromkeys(("rigid", "rigid_mended"), without("not_applicable"))
-    work = start.operations
-    orbit, _ = rigid_orbit(oscillator, damper, frequency, start.state, REACH)
-    if orbit is None:
-        return dict.fromkeys(("rigid", "rigid_mended"), without("failed", work))
-    p = pack(oscillator, damper, frequency)
-    run = rigid(p, damper.restitution, orbit.state, strobe_time(p), 1, POLISH_TOLERANCE)
-    each = run.operations / step_work(FLIGHT) * step_work(FLIGHT, tangents=True)
-    work += orbit.maps * each
-    models = {"rigid": _rigid_model(p, run, orbit, work)}
-    better, _ = mended_orbit(oscillator, damper, frequency, orbit, REACH)
-    if better is None:
-        return models | {"rigid_mended": without("failed", work)}
-    p[CLEARANCE], restitution = mended_walls(oscillator, damper, orbit)
-    run = rigid(p, restitution, better.state, strobe_time(p), 1, POLISH_TOLERANCE)
-    return models | {"rigid_mended": _rigid_model(p, run, better, work + better.maps * each)}
-
-
-def _rigid_model(p, run, orbit, work):
-    """Return the `Model` of a rigid orbit and of its run over a cycle."""
-    phases = p[FREQUENCY] * run.contact_times % (2 * math.pi)
-    return Model("ended", work, orbit.state, phases, orbit.displacement)
+    system = oscillator, damper, frequency
+    orbit, _ = rigid_orbit(*system, start.state, REACH)
+    better, _ = (None, "") if orbit is None else mended_orbit(*system, orbit, REACH)
+    models, work, each = {}, start.operations, None
+    for name, found in (("rigid", orbit), ("rigid_mended", better)):
+        if found is None:
+            models[name] = without("failed", work)
+            continue
+        given = found.p, found.restitution, found.state, strobe_time(found.p)
+        run = rigid(*given, 1, POLISH_TOLERANCE)
+        # The work of a map: a cycle with variational equations.
+        each = each or run.operations / step_work(FLIGHT) * step_work(FLIGHT, tangents=True)
+        work += found.maps * each
+        phases = frequency * run.contact_times % (2 * math.pi)
+        models[name] = Model("ended", work, found.state, phases, found.displacement)
+    return models
 
 
 def shooting(oscillator, damper, frequency, start):

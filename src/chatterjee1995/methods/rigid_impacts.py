@@ -105,7 +105,8 @@ class RigidOrbit(NamedTuple):
 
     `state` is the state at W T = pi/2, `multiplier` the dominant Floquet multiplier, `displacement`
     max |Z1|, `speed` the approach speed |Z2'|, `acceleration` that of Z1 towards the wall before an
-    impact, and `maps` the number of integrations over a cycle that Newton's method took.
+    impact, and `maps` the number of integrations over a cycle that Newton's method took. `p` and
+    `restitution` include the walls.
     """
 
     state: np.ndarray
@@ -114,6 +115,8 @@ class RigidOrbit(NamedTuple):
     speed: float
     acceleration: float
     maps: int
+    p: np.ndarray
+    restitution: float
 
 
 def rigid_orbit(oscillator, damper, frequency, guess, reach):
@@ -128,10 +131,22 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """Return orbit and status as `rigid_orbit`, between corrected walls, from the rigid `orbit`."""
-    clearance, restitution = mended_walls(oscillator, damper, orbit)
+    """Return orbit and status as `rigid_orbit`, with corrected walls, which imitate compliant ones.
+
+    `orbit` is the rigid orbit. `docs/explanation/methods.md` has the formulas of the correction.
+    """
+    e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
+    reduced = damper.mass_ratio / (1 + damper.mass_ratio)
+    z, natural = damping_ratio(e), natural_frequency(damper)
+    duration = np.pi / (natural * np.sqrt(1 - z * z))
+    shift = v * duration * e / (1 + e)
+    after = before + h * (1 + e) * reduced * v
+    load = (before + h * reduced * v) / (natural * v)
+    damped = e * np.pi * h * reduced / (2 * natural * (1 - z * z) ** 1.5)
+    returned = e - damped - 2 * z * (1 + e) * load
     p = pack(oscillator, damper, frequency)
-    p[CLEARANCE] = clearance
+    p[CLEARANCE] = damper.clearance + shift
+    restitution = returned + shift / v**2 * (after / e - e * before)
     return _solve(p, restitution, orbit.state, reach)
 
 
@@ -155,25 +170,8 @@ def _solve(p, restitution, guess, reach):
             values = np.linalg.eigvals(matrix)
             largest_value = values[np.argmax(np.abs(values))]
             dominant = complex(largest_value.real, abs(largest_value.imag))
-            return RigidOrbit(y, dominant, largest, *first, k + 1), "found"
+            return RigidOrbit(y, dominant, largest, *first, k + 1, p, restitution), "found"
         y = y + change
         if not np.max(np.abs(y - guess)) < reach:
             break
     return None, "not_followed"
-
-
-def mended_walls(oscillator, damper, orbit):
-    """Return clearance and restitution of the rigid walls that imitate compliant walls at an orbit.
-
-    `orbit` is the orbit between plain rigid walls. `docs/explanation/methods.md` has the formulas.
-    """
-    e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
-    reduced = damper.mass_ratio / (1 + damper.mass_ratio)
-    z, natural = damping_ratio(e), natural_frequency(damper)
-    duration = np.pi / (natural * np.sqrt(1 - z * z))
-    shift = v * duration * e / (1 + e)
-    after = before + h * (1 + e) * reduced * v
-    load = (before + h * reduced * v) / (natural * v)
-    damped = e * np.pi * h * reduced / (2 * natural * (1 - z * z) ** 1.5)
-    returned = e - damped - 2 * z * (1 + e) * load
-    return damper.clearance + shift, returned + shift / v**2 * (after / e - e * before)

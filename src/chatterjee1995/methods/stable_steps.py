@@ -15,14 +15,9 @@ from chatterjee1995.methods.integrators import integrators
 from impact_damper.data.datasets import dataset, is_settled
 from impact_damper.data.variables import register
 from impact_damper.model.arguments import read_increasing
-from impact_damper.model.bounds import (
-    MOST_STEPS_RANGE,
-    PERIODS_RANGE,
-    STIFFNESS_RANGE,
-    check_count,
-)
+from impact_damper.model.bounds import STIFFNESS_RANGE
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
-from impact_damper.model.parameters import check_damper, describe
+from impact_damper.model.parameters import describe
 from impact_damper.model.settling import Settling
 from impact_damper.model.units import UNITLESS
 from impact_damper.motions import ensemble
@@ -65,26 +60,16 @@ CONFIRMED = 4
 STIFF = 1e3
 
 
-def quiet_state(p):
-    """Return the state at W T = pi/2 of the quiet motion, or None if a run leads to another motion.
-
-    At the start of the run the primary mass is at rest and the loose mass crosses the gap.
-    """
-    start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
-    record = ensemble.settle(p[None], start, Settling(), from_strobe=True)[0]
-    if is_settled(record) and record["period"] == 1 and record["contacts"] == 2:
-        return record["state"].copy()
-    return None
-
-
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
     """Return a quiet `CompliantOrbit` at each r1, followed from the damper's own r1.
 
     None stands for an orbit that could not be followed. ArithmeticError is raised if the damper has
-    no quiet motion.
+    no quiet motion: none to which a primary mass at rest and a loose mass in the gap lead.
     """
-    state = quiet_state(pack(oscillator, damper, frequency))
-    if state is None:
+    p = pack(oscillator, damper, frequency)
+    start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
+    record = ensemble.settle(p[None], start, Settling(), from_strobe=True)[0]
+    if not is_settled(record) or record["period"] != 1 or record["contacts"] != 2:
         raise ArithmeticError(
             f"damper = {damper!r}: has no quiet motion at frequency = {frequency:g}, from which "
             "the stiffness is varied"
@@ -101,7 +86,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
     for targets in (stiffer, softer):
         cells = _in_steps(own, targets)
         grid = Grid(cells[:, None], correct)
-        grid.put((0,), StrobeOrbit(state, complex(np.nan)))
+        grid.put((0,), StrobeOrbit(record["state"].copy(), complex(np.nan)))
         grid.spread()
         found |= {cells[cell]: orbit for cell, orbit in grid.orbits.items() if cell != (0,)}
     return [found.get(value) for value in stiffnesses]
@@ -140,26 +125,9 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
 
     The exact orbits at the increasing `stiffnesses` are followed from the quiet motion of `damper`.
     `scaled_steps` are increasing values of h omega_c. Runs of `periods` forcing cycles that would
-    take more than `most_steps` steps in a cycle are left out.
-
-    Returns
-    -------
-    xarray.Dataset
-        For each (fixed_method, contact_stiffness, scaled_step): `step_deviation`, the largest
-        relative deviation of a cycle's max |Z1| from the exact one, infinite if the run diverged
-        and NaN if not run. For each (fixed_method, contact_stiffness, accuracy): `stable_step`, the
-        largest step h that keeps the accuracy, as do all smaller tested steps, NaN if these are
-        fewer than CONFIRMED. For each (fixed_method, accuracy): `step_slope`, the slope of log(1/h)
-        over log r1 from r1 = STIFF on, and its standard error.
-
-    Raises
-    ------
-    ArithmeticError
-        If there is no quiet motion.
+    take more than `most_steps` steps in a cycle are left out. A deviation of a cycle's max |Z1| is
+    infinite if the run diverged, and NaN if it was left out.
     """
-    check_damper(damper)
-    check_count("periods", periods, **PERIODS_RANGE)
-    check_count("most_steps", most_steps, **MOST_STEPS_RANGE)
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
     scaled = scaled[::-1]
@@ -170,12 +138,11 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     tested = counts <= most_steps
     methods = integrators("stable_steps").values()
     deviations = np.array([_deviations(each, orbits, counts, tested, periods) for each in methods])
-    data = {
+    data = _step_data(deviations, tested, period / counts, stiffnesses) | {
         "step_deviation": deviations,
-        "linear_limit": np.array([method.stability_limit for method in methods]),
+        "linear_limit": [method.stability_limit for method in methods],
         "contact_frequency": contact,
     }
-    data |= _step_data(deviations, tested, period / counts, stiffnesses)
     made = describe(oscillator, damper) | {"frequency": frequency, "periods": periods}
     coordinates = {
         "fixed_method": [method.name for method in methods],

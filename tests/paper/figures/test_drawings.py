@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 from helpers.made_up import matched_sweep
+from helpers.made_up_orbits import branch, branches
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from chatterjee1995.figures.clearance import draw_optimum
@@ -129,25 +130,10 @@ def migration():
 
 def orbits(**parameters):
     """Return branches of periods 1, 2 and 3 at different heights, each stable up to a fold."""
-    periods = [1, 2, 3]
-    count = len(FREQUENCY)
-    value = np.concatenate([FREQUENCY, FREQUENCY[::-1]])
-    stable = np.repeat([flag("stability", "stable"), flag("stability", "unstable")], count)
-    size = np.concatenate([FREQUENCY + n + edge for n in periods for edge in (0.0, 0.5)])
-    data = {
-        "followed_value": np.tile(value, len(periods)),
-        "orbit_displacement": size,
-        "orbit_branch": np.repeat(np.arange(len(periods)), 2 * count),
-        "orbit_stability": np.tile(stable, len(periods)),
-        "branch_period": periods,
-        "branch_end": [[flag("branch_end", name) for name in ("range_ends", "point_limit")]] * 3,
-        "event_kind": [flag("event_kind", "fold"), flag("event_kind", "grazing")],
-        "event_value": [2.0, 1.5],
-        "event_displacement": [3.0, 2.5],
-        "event_branch": [0, 2],
-        "event_place": [1, 2],
-    }
-    return dataset(data, {}, DAMPER | {"parameter": "frequency"} | parameters, "made up")
+    value, stable = np.append(FREQUENCY, FREQUENCY[::-1]), np.repeat([True, False], len(FREQUENCY))
+    parts = [branch(value, value + n + 0.5 * ~stable, stable=stable, period=n) for n in (1, 2, 3)]
+    made = DAMPER | {"parameter": "frequency"} | parameters
+    return branches(*parts, folds=[(0, 2.0, 3.0), (2, 1.5, 2.5)], parameters=made)
 
 
 FREE = orbits().assign_attrs(parameters='{"damping": 0.2, "parameter": "frequency"}')

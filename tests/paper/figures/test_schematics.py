@@ -83,18 +83,13 @@ def test_texts_do_not_overlap(drawn):
         assert not box.overlaps(its_box), f"{one} on {other}"
 
 
-def test_no_line_runs_through_a_text(drawn):
-    (axes,) = drawn.axes
-    for artist in [*axes.lines, *axes.patches]:
-        outline = artist.get_path().to_polygons(artist.get_transform(), closed_only=False)
-        for text, box in boxes(drawn).items():
-            for points in outline:
-                assert not Path(points).intersects_bbox(box, filled=False), text
-
-
-def test_all_drawing_lies_on_the_sheet(drawn):
+def test_no_line_leaves_the_sheet_or_runs_through_a_text(drawn):
     (axes,) = drawn.axes
     for artist in [*axes.lines, *axes.patches]:
         box = artist.get_window_extent()
         assert box.x0 >= 0 and box.y0 >= 0
         assert box.x1 <= drawn.bbox.x1 and box.y1 <= drawn.bbox.y1
+        outline = artist.get_path().to_polygons(artist.get_transform(), closed_only=False)
+        for text, box in boxes(drawn).items():
+            for points in outline:
+                assert not Path(points).intersects_bbox(box, filled=False), text

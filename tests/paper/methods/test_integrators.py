@@ -36,8 +36,8 @@ def test_an_integrator_has_what_its_stages_call(name):
     for stage in integrator.compared:
         assert stage in Integrator.REQUIRED, f"{where}: {name} names no stage {stage}"
         needed = Integrator.REQUIRED[stage]
-        own = getattr(type(integrator), needed) is not getattr(Integrator, needed)
-        assert own, f"{where}: {stage} calls {needed}, which {name} lacks"
+        own = [getattr(type(integrator), each) is not getattr(Integrator, each) for each in needed]
+        assert any(own), f"{where}: {stage} calls {needed[0]}, which {name} lacks"
     if "accuracy" in integrator.compared:
         known = integrator.tolerances in TOLERANCE_KEYS
         assert known, f"{where}: {name} has no tolerances, one of {', '.join(TOLERANCE_KEYS)}"
@@ -77,23 +77,20 @@ def test_merson_follows_its_tolerance(locate, free):
     """
     p, end = free
     merson = integrators()["merson"]
-    errors = [
-        np.abs(merson.end(p, START, 0.0, 2, tolerance, locate) - end).max()
-        for tolerance in (1e-6, 1e-8, 1e-10, 1e-12)
-    ]
-    slope = np.polyfit([-6, -8, -10, -12], np.log10(errors), 1)[0]
+    runs = [merson.run(p, START, 0.0, 2, tolerance, locate) for tolerance in (1e-6, 1e-9, 1e-12)]
+    errors = [np.abs(run.state - end).max() for run in runs]
+    slope = np.polyfit([-6, -9, -12], np.log10(errors), 1)[0]
     assert 0.7 < slope < 1.1
 
 
 @pytest.mark.parametrize("name", integrators("accuracy"))
-def test_run_and_end_on_smooth_motion(name, free):
+def test_a_run_on_a_smooth_motion(name, free):
     p, end = free
     integrator = integrators()[name]
     for locate in integrator.located:
         run = integrator.run(p, START, 0.0, 2, 1e-9, locate, 10**6)
         assert run.status == "ended" and run.operations > 0
         assert_allclose(run.state, end, atol=1e-5)
-        assert_allclose(integrator.end(p, START, 0.0, 2, 1e-9, locate), run.state, atol=1e-9)
 
 
 @pytest.mark.parametrize("method", NUMBERS)
@@ -157,13 +154,9 @@ def test_the_kink_takes_the_order_away():
     assert -2.7 < slope < -1.3
 
 
-def test_a_diverging_run_has_nan_from_this_cycle_on():
+def test_runs_that_diverge_or_take_too_many_evaluations_have_nan():
     p = pack(PAPER, DESIGN, 2.0)
     given = p, np.array([0.0, 0.0, 5.0, 0.0]), 0.0, 3, 20
     assert np.isnan(integrators()["runge_kutta_4"].largest_displacements(*given)).all()
-
-
-def test_a_run_with_too_many_evaluations_is_given_up():
-    p = pack(PAPER, DESIGN, 2.0)
     run = integrators()["DOP853"].run(p, START, 0.0, 2, 1e-9, True, 20)
     assert run.status == "capped" and np.isnan(run.state).all()

@@ -114,24 +114,6 @@ def test_against_scipy(damper, name, frequency):
 
 
 @pytest.mark.parametrize(("damper", "name"), CASES)
-def test_derivative(damper, name):
-    """Against central differences, whose error falls as the square of their step."""
-    p, y = rigid(damper, 2.0), polished_orbit(name).state
-    _, matrix, *_ = rigid_map(p, damper.restitution, y, 1e-14)
-
-    def differences(step):
-        ends = [
-            [rigid_map(p, damper.restitution, y + s * step * row, 1e-14)[0] for s in (1, -1)]
-            for row in np.eye(4)
-        ]
-        return np.array([(up - down) / (2 * step) for up, down in ends]).T
-
-    coarse, fine = (np.max(np.abs(differences(step) - matrix)) for step in (2e-3, 1e-3))
-    assert coarse / fine == pytest.approx(4, rel=0.05)
-    assert fine < 1e-4
-
-
-@pytest.mark.parametrize(("damper", "name"), CASES)
 def test_compliant_contact_comes_to_it(damper, name):
     """State and derivative of the map over a period differ from compliant contact by r1^(-1/2)."""
     y = polished_orbit(name).state

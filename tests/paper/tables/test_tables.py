@@ -9,7 +9,7 @@ from helpers.made_up_orbits import branch, branches
 from chatterjee1995.tables import balance, clearance, migration, responses
 from chatterjee1995.tables import branches as table_branches
 from chatterjee1995.tables.files import save_table
-from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.datasets import flag
 
 
 @pytest.fixture(scope="module")
@@ -49,40 +49,28 @@ def test_free_oscillator_without_subharmonic(data):
     assert responses.subharmonic(changed).branch.iloc[0] == "none"
 
 
+def closed(frequency, stable):
+    """Return one closed branch."""
+    frequency, stable = np.append(frequency, frequency[0]), np.append(stable, stable[0])
+    return branches(branch(frequency, 1.0, stable=stable), parameters={"damping": 0.1})
+
+
 @pytest.mark.parametrize("start", range(8))
 def test_stable_parts_of_a_closed_branch_do_not_depend_on_its_first_orbit(start):
     frequency = np.roll([1.0, 1.1, 1.2, 1.3, 1.25, 1.2, 1.1, 1.05], start)
     stable = np.roll([True, True, False, False, False, True, False, True], start)
-    made = orbit_columns(frequency, stable)
+    made = closed(frequency, stable)
     table = table_branches.orbits({"branches": {"closed": made}})
     assert table.loc[0, "stable Ω"] == "1 to 1.1, 1.2 to 1.2"
 
 
 def test_an_end_that_is_left_open_has_its_reason():
-    made = orbit_columns(np.array([1.0, 1.1]), np.array([True, True]))
+    made = closed([1.0, 1.1], [True, True])
     ends = [[flag("branch_end", "unstable"), flag("branch_end", "range_ends")]]
     left = made.assign(branch_end=made["branch_end"].copy(data=ends))
     table = table_branches.orbits({"branches": {"closed": made, "left": left}}).set_index("curve")
     assert table["one end"]["closed"] == "closed" and table["other end"]["left"] == "range ends"
     assert table["one end"]["left"].startswith("left among unstable orbits, since")
-
-
-def orbit_columns(frequency, stable):
-    """Return the dataset of one closed branch, as `tables.branches.orbits` reads it."""
-    frequency, stable = np.append(frequency, frequency[0]), np.append(stable, stable[0])
-    made = branches(branch(frequency, 1.0), parameters={"damping": 0.1})
-    stability = [flag("orbit_stability", "stable" if each else "unstable") for each in stable]
-    nothing = np.zeros(len(frequency))
-    data = {
-        "orbit_stability": np.array(stability),
-        "orbit_status": nothing.astype(int),
-        "orbit_residual": nothing,
-        "liouville_error": nothing,
-        "branch_end": np.full((1, 2), flag("branch_end", "closed")),
-        "branch_met": np.full((1, 2), -1),
-        "branch_events_lost": np.zeros(1, int),
-    }
-    return made.assign(dataset(data, {}, {}, "made up").variables)
 
 
 def test_motions_without_contact_are_told_from_others(data):

@@ -9,7 +9,6 @@ import math
 import numpy as np
 
 from chatterjee1995.methods.equations import ahead, moved, rate, wall_at
-from chatterjee1995.methods.integrator import read_off, stopped
 from chatterjee1995.methods.integrators.fixed_steps import BEYOND, MERSON, FixedStep
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import side_of
@@ -137,24 +136,23 @@ class Merson(FixedStep):
     fixed = False
     tolerances = "merson"
 
-    def run(self, p, start, begin, periods, tolerance, locate, most_evaluations=None):
-        times, states = [np.array([begin])], [start[None]]
-        ends, period, work = np.empty((MOST_ENDS, 5)), 2 * math.pi / p[FREQUENCY], 0
-        cycles = _cycles(p, start.copy(), begin, periods, tolerance, locate, ends)
-        for k, (steps, tries) in enumerate(cycles):
+    def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations=None):
+        times, states, status, work = [np.array([begin])], [start[None]], "ended", 0
+        ends, period = np.empty((MOST_ENDS, 5)), 2 * math.pi / p[FREQUENCY]
+        y, side, h = start.copy(), side_of(p, start), FIRST * period
+        # Each cycle is integrated from the same time, since rounding errors of a growing time would
+        # grow too.
+        for k in range(periods):
+            side, h, steps, tries = advance_merson(
+                p, y, side, begin, begin + period, h, tolerance, locate, ends
+            )
             work += tries * STEP_OPERATIONS
             if not 0 <= steps <= MOST_ENDS:
-                return stopped("failed", work)
+                status = "failed"
+                break
             times.append(ends[:steps, 0] + k * period)
             states.append(ends[:steps, 1:].copy())
-        return read_off(p, work, np.concatenate(times), np.concatenate(states))
-
-    def end(self, p, start, begin, periods, tolerance, locate):
-        y = start.copy()
-        for steps, _ in _cycles(p, y, begin, periods, tolerance, locate, np.empty((0, 5))):
-            if steps < 0:
-                return np.full(4, np.nan)
-        return y
+        return status, work, np.concatenate(times), np.concatenate(states)
 
     def flight(self, p, state, end, resolution, time):
         ends, y = np.empty((MOST_FLIGHT_ENDS, 5)), state.copy()
@@ -164,28 +162,5 @@ class Merson(FixedStep):
         return self.seen(p, np.concatenate([[[0.0, *state]], ends[:steps]]), time)
 
 
-def _cycles(p, y, begin, periods, tolerance, locate, ends):
-    """Advance the state y in place, cycle by cycle; yield accepted and computed steps of each.
-
-    Each cycle is integrated from the same time, since rounding errors of a growing time would grow
-    too.
-    """
-    period = 2 * math.pi / p[FREQUENCY]
-    side, h = side_of(p, y), FIRST * period
-    for _ in range(periods):
-        side, h, steps, tries = advance_merson(
-            p, y, side, begin, begin + period, h, tolerance, locate, ends
-        )
-        yield steps, tries
-
-
-INTEGRATORS = (
-    Merson(
-        MERSON,
-        "merson",
-        "Merson",
-        3,
-        ("accuracy", "missed_contacts", "stable_steps"),
-        math.sqrt(12.0),
-    ),
-)
+STAGES = ("accuracy", "missed_contacts", "stable_steps")
+INTEGRATORS = (Merson(MERSON, "merson", "Merson", 3, STAGES, math.sqrt(12.0)),)

@@ -9,15 +9,15 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from chatterjee1995.methods.equations import RATE_OPERATIONS, ahead, rate, wall_at
-from chatterjee1995.methods.integrator import Integrator, read_off, stopped
+from chatterjee1995.methods.integrator import Integrator
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import side_of
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
 # Value of the argument `side` with which the position Z2 determines the wall in contact.
 BY_POSITION = 2
-# Largest number of evaluations of the rate in a run of the benchmarks, and in a flight.
-MOST_TIMED, UNLIMITED = 200_000, 2**62
+# Largest number of evaluations of the rate in a flight.
+UNLIMITED = 2**62
 
 
 @kernel
@@ -83,7 +83,7 @@ class SciPy(Integrator):
         self.name = self.title = name
         self.place, self.operations, self.factorising = place, operations, factorising
 
-    def run(self, p, start, begin, periods, tolerance, locate, most_evaluations=UNLIMITED):
+    def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations=UNLIMITED):
         left, factorisations = np.array([most_evaluations]), 0
         times, ends, status = [np.array([begin])], [start[None]], "failed"
         end = begin + periods * 2 * math.pi / p[FREQUENCY]
@@ -100,18 +100,7 @@ class SciPy(Integrator):
             status = "capped"
         evaluations = most_evaluations - int(left[0])
         work = evaluations * (RATE_OPERATIONS + self.operations) + factorisations * self.factorising
-        if status != "ended":
-            return stopped(status, float(work))
-        return read_off(p, float(work), np.concatenate(times), np.concatenate(ends))
-
-    def end(self, p, start, begin, periods, tolerance, locate):
-        left, end = np.array([MOST_TIMED]), begin + periods * 2 * math.pi / p[FREQUENCY]
-        locate = locate and p[CLEARANCE] < math.inf
-        try:
-            *_, last = parts(self.name, p, start, begin, end, tolerance, locate, left)
-        except OverflowError:
-            return np.full(4, np.nan)
-        return last.y[:, -1] if last.status == 0 else np.full(4, np.nan)
+        return status, float(work), np.concatenate(times), np.concatenate(ends)
 
     def flight(self, p, state, end, resolution, time):
         with np.errstate(all="ignore"):

@@ -1,7 +1,7 @@
 """The event-driven Taylor series of the library, with series of any orders."""
 
 import numpy as np
-from numpy.polynomial.polynomial import polyval
+from numpy.polynomial.polynomial import polyder, polyval
 
 from chatterjee1995.methods.integrator import Integrator, Run, root, stopped
 from impact_damper.kernel.compiling import aligned, call_at, compiled, kernel, pointer
@@ -28,7 +28,7 @@ ORDERS = FLIGHT_ORDER, CONTACT_ORDER
 # (-1, 1, or 0 for none), and from column SERIES on the coefficients of the series of Z1. ROWS:
 # largest number of steps in one call of `take_steps`.
 ROWS, SERIES = 4096, 4
-# Number of parts of a step. In each part Z1' is assumed to vanish at most once.
+# Number of parts of a step. In each part a velocity is assumed to vanish at most once.
 PARTS = 8
 
 
@@ -93,23 +93,25 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
     contacts = (begin + length)[(before == 0) & (after != 0)]
     if before[0] != 0:
         contacts = np.concatenate([begin[:1], contacts])
-    at, peaks = _turning_points(rows)
-    at = np.concatenate([begin[:1], at, begin[-1:] + length[-1:]])
+    step, within = turning_points(rows, rows[:, SERIES:].T)
+    at = np.concatenate([begin[:1], begin[step] + within, begin[-1:] + length[-1:]])
+    peaks = np.abs(polyval(within, rows[step, SERIES:].T, tensor=False))
     peaks = np.concatenate([[abs(start[0])], peaks, [abs(end[0])]])
     return Run("ended", work, end, contacts, at, peaks, float(peaks.max()))
 
 
-def _turning_points(rows):
-    """Return the times at which Z1' is zero within the steps `rows`, and |Z1| at these times."""
-    c = rows[:, SERIES:].T
-    slopes = c[1:] * np.arange(1, len(c))[:, None]
+def turning_points(rows, series):
+    """Return step and time within it of each turning point of polynomials, one for each row.
+
+    `series` are their coefficients, a column for each step.
+    """
+    slopes = polyder(series)
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
     speeds = np.array([polyval(t, slopes, tensor=False) for t in edges])
     part, step = np.nonzero(speeds[:-1] * speeds[1:] < 0)
     within = root(slopes[:, step], edges[part, step], edges[part + 1, step])
-    times = rows[step, 0] + within
-    order = np.argsort(times, kind="stable")
-    return times[order], np.abs(polyval(within, c[:, step], tensor=False))[order]
+    order = np.argsort(rows[step, 0] + within, kind="stable")
+    return step[order], within[order]
 
 
 def counted(rows):
