@@ -155,15 +155,17 @@ class Motions:
     def follow(self, cells) -> None:
         """Run the motions of some cells that have not settled for another doubling.
 
-        The first time, what was measured before is forgotten, because transients may have lasted.
+        The first time, what was measured before is forgotten, because transients may have lasted,
+        and all motions of a cell together are run for POOLED cycles.
         """
         first = cells[~self.followed[cells]]
         if len(first):
             self.followed[first] = True
-            open_ = ~self.settled[first]
-            self.peaks[first] = np.where(open_, 0.0, self.peaks[first])
-            self.cycles[first] = self.task.effort.settling.watched
             self._settle(first)
+            loud = ~self.settled[first]
+            self.peaks[first] = np.where(loud, 0.0, self.peaks[first])
+            half = np.ceil(POOLED / 2 / np.maximum(loud.sum(axis=1), 1))
+            self.cycles[first] = np.maximum(half, self.task.effort.settling.watched)
             self._run(first)
         self._settle(cells)
         self.earlier[cells] = self.peaks[cells]

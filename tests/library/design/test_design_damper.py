@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 import impact_damper as idm
-from impact_damper.data.datasets import SOURCE
+from impact_damper.data.datasets import SOURCE, flag
 from impact_damper.data.variables import VARIABLES
 from impact_damper.design import additions
 from impact_damper.design import design_damper as machines
@@ -109,6 +109,53 @@ def test_the_dataset_agrees_with_itself(finished):
     assert float(table.max()) == float(data["promised_displacement"])
     low, high = data["keeping_gap"].values
     assert low <= 0.95 * gap * (1 + 1e-9) and high >= 1.05 * gap * (1 - 1e-9)
+
+
+def quick(monkeypatch, function=machines.design_damper, **changed):
+    """Return a decision without additions."""
+    for name in list(additions.ADDITIONS):
+        monkeypatch.delitem(additions.ADDITIONS, name)
+    given = SMALL | {"effort": idm.Effort(**EFFORT)} | changed
+    return function(MACHINE, **given)
+
+
+@pytest.mark.thorough
+def test_a_limit_is_only_compared_with_the_promise(finished, monkeypatch):
+    free, size = finished[0], float(finished[0]["promised_displacement"])
+    for limit, status in ((1.05, "met"), (0.95, "missed")):
+        found = quick(monkeypatch, displacement_limit=limit * 1e-3 * size)
+        assert float(found["promised_displacement"]) == size
+        assert found["design_gap"] == free["design_gap"]
+        assert found["decision"] == free["decision"]
+        assert idm.decode(found["limit_status"]).item() == status
+
+
+@pytest.mark.thorough
+def test_a_given_gap_has_the_promise_of_the_design(finished, monkeypatch):
+    """Both confirm with the same new starts if the design confirms its first choice."""
+    data = finished[0]
+    made = MACHINE.damper(
+        mass=1.2, gap=1e-3 * data["design_gap"].item(), restitution=0.6, contact_stiffness=2e7
+    )
+    asked = {name: SMALL[name] for name in ("band", "tolerances", "share")}
+    for name in list(additions.ADDITIONS):
+        monkeypatch.delitem(additions.ADDITIONS, name)
+    found = idm.evaluate_damper(MACHINE, made, **asked, effort=idm.Effort(**EFFORT))
+    promised = [float(each["promised_displacement"]) for each in (found, data)]
+    assert promised[0] == pytest.approx(promised[1], rel=1e-2)
+
+
+@pytest.mark.thorough
+def test_an_addition_that_fails_is_named_and_the_design_ends(monkeypatch):
+    def fails(*_, **__):
+        raise ArithmeticError("144 contacts")
+
+    for name in list(additions.ADDITIONS):
+        monkeypatch.setitem(additions.ADDITIONS, name, fails)
+    data = design()
+    assert (data["addition_status"] == flag("addition_status", "failed")).all()
+    assert data.attrs["failed_orbits"] == "ArithmeticError: 144 contacts"
+    assert data["promised_displacement"] > 0
 
 
 class Computing:
