@@ -3,6 +3,8 @@
 import json
 import sys
 import warnings
+from datetime import datetime
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
@@ -18,6 +20,9 @@ MachineFile = Annotated[
     Path, typer.Argument(exists=True, dir_okay=False, help="YAML file of machine, damper and band.")
 ]
 Gap = Annotated[str, typer.Option(help='Full play of the loose mass, such as "3 mm".')]
+Force = Annotated[
+    bool, typer.Option("--force", help="Replace the files of another machine, or a foreign page.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Workers = Annotated[int, typer.Option(min=1, help="Threads; the result does not depend on it.")]
 # Exit code after Ctrl-C.
@@ -58,42 +63,40 @@ def design(
     machine_file: MachineFile,
     output: Annotated[Path, typer.Option(help="Folder for data, page and kept steps.")] = "design",
     workers: Workers = 2,
+    force: Force = False,
     as_json: AsJson = False,
 ):
-    """Find the gap to build, and how sure this choice is.
+    """Find the gap with which the machine moves least, and how sure that is.
 
     A design takes minutes. The same command continues an interrupted design.
     """
-    from impact_damper.data.datasets import decode, save
     from impact_damper.design.design_damper import design_damper
-    from impact_damper.design.task import Effort
-    from impact_damper.plot import conclusion
 
     given = read(machine_file)
-    effort = {key: given[key] for key in ("candidates", "starts")}
-    found = design_damper(
-        machine(given),
-        **asked(given),
-        **{key: given[key] for key in ("share", "tolerances")},
-        displacement_limit=given.get("displacement_limit"),
-        effort=Effort(frequencies=given["band"]["points"], workers=workers, **effort),
-        progress=not as_json,
-        folder=output / "steps",
-    )
-    output.mkdir(parents=True, exist_ok=True)
-    save(found, output / "design.nc")
-    page = write_report(found, machine_file.stem, output / "design.nc", output)
-    words = conclusion(found)
-    numbers = {
-        "design_gap_mm": float(found["design_gap"]),
-        "design_choice": decode(found["design_choice"]).item(),
-        "promise": decode(found["promise"]).item(),
-        "displacement_limit_mm": float(found["displacement_limit"]),
-        "conclusion": words,
-        "page": str(page),
-        "data": str(output / "design.nc"),
-    }
-    tell(as_json, [*words, f"The page: {page}"], numbers)
+    values = asked(given) | promised(given, workers)
+    decide = partial(design_damper, machine(given), **values)
+    answer(decide, machine(given), machine_file, output / "design.nc", force, as_json)
+
+
+@app.command()
+def evaluate(
+    machine_file: MachineFile,
+    gap: Gap,
+    output: Annotated[Path, typer.Option(help="Folder for data and page.")] = "evaluation",
+    workers: Workers = 2,
+    force: Force = False,
+    as_json: AsJson = False,
+):
+    """Say how far the machine moves with a given gap, and how sure that is.
+
+    The answer and its tests are those of `impact-damper design`.
+    """
+    from impact_damper.design.design_damper import evaluate_damper
+
+    given = read(machine_file)
+    values = {"band": asked(given)["band"]} | promised(given, workers)
+    decide = partial(evaluate_damper, machine(given), damper(given, gap), **values)
+    answer(decide, machine(given), machine_file, output / "evaluation.nc", force, as_json)
 
 
 @app.command()
@@ -157,7 +160,7 @@ def response(
         np.linspace(*ends, band["points"]),
         starts=starts,
         workers=workers,
-        progress=None if as_json else "response",
+        progress="response" if sys.stderr.isatty() and not as_json else None,
     )
     rows = []
     for i, hertz in enumerate(found["frequency"].values):
@@ -198,20 +201,25 @@ def different(sizes, alike=1e-4):
 
 @app.command()
 def report(
-    data: Annotated[Path, typer.Argument(exists=True, help="design.nc of `impact-damper design`.")],
+    data: Annotated[
+        Path, typer.Argument(exists=True, help="design.nc or evaluation.nc of this command.")
+    ],
     output: Annotated[
-        Path, typer.Option(help="Folder for the page; by default the folder of the design.")
+        Path, typer.Option(help="Folder for the page; by default the folder of the data.")
     ] = None,
+    force: Force = False,
     as_json: AsJson = False,
 ):
-    """Write the page of a finished design again, from its data."""
-    from impact_damper.data.datasets import load
+    """Write the page of a finished design or evaluation again, from its data."""
+    from impact_damper.command.folders import check_folder
+    from impact_damper.data.datasets import load, parameters_of
 
     found = load(data)
-    if "promise" not in found:
+    if "promised_displacement" not in found:
         title = found.attrs["title"]
-        raise ValueError(f"{data}: must be the design.nc of a design; its title is {title}")
-    page = write_report(found, data.stem, data, output or data.parent)
+        raise ValueError(f"{data}: must be of a design or an evaluation; its title is {title}")
+    check_folder(output or data.parent, parameters_of(found)["machine"], force)
+    page = write_report(found, data, output or data.parent)
     tell(as_json, [f"The page: {page}"], {"page": str(page)})
 
 
@@ -230,6 +238,49 @@ def machine(given):
     from impact_damper.model.machine import Machine
 
     return Machine(**given["machine"])
+
+
+def promised(given, workers):
+    """Return tolerances, limit, share and effort of a file's content, arguments of a design."""
+    from impact_damper.design.task import Effort
+
+    effort = {key: given[key] for key in ("candidates", "starts")}
+    return {key: given.get(key) for key in ("share", "tolerances", "displacement_limit")} | {
+        "effort": Effort(frequencies=given["band"]["points"], workers=workers, **effort)
+    }
+
+
+def answer(decide, made, machine_file, file, force, as_json):
+    """Compute a design or an evaluation, keep it in a file with its page, and tell the answer.
+
+    The folder is checked first, and finished steps are kept in it. Progress bars are shown on a
+    terminal only.
+    """
+    from impact_damper.command.folders import check_folder
+    from impact_damper.data.datasets import decode, save
+    from impact_damper.model.machine import describe_si
+    from impact_damper.plot import conclusion
+
+    check_folder(file.parent, describe_si(made), force)
+    shown = sys.stderr.isatty() and not as_json
+    found = decide(progress=shown, folder=file.parent / "steps")
+    found.attrs["input_file"] = machine_file.name
+    save(found, file)
+    page, words = write_report(found, file, file.parent), conclusion(found)
+    sizes = (
+        "design_gap",
+        "promised_displacement",
+        "largest_bare_displacement",
+        "tuned_displacement",
+    )
+    numbers = {f"{name}_mm": float(found[name]) for name in sizes}
+    numbers |= {name: decode(found[name]).item() for name in ("decision", "limit_status")}
+    numbers |= {
+        "conclusion": words,
+        "page": str(page),
+        "data": str(file),
+    }
+    tell(as_json, [*words, f"The page: {page}"], numbers)
 
 
 def hertz_contact(given):
@@ -267,11 +318,13 @@ def quantity(text):
         return text.strip()
 
 
-def write_report(data, name, file, folder):
-    """Write the page of a design, kept in a file, into a folder; return the path of the page."""
+def write_report(data, file, folder):
+    """Write the page of a dataset, kept in a file, into a folder; return the path of the page."""
     from impact_damper.plot.pages.render import write_page
 
-    write_page(name, data, folder, file.name)
+    name = Path(data.attrs.get("input_file", file.name)).stem
+    date = datetime.fromtimestamp(file.stat().st_mtime).date().isoformat()
+    write_page(name, data, folder, file.name, date)
     return folder / "index.html"
 
 

@@ -1,12 +1,10 @@
-"""Sweeps: the motions found along the swept parameter, runs of True in a mask, and ranges."""
+"""Sweeps: the motions found along the swept parameter, and runs of True in a mask."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.data.datasets import flag
 from impact_damper.data.variables import OUTCOME
-from impact_damper.model.text import number
 
 NAMES = {value: name for name, value in OUTCOME.items()}
 
@@ -43,16 +41,3 @@ def families(data) -> list[Family]:
 def runs_of_true(mask) -> np.ndarray:
     """Return for each run of True its first index and the index after its last, shape (n, 2)."""
     return np.flatnonzero(np.diff(np.asarray(mask, int), prepend=0, append=0)).reshape(-1, 2)
-
-
-def quiet_gaps(data) -> str:
-    """Return the range of quiet gaps (mm) around the chosen gap, as text of `known_range`."""
-    return known_range(
-        data["cliff_gap"].values, data["cliff_status"].values == flag("cliff_status", "range_ends")
-    )
-
-
-def known_range(ends, is_open) -> str:
-    """Return the text of a range; an end is open where the search stopped before the range did."""
-    low, high = (number(float(end), 4) for end in ends)
-    return f"{low}{' or less' * bool(is_open[0])} to {high}{' or more' * bool(is_open[1])}"

@@ -1,17 +1,19 @@
 """The plot and the conclusion of a finished design."""
 
-from impact_damper.plot.machine_figures.figures import response_panel, share_panel, size_panel
+from impact_damper.plot.machine_figures.figures import frequency_panel, gap_panel
 from impact_damper.plot.sheets import dataset_in, sheet
+
+RESULTS = "design_damper or evaluate_damper"
 
 
 def design(data, axes=None):
-    """Draw a design: the response, and displacement and share of quiet starts against the gap.
+    """Draw a design: displacements against the forcing frequency and against the gap.
 
     Parameters
     ----------
     data : xarray.Dataset
-        A result of `design_damper`.
-    axes : sequence of 3 matplotlib.axes.Axes, optional
+        A result of `design_damper` or `evaluate_damper`.
+    axes : sequence of 2 matplotlib.axes.Axes, optional
 
     Returns
     -------
@@ -26,24 +28,23 @@ def design(data, axes=None):
     ... )  # doctest: +SKIP
     >>> axes = idm.plot.design(found)  # doctest: +SKIP
     """
-    found = dataset_in(data, lambda each: "design_gap" in each, "design_damper")
-    with sheet(axes, 3, height=4.2) as axes:
-        for panel, each in zip((response_panel, size_panel, share_panel), axes, strict=True):
-            panel(each, found)
-        for each in axes[1:]:
-            each.set_xlabel("Gap, full play (mm)")
+    found = dataset_in(data, _is_design, RESULTS)
+    with sheet(axes, 2, columns=4) as axes:
+        frequency_panel(axes[0], found)
+        gap_panel(axes[1], found)
     return axes
 
 
 def conclusion(data) -> list[str]:
-    """Return the conclusion of a design in sentences: what to build, and how sure that is.
+    """Return the answer of a design: four paragraphs, and one for each exception that is true.
 
-    The sentences stand in a template, for which Jinja2 must be installed.
+    They say what to build, what the machine then does, how sure this is, and the condition that
+    matters most. The sentences stand in a template, for which Jinja2 must be installed.
 
     Parameters
     ----------
     data : xarray.Dataset
-        A result of `design_damper`.
+        A result of `design_damper` or `evaluate_damper`.
 
     Examples
     --------
@@ -54,9 +55,13 @@ def conclusion(data) -> list[str]:
     ... )  # doctest: +SKIP
     >>> sentences = idm.plot.conclusion(found)  # doctest: +SKIP
     """
-    found = dataset_in(data, lambda each: "design_gap" in each, "design_damper")
+    found = dataset_in(data, _is_design, RESULTS)
     try:
         from impact_damper.plot.pages.render import conclusion as sentences
     except ModuleNotFoundError as error:
         raise ImportError("the conclusion of a design needs Jinja2: pip install jinja2") from error
     return sentences(found)
+
+
+def _is_design(data):
+    return "promised_displacement" in data

@@ -3,10 +3,12 @@
 import json
 import subprocess
 import sys
+from html import unescape
 from pathlib import Path
 
 import numpy as np
 import pytest
+from helpers.made_up_design import made_up_design
 from typer.testing import CliRunner
 
 import impact_damper as idm
@@ -15,6 +17,7 @@ from impact_damper.command.machine_file import read_machine_file
 from impact_damper.command.section import ConfigurationError
 from impact_damper.data.datasets import load
 from impact_damper.design.task import Task
+from impact_damper.model.machine import describe_si
 
 FILE = """
 machine: {mass: 12 kg, linear_stiffness: 2e5 N/m, damping_ratio: 5 %, force: 40 N}
@@ -100,6 +103,66 @@ def test_a_motion_and_its_mirror_image_are_told_once_with_their_starts(machine_f
 def test_equal_sizes_are_told_once():
     found = command_line.different(np.array([2.0, 1.0, 2.0 + 1e-9, 3.0]))
     assert [places for _, places in found] == [[1], [0, 2], [3]]
+
+
+@pytest.fixture
+def made_up(monkeypatch):
+    """The design that `design` and `evaluate` return in place of their own, for FILE's machine."""
+    machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.05, force=40)
+    found = made_up_design(told={"machine": describe_si(machine)})
+    asked = {}
+
+    def decide(*given, **options):
+        asked.update(options, given=given)
+        return found.copy()
+
+    module = "impact_damper.design.design_damper"
+    monkeypatch.setattr(f"{module}.design_damper", decide)
+    monkeypatch.setattr(f"{module}.evaluate_damper", decide)
+    return asked
+
+
+@pytest.mark.parametrize("command", ["design", "evaluate"])
+def test_an_answer_is_told_and_kept_with_its_page(command, machine_file, made_up, tmp_path):
+    gap = ("--gap", "22 mm") if command == "evaluate" else ()
+    folder = tmp_path / "out"
+    told = json.loads(run(command, machine_file, *gap, "--output", folder, "--json"))
+    assert told["design_gap_mm"] == 7 and told["decision"] == "build"
+    assert told["promised_displacement_mm"] == 1 and told["limit_status"] == "none"
+    assert not made_up["progress"]  # standard error is no terminal
+    if gap:
+        assert made_up["given"][1].gap == pytest.approx(0.022)
+    page = Path(told["page"]).read_text()
+    assert all(text in unescape(page) for text in told["conclusion"])
+    assert "from machine.yaml" in page
+    lines = run(command, machine_file, *gap, "--output", folder).splitlines()
+    assert lines[:-1] == told["conclusion"] and lines[-1].endswith("index.html")
+    run("report", told["data"], "--output", tmp_path / "again")
+    assert (tmp_path / "again" / "index.html").read_text() == page
+
+
+def test_results_of_others_are_not_replaced(machine_file, made_up, tmp_path):
+    folder = tmp_path / "out"
+    run("design", machine_file, "--output", folder)
+    other = tmp_path / "other.yaml"
+    other.write_text(FILE.replace("12 kg", "13 kg"))
+    made_up.clear()
+    for file, page, told in ((other, None, "another machine"), (machine_file, "<p>", "no page")):
+        if page:
+            (folder / "index.html").write_text(page)
+        result = CliRunner().invoke(
+            command_line.app, ["design", str(file), "--output", str(folder)]
+        )
+        assert isinstance(result.exception, FileExistsError) and told in str(result.exception)
+        assert not made_up  # nothing was computed
+    run("design", other, "--output", folder, "--force")
+
+
+def test_a_folder_that_cannot_be_written_is_named_first(machine_file, made_up):
+    asked = ["design", str(machine_file), "--output", str(machine_file / "out")]
+    result = CliRunner().invoke(command_line.app, asked)
+    assert isinstance(result.exception, OSError) and not made_up
+    assert "machine.yaml" in str(result.exception) and "cannot be written" in str(result.exception)
 
 
 @pytest.mark.thorough
@@ -216,7 +279,10 @@ def test_a_state_too_far_away_is_told_in_si_units(machine_file, monkeypatch):
 def test_a_file_that_is_no_design_gets_no_page(machine_file, tmp_path, monkeypatch):
     motion = tmp_path / "motion.nc"
     run("simulate", machine_file, "--frequency", 20, "--periods", 3, "--output", motion)
-    for path, told in ((motion, "must be the design.nc of a design"), (machine_file, "is not a")):
+    for path, told in (
+        (motion, "must be of a design or an evaluation"),
+        (machine_file, "is not a"),
+    ):
         monkeypatch.setattr(sys, "argv", ["impact-damper", "report", str(path)])
         with pytest.raises(SystemExit, match=f"Error: .*{told}"):
             command_line.run_app()

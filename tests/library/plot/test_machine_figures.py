@@ -8,28 +8,25 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from impact_damper.plot.machine_figures.figures import (
     FIGURES,
     draw_machines,
+    over_frequency,
     stable_runs,
 )
-
-pytestmark = pytest.mark.skip(reason="to be rewritten for the decision by one number")
-
 
 pytestmark = pytest.mark.filterwarnings("error")
 
 CASES = {
-    "robust": {},
+    "build": {"displacement_limit": 1.5},
     "escapes": {
-        "reached_displacement": [1, np.inf, 1, 1, 1],
-        "coarse_displacement": [np.inf, 1, 1, 1, 1],
+        "promised_displacement": np.inf,
+        "promise_displacement": np.full((3, 5), np.inf),
+        "searched_displacement": [1e9, 1, 1, 1, 1],
         "force_map_displacement": np.tile([0.2, 0.4, 0.8, 6.0, np.inf], (5, 1)),
-        "other_displacement": [np.inf, 1, 1],
-        "sample_displacement": [1, np.inf, 1],
     },
-    "least_worst_without_orbit": {
-        "choice": "least_worst",
-        "best_orbit_status": 0,
+    "without_orbit_or_absorber": {
+        "modulus_by_gap": np.full(4, 2.0),
         "best_orbit_gap": np.nan,
-        "stability_gap": [np.nan] * 2,
+        "best_orbit_displacement": np.nan,
+        "tuned_displacement": np.nan,
     },
 }
 
@@ -46,13 +43,19 @@ def test_every_figure_is_drawn_within_its_sheet(name, case):
 
 
 def test_the_overview_has_a_row_for_each_machine():
-    drawn = draw_machines(machines=[made_up_design(), made_up_design(choice="least_worst")])
+    drawn = draw_machines(machines=[made_up_design(), made_up_design("do_not_build")])
     FigureCanvasAgg(drawn).draw()
-    assert len(drawn.axes) == 6
-    assert [axes.get_title("left") for axes in drawn.axes[::3]] == [
+    assert [axes.get_title("left") for axes in drawn.axes[::2]] == [
         "(a) made up, 12 kg",
         "(b) made up, 12 kg",
     ]
+
+
+def test_values_that_were_not_run_at_a_frequency_are_interpolated():
+    table = np.array([[1, 2, 3, 2, 1], [5, np.nan, 5, np.nan, 1], [0, 0, 0, 0, 0]], float)
+    nominal, worst = over_frequency(made_up_design(promise_displacement=table))
+    assert list(nominal) == [1, 2, 3, 2, 1]
+    assert list(worst) == [5, 5, 5, 3, 1]
 
 
 def test_the_quiet_orbit_is_cut_where_its_stability_changes():
