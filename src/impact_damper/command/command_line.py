@@ -94,7 +94,7 @@ def evaluate(
     from impact_damper.design.design_damper import evaluate_damper
 
     given = read(machine_file)
-    values = {"band": asked(given)["band"]} | promised(given, workers)
+    values = {key: asked(given)[key] for key in ("band", "absorber")} | promised(given, workers)
     decide = partial(evaluate_damper, machine(given), damper(given, gap), **values)
     answer(decide, machine(given), machine_file, output / "evaluation.nc", force, as_json)
 

@@ -165,12 +165,12 @@ class MachineEntry(Section):
     candidates: count("gaps that are compared", least=4, most=1000)
     starts: starts_of("at each gap and frequency")
     share: number(
-        "least share of the starts that must lead to quiet motions", least=0.5, most=0.999
+        "share of the starts for which the displacement is promised", least=0.5, most=0.999
     )
     tolerances: Tolerances
     displacement_limit: (
         quantity_of(
-            "displacement", "quiet limit, the largest displacement of a quiet motion", above=0
+            "displacement", "displacement with which the promised one is compared", above=0
         )
         | None
     ) = None

@@ -124,14 +124,14 @@ def made_up(monkeypatch):
 
 @pytest.mark.parametrize("command", ["design", "evaluate"])
 def test_an_answer_is_told_and_kept_with_its_page(command, machine_file, made_up, tmp_path):
-    gap = ("--gap", "22 mm") if command == "evaluate" else ()
+    gap = ("--gap", "2 mm") if command == "evaluate" else ()
     folder = tmp_path / "out"
     told = json.loads(run(command, machine_file, *gap, "--output", folder, "--json"))
     assert told["design_gap_mm"] == 7 and told["decision"] == "build"
     assert told["promised_displacement_mm"] == 1 and told["limit_status"] == "none"
     assert not made_up["progress"]  # standard error is no terminal
     if gap:
-        assert made_up["given"][1].gap == pytest.approx(0.022)
+        assert made_up["given"][1].gap == pytest.approx(0.002)
     page = Path(told["page"]).read_text()
     assert all(text in unescape(page) for text in told["conclusion"])
     assert "from machine.yaml" in page
@@ -145,7 +145,7 @@ def test_results_of_others_are_not_replaced(machine_file, made_up, tmp_path):
     folder = tmp_path / "out"
     run("design", machine_file, "--output", folder)
     other = tmp_path / "other.yaml"
-    other.write_text(FILE.replace("12 kg", "13 kg"))
+    other.write_text(FILE.replace("40 N", "41 N"))
     made_up.clear()
     for file, page, told in ((other, None, "another machine"), (machine_file, "<p>", "no page")):
         if page:

@@ -78,6 +78,7 @@ def numbers_of(data) -> dict:
         "has": lambda name: name in data,
         "of": scalars,
         "flags": lambda name: named(data, name),
+        "own": scalars.get("own_absorber_displacement", np.nan),
         "gap": gap,
         "given": asked["gap"] is not None,
         "tolerance": tolerance,
