@@ -169,9 +169,7 @@ class MachineEntry(Section):
     )
     tolerances: Tolerances
     displacement_limit: (
-        quantity_of(
-            "displacement", "displacement with which the promised one is compared", above=0
-        )
+        quantity_of("displacement", "displacement with which the promised one is compared", above=0)
         | None
     ) = None
 
