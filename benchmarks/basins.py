@@ -33,14 +33,7 @@ def look_up(depth, half, states):
 
 
 def table(count, rounds):
-    """Return states labelled and looked up in a second, for about `count` states on a grid.
-
-    Returns
-    -------
-    pandas.DataFrame
-        One row for each task: number of states, states in a second (median and quartiles over
-        `rounds`), and the mean number of forcing cycles that labelling a state takes.
-    """
+    """Return states labelled and looked up in a second, for about `count` states on a grid."""
     p, settling = pack(Oscillator(0.215), None, 1.85), Settling()
     attractors = free_attractors(p, PLANE, settling)
     axes = [np.linspace(-half, half, round(count**0.5)) for half in PLANE]
@@ -59,11 +52,8 @@ def table(count, rounds):
 
     look()
     seconds = interleaved({"labelled": label, "looked up": look}, rounds)
-    rows = []
-    for name, mean in (("labelled", np.mean(periods)), ("looked up", np.nan)):
-        median, lower, upper = spread(len(states) / seconds[name])
-        rows.append(
-            {"states": name, "number": len(states), "states_a_second": median}
-            | {"lower_quartile": lower, "upper_quartile": upper, "mean_periods": mean}
-        )
-    return pd.DataFrame(rows)
+    return pd.DataFrame([
+        {"states": name, "number": len(states), "mean_periods": mean}
+        | spread("states_a_second", len(states) / seconds[name])
+        for name, mean in (("labelled", np.mean(periods)), ("looked up", np.nan))
+    ])  # fmt: skip

@@ -6,6 +6,7 @@ are the integrators with which the package is compared; each locates contacts or
 
 import math
 import time
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -15,16 +16,7 @@ from benchmarks.methods import RIVALS, TIMED, applying, starts_of
 from benchmarks.timing import interleaved
 from chatterjee1995.methods.integrators import runs_of_accuracy
 from chatterjee1995.methods.labels import colour_of
-from impact_damper.plot.style import (
-    BLACK,
-    BLUE,
-    GREY,
-    SKY,
-    figure,
-    legend,
-    letter_panels,
-    style,
-)
+from impact_damper.plot.style import BLACK, BLUE, GREY, SKY, figure, legend, letter_panels, style
 
 # After a run that took longer than this, in seconds, no tighter tolerance is tried.
 LONG = 0.5
@@ -61,7 +53,7 @@ def points_of(scene, name, exponents, rounds):
         run, error = measured(scene, name, 10.0**-exponent)
         seconds = time.perf_counter() - begin
         if not TIMED[name].slow:
-            seconds = np.median(interleaved({"": lambda run=run: run(starts)}, rounds)[""])
+            seconds = np.median(interleaved({"": partial(run, starts)}, rounds)[""])
         status = "found" if error <= LOST else "lost" if math.isfinite(error) else "given_up"
         rows.append({
             "scene": scene.name, "method": name, "tolerance": 10.0**-exponent,
@@ -90,12 +82,7 @@ def points(scenes, exponents, rounds, names=tuple(TIMED)):
 
 @style()
 def draw(table):
-    """Draw a panel for each scene, from the table of `points`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Draw a panel for each scene, from the table of `points`."""
     names = list(dict.fromkeys(table["scene"]))
     columns = 2
     rows = math.ceil(len(names) / columns)
@@ -106,23 +93,10 @@ def draw(table):
         for name, (color, line, marker) in looks().items():
             of = here[here["method"] == name]
             found, lost = of[of["status"] == "found"], of[of["status"] != "found"]
-            axes.plot(
-                found["microseconds"],
-                found["error"],
-                color=color,
-                linestyle=line,
-                marker=marker,
-                markersize=3.2,
-                markerfacecolor=color if line == "-" else "white",
-                label=TIMED[name].title,
-            )
-            axes.plot(
-                lost["microseconds"],
-                np.full(len(lost), 1.0),
-                color=color,
-                linestyle="none",
-                marker="x",
-            )
+            inside = {"markersize": 3.2, "markerfacecolor": color if line == "-" else "white"}
+            look = {"color": color, "linestyle": line, "marker": marker} | inside
+            axes.plot(found["microseconds"], found["error"], label=TIMED[name].title, **look)
+            axes.plot(lost["microseconds"], np.ones(len(lost)), "x", color=color)
         axes.plot([], [], color=BLACK, linestyle="none", marker="x", label="failed")
         axes.axhline(LOST, color=GREY, linewidth=0.6)
         axes.set(xscale="log", yscale="log", ylim=(1e-14, 3.0))

@@ -5,6 +5,7 @@ cycle, and a scene is a motion with its initial state.
 """
 
 import math
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -65,26 +66,11 @@ def motions(count, seed=1995):
 
 
 def per_period(found, rounds, tolerances=TOLERANCES):
-    """Return the microseconds that a forcing cycle of a single motion takes.
-
-    Parameters
-    ----------
-    found : list
-        Result of `motions`.
-    rounds : int
-    tolerances : sequence of float
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row for each motion and tolerance.
-    """
+    """Return the microseconds that a forcing cycle of each of `motions` takes, by tolerance."""
     rows = []
     for scene, contacts, size in found:
         runs = {each: TIMED["kernel"].prepare(scene, each) for each in tolerances}
-        calls = {
-            each: lambda run=run, starts=scene.starts: run(starts) for each, run in runs.items()
-        }
+        calls = {each: partial(run, scene.starts) for each, run in runs.items()}
         for tolerance, seconds in interleaved(calls, rounds).items():
             rows.append({
                 "frequency": scene.parameters[FREQUENCY], "contacts": contacts,

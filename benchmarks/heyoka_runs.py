@@ -14,16 +14,8 @@ import math
 import heyoka
 import numpy as np
 
-from impact_damper.kernel.equation import forcing_amplitude
-from impact_damper.model.packed import (
-    CLEARANCE,
-    CONTACT_STIFFNESS,
-    DAMPING,
-    DASHPOT,
-    FREQUENCY,
-    INVERSE_MASS_RATIO,
-    cubic_spring,
-)
+from benchmarks.rivals import coefficients
+from impact_damper.model import packed
 
 FASTEST = {"fast_math": True, "force_avx512": True}
 # Trajectories of a batch. 16 is the fastest number of those tried, 8 to 64.
@@ -41,80 +33,42 @@ SETTINGS = {
     "high_accuracy on": {"high_accuracy": True},
     "opt_level 2": {"opt_level": 2},
     "forcing as cos(W T)": {"linear_forcing": False},
-    "cube as x**3": {"power": True},
-    "parameters as par": {"as_par": True},
 }
 
 
 class Motions:
     """A heyoka integrator for given parameters.
 
-    Its equations omit factors that are 1, such as the cubic coefficient and the force of the paper.
-
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters, from `system.packed.pack`.
-    tolerance : float
-    batch : int
-        Trajectories integrated together; 1 is the scalar integrator.
-    linear_forcing : bool
-        Whether the forcing comes from two additional linear equations, not from a cosine.
-    power : bool
-        Whether the cube is a power, not a product.
-    as_par : bool
-        Whether the equations take their parameters at run time, not when they are compiled.
-    settings
-        Further settings of heyoka, which override `FASTEST`.
+    Its equations omit factors that are 1, such as the cubic coefficient and the force of the paper,
+    and have the parameters as numbers. `batch` is the number of trajectories integrated together.
+    With `linear_forcing` the forcing comes from two additional linear equations, not from a cosine.
+    `settings` of heyoka override `FASTEST`.
     """
 
-    def __init__(
-        self, p, tolerance, *, batch=1, linear_forcing=True, power=False, as_par=False, **settings
-    ):
-        self.batch, self.damped = batch, p[CLEARANCE] < math.inf
+    def __init__(self, p, tolerance, *, batch=1, linear_forcing=True, **settings):
+        self.batch, self.damped = batch, p[packed.CLEARANCE] < math.inf
         self.views = [None, None]
         x, v, z, w, c, s = heyoka.make_vars("x", "v", "z", "w", "c", "s")
-        switches = [0.0, 0.0] if self.damped else []
-        pars = list(switches)
-
-        def number(value):
-            if not as_par:
-                return float(value)
-            pars.append(float(value))
-            return heyoka.par[len(pars) - 1]
-
-        frequency, damping = number(p[FREQUENCY]), number(p[DAMPING])
-        amplitude = forcing_amplitude.py_func(p)
+        damping, stiffness, cubic, amplitude, frequency, *walls = coefficients(p)
+        clearance, wall, dashpot, heavy = walls
         forcing = c if linear_forcing else heyoka.cos(frequency * heyoka.time)
         if not linear_forcing and amplitude != 1:
-            forcing = number(amplitude) * forcing
-        cube = x**3 if power else x * x * x
-        stiffness, cubic = cubic_spring(p)
-        free = forcing - damping * v - (cube if cubic == 1 else number(cubic) * cube)
+            forcing = amplitude * forcing
+        free = forcing - damping * v - (x * x * x if cubic == 1 else cubic * (x * x * x))
         if stiffness != 0:
-            free -= number(stiffness) * x
+            free -= stiffness * x
         system, events = [(x, v), (v, free)], []
         if self.damped:
             depth = z - heyoka.par[1]
-            force = heyoka.par[0] * (
-                depth + number(p[DASHPOT] / p[CONTACT_STIFFNESS]) * w if p[DASHPOT] > 0 else depth
-            )
-            system = [
-                (x, v),
-                (v, free - force),
-                (z, w),
-                (w, free - number(1 + p[INVERSE_MASS_RATIO]) * force),
-            ]
+            force = heyoka.par[0] * (depth + dashpot / wall * w if dashpot > 0 else depth)
+            system = [(x, v), (v, free - force), (z, w), (w, free - heavy * force)]
             event = heyoka.t_event if batch == 1 else heyoka.t_event_batch
-            gap, callback = (
-                z * z - number(p[CLEARANCE] ** 2),
-                self._callback(p[CLEARANCE], p[CONTACT_STIFFNESS]),
-            )
-            events = [event(gap, callback=callback, cooldown=COOLDOWN)]
+            callback = self._callback(clearance, wall)
+            events = [event(z * z - clearance**2, callback=callback, cooldown=COOLDOWN)]
         if linear_forcing:
             system += [(c, -frequency * s), (s, frequency * c)]
         self.begin = [amplitude * math.cos(0.5 * math.pi), amplitude] if linear_forcing else []
-        state, pars = np.zeros(len(system)), np.array(pars)
+        state, pars = np.zeros(len(system)), np.zeros(2 * self.damped)
         make = heyoka.taylor_adaptive
         if batch > 1:
             make = heyoka.taylor_adaptive_batch

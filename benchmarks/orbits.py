@@ -4,6 +4,8 @@ Shooting is Newton's method for the state that repeats after a period. Multiple 
 period, for strongly unstable orbits. The quiet motion is the small motion with damper.
 """
 
+from functools import partial
+
 import numpy as np
 import pandas as pd
 
@@ -47,16 +49,13 @@ def table(count, rounds):
 
     found = {name: find(name) for name in orbits}
     lines = []
-    for name, seconds in interleaved({n: lambda n=n: find(n) for n in orbits}, rounds).items():
-        median, lower, upper = spread(len(orbits[name]) / seconds)
-        multipliers = [abs(each.multipliers[0]) for each in orbits[name]]
-        lines.append(
-            {"shooting": name, "orbits": len(orbits[name]), "orbits_a_second": median}
-            | {"lower_quartile": lower, "upper_quartile": upper}
-            | {
-                "largest_multiplier": max(multipliers),
-                "maps_each": np.mean([each.maps for each in found[name]]),
-                "converged": np.mean([each.converged for each in found[name]]),
-            }
-        )
+    for name, seconds in interleaved({n: partial(find, n) for n in orbits}, rounds).items():
+        row = {
+            "shooting": name,
+            "orbits": len(orbits[name]),
+            "largest_multiplier": max(abs(each.multipliers[0]) for each in orbits[name]),
+            "maps_each": np.mean([each.maps for each in found[name]]),
+            "converged": np.mean([each.converged for each in found[name]]),
+        }
+        lines.append(row | spread("orbits_a_second", len(orbits[name]) / seconds))
     return pd.DataFrame(lines)

@@ -4,6 +4,8 @@ The kernel is this package's compiled integrator. A scene is a test case: a moti
 initial states.
 """
 
+from functools import partial
+
 import pandas as pd
 
 from benchmarks.accuracy import LIMIT, loosest
@@ -42,65 +44,37 @@ def tolerances(scene, timed, limit):
 def microseconds(scene, found, rounds):
     """Return microseconds per forcing cycle and trajectory, of each method in each round."""
     starts = {name: starts_of(scene, name) for name in found}
-    calls = {
-        name: lambda run=each.run, starts=starts[name]: run(starts) for name, each in found.items()
-    }
+    calls = {name: partial(each.run, starts[name]) for name, each in found.items()}
     seconds = interleaved(calls, rounds)
     return {name: 1e6 * seconds[name] / (len(starts[name]) * scene.periods) for name in found}
 
 
 def time_row(scene, name, found, measured):
     """Return a row of the table of times."""
-    median, lower, upper = spread(measured)
     return {
         "scene": scene.name,
         "method": TIMED[name].title,
         "tolerance": found.tolerance,
         "error": found.error,
         "within_limit": "yes" if found.met else "no",
-        "median_us": median,
-        "lower_quartile_us": lower,
-        "upper_quartile_us": upper,
         "least_us": measured.min(),
-    }
+    } | spread("median_us", measured)
 
 
 def ratio_row(scene, name, rival, found, measured):
     """Return a row of the table of ratios."""
-    median, lower, upper = spread(measured[rival] / measured[name])
+    faster = spread("times_faster", measured[rival] / measured[name])
     ours, other = TIMED[name].title, TIMED[rival].title
-    print(f"  {scene.name}, {ours}: {median:.4g} times faster than {other}", flush=True)
-    return {
-        "scene": scene.name,
-        "ours": ours,
-        "rival": other,
-        "times_faster": median,
-        "lower_quartile": lower,
-        "upper_quartile": upper,
-        "equal_error": "yes" if found[name].met and found[rival].met else "no",
-    }
+    print(f"  {scene.name}, {ours}, {other}: {faster['times_faster']:.4g} times faster", flush=True)
+    equal = {"equal_error": "yes" if found[name].met and found[rival].met else "no"}
+    return {"scene": scene.name, "ours": ours, "rival": other} | faster | equal
 
 
 def compared(scenes, rounds, limit=LIMIT, timed=COMPARED):
-    """Return times and ratios at equal error.
+    """Return two tables: times at equal error, and their ratios.
 
-    Parameters
-    ----------
-    scenes : list of scenes.BenchmarkScene
-    rounds : int
-    limit : float
-        Largest error of any component of any state at the end.
-    timed : sequence of str
-        Names of methods.
-
-    Returns
-    -------
-    times : pandas.DataFrame
-        For each scene and method the loosest tolerance that keeps the limit, its error, and the
-        microseconds for a forcing cycle of a trajectory: median, quartiles and least.
-    ratios : pandas.DataFrame
-        For each use of the kernel and each rival the ratio of their times in a round, median and
-        quartiles over rounds; and whether both keep the limit.
+    `limit` is the largest error of a component of a state at the end, and `timed` names methods.
+    Times are microseconds for a forcing cycle of a trajectory. Ratios are of the times in a round.
     """
     times, ratios = [], []
     for scene in scenes:
@@ -131,11 +105,9 @@ def heyoka_settings(scenes, times, rounds):
         for name, change in changes.items():
             run = heyoka(scene, tolerance, **change)
             errors[name] = scene.error(run(scene.starts))
-            calls[name] = lambda run=run, starts=scene.starts: run(starts)
+            calls[name] = partial(run, scene.starts)
         seconds = interleaved(calls, rounds)
         for name in changes:
-            median, lower, upper = spread(seconds[name] / seconds["fastest"])
-            row = {"scene": scene.name, "changed": name, "time_ratio": median}
-            row |= {"lower_quartile": lower, "upper_quartile": upper, "error": errors[name]}
-            rows.append(row)
+            row = {"scene": scene.name, "changed": name, "error": errors[name]}
+            rows.append(row | spread("time_ratio", seconds[name] / seconds["fastest"]))
     return pd.DataFrame(rows)

@@ -40,13 +40,10 @@ def sizes(scenes, counts, rounds):
     for scene in scenes:
         run = TIMED["kernel_ensemble"].prepare(scene, TOLERANCE)
         for name, starts in starts_of(scene, max(counts)).items():
-            calls = {count: lambda y=starts[:count], run=run: run(y) for count in counts}
+            calls = {count: partial(run, starts[:count]) for count in counts}
             for count, seconds in interleaved(calls, rounds).items():
-                median, lower, upper = spread(1e6 * seconds / (count * scene.periods))
-                rows.append({
-                    "scene": scene.name, "starts": name, "trajectories": count,
-                    "median_us": median, "lower_quartile_us": lower, "upper_quartile_us": upper,
-                })  # fmt: skip
+                row = {"scene": scene.name, "starts": name, "trajectories": count}
+                rows.append(row | spread("median_us", 1e6 * seconds / (count * scene.periods)))
     return pd.DataFrame(rows)
 
 
@@ -78,14 +75,11 @@ def cores(scenes, count, rounds):
             calls |= {("apart", n): partial(advance_apart, n) for n in threads}
             seconds = interleaved(calls, rounds)
         for n in threads:
-            median, lower, upper = spread(seconds["threads", 1] / seconds["threads", n])
+            faster = spread("throughput", seconds["threads", 1] / seconds["threads", n])
             same = np.array_equal(results[1], results[n], equal_nan=True)
-            rows.append({
-                "scene": scene.name, "threads": n, "trajectories": count,
-                "throughput": median, "lower_quartile": lower, "upper_quartile": upper,
-                "processes_apart": np.median(n * seconds["apart", 1] / seconds["apart", n]),
-                "same_results": "yes" if same else "no",
-            })  # fmt: skip
+            apart = np.median(n * seconds["apart", 1] / seconds["apart", n])
+            row = {"scene": scene.name, "threads": n, "trajectories": count} | faster
+            rows.append(row | {"processes_apart": apart, "same_results": "yes" if same else "no"})
     return pd.DataFrame(rows)
 
 

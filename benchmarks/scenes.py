@@ -22,18 +22,9 @@ SPREADS = {"grazing": 1e-8}
 class BenchmarkScene(NamedTuple):
     """Motions from states close to each other, all in flight at the beginning.
 
-    Attributes
-    ----------
-    name : str
-    parameters : numpy.ndarray, shape (packed.COUNT,)
-        Packed parameters, from `system.packed.pack`.
-    begin, end : float
-        Times T; at the beginning W T = pi/2.
-    periods : int
-        Forcing cycles from the beginning to the end.
-    starts, exact : numpy.ndarray, shape (m, 4)
-        States at the beginning, and exact states at the end. The first start is the state of the
-        scene in the configuration.
+    `begin` (W T = pi/2) and `end` are times T with `periods` forcing cycles between them. `starts`
+    and `exact`, shape (m, 4), are the states at these times. The first start is the state of the
+    scene in the configuration.
     """
 
     name: str

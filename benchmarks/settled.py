@@ -4,6 +4,7 @@ With most of the random dampers the motions are chaotic.
 """
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -43,20 +44,15 @@ def table(count, rounds):
     rows, states = draw(count)
     kinds = {"left": replace(Settling(), further=0), "named": Settling()}
     calls = {
-        name: lambda settling=settling: ensemble.settle(rows, states, settling)
-        for name, settling in kinds.items()
+        name: partial(ensemble.settle, rows, states, settling) for name, settling in kinds.items()
     }
     found = {name: call() for name, call in calls.items()}
     lines = []
     for name, seconds in interleaved(calls, rounds).items():
-        median, lower, upper = spread(len(rows) / seconds)
         shares = {
             outcome: np.mean(found[name]["outcome"] == OUTCOME[outcome])
             for outcome in ("settled", "chaotic", "quasi_periodic", "drifting", "unresolved")
         }
-        lines.append(
-            {"undecided motions": name, "starts": len(rows), "starts_a_second": median}
-            | {"lower_quartile": lower, "upper_quartile": upper}
-            | shares
-        )
+        row = {"undecided motions": name, "starts": len(rows)}
+        lines.append(row | spread("starts_a_second", len(rows) / seconds) | shares)
     return pd.DataFrame(lines)

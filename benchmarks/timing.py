@@ -46,17 +46,9 @@ def repeats_of(call):
 
 
 def interleaved(calls, rounds):
-    """Return the seconds of each call in each round; in a round every call has its turn.
+    """Return the seconds of each call in each round, by name; in a round every call has its turn.
 
-    Parameters
-    ----------
-    calls : dict of callable
-    rounds : int
-
-    Returns
-    -------
-    dict of numpy.ndarray, shape (rounds,)
-        Seconds of the fastest of BLOCKS blocks, or of a single block that takes 50 times SHORTEST.
+    They are of the fastest of BLOCKS blocks, or of one block that takes 50 times SHORTEST.
     """
     repeats = {name: repeats_of(call) for name, call in calls.items()}
     seconds = {name: np.empty(rounds) for name in calls}
@@ -74,7 +66,7 @@ def interleaved(calls, rounds):
     return seconds
 
 
-def spread(values):
-    """Return median, lower and upper quartile."""
+def spread(name, values):
+    """Return the columns of a table with the median, called `name`, and the quartiles."""
     lower, median, upper = np.percentile(values, [25, 50, 75])
-    return median, lower, upper
+    return {name: median, "lower_quartile": lower, "upper_quartile": upper}

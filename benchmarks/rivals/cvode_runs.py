@@ -10,40 +10,22 @@ from importlib.metadata import version as version_of
 import numba
 import numpy as np
 
-from impact_damper.kernel.equation import forcing_amplitude
-from impact_damper.model.packed import (
-    CLEARANCE,
-    CONTACT_STIFFNESS,
-    DAMPING,
-    DASHPOT,
-    FREQUENCY,
-    INVERSE_MASS_RATIO,
-    cubic_spring,
-)
+from benchmarks.rivals import coefficients, lacks
 
 STEPS = 10**7  # largest number of steps between two contacts
 
 
 def obstacle():
-    """Return the reason why the program is not available, or an empty string."""
-    try:
-        import sksundae  # noqa: F401
-    except ImportError:
-        return "no scikit-sundae (pip install 'impact-damper[benchmark]')"
-    return ""
+    return lacks("sksundae", "scikit-sundae")
 
 
 def version():
-    """Return the version of scikit-sundae."""
     return f"scikit-sundae {version_of('scikit-sundae')}"
 
 
 def equations(p):
     """Return compiled rates and root function; their last argument is the phase, -1, 0 or 1."""
-    h, w, d0 = p[DAMPING], p[FREQUENCY], p[CLEARANCE]
-    wall, dashpot, heavy = p[CONTACT_STIFFNESS], p[DASHPOT], 1 + p[INVERSE_MASS_RATIO]
-    linear, cubic = cubic_spring(p)
-    amplitude = forcing_amplitude.py_func(p)
+    h, linear, cubic, amplitude, w, d0, wall, dashpot, heavy = coefficients(p)
 
     @numba.njit
     def rates(t, y, out, side):
@@ -60,7 +42,6 @@ def equations(p):
 
 
 def prepare(scene, tolerance):
-    """Return a function from starts to the states at the end and the numbers of contacts."""
     from sksundae.cvode import CVODE
 
     rates, beyond = equations(scene.parameters)

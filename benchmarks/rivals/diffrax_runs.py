@@ -8,31 +8,16 @@ from importlib.metadata import version as version_of
 
 import numpy as np
 
-from impact_damper.kernel.equation import forcing_amplitude
-from impact_damper.model.packed import (
-    CLEARANCE,
-    CONTACT_STIFFNESS,
-    DAMPING,
-    DASHPOT,
-    FREQUENCY,
-    INVERSE_MASS_RATIO,
-    cubic_spring,
-)
+from benchmarks.rivals import coefficients, lacks
 
 STEPS = 10**6  # largest number of steps between two contacts
 
 
 def obstacle():
-    """Return the reason why the program is not available, or an empty string."""
-    try:
-        import diffrax  # noqa: F401
-    except ImportError:
-        return "no diffrax (pip install 'impact-damper[benchmark]')"
-    return ""
+    return lacks("diffrax", "diffrax")
 
 
 def version():
-    """Return the versions of diffrax and JAX."""
     return f"diffrax {version_of('diffrax')}, JAX {version_of('jax')}"
 
 
@@ -40,10 +25,7 @@ def equations(p):
     """Return the rates, with the phase -1, 0 or 1 as argument, and the root function."""
     import jax.numpy as jnp
 
-    h, w, d0 = (float(p[place]) for place in (DAMPING, FREQUENCY, CLEARANCE))
-    wall, dashpot = float(p[CONTACT_STIFFNESS]), float(p[DASHPOT])
-    heavy, amplitude = 1 + float(p[INVERSE_MASS_RATIO]), float(forcing_amplitude.py_func(p))
-    linear, cubic = map(float, cubic_spring(p))
+    h, linear, cubic, amplitude, w, d0, wall, dashpot, heavy = coefficients(p)
 
     def rates(t, y, side):
         free = amplitude * jnp.cos(w * t) - h * y[1] - (linear + cubic * y[0] * y[0]) * y[0]
@@ -97,7 +79,6 @@ def _compiled(parameters, end, damped):
 
 
 def prepare(scene, tolerance):
-    """Return a function from starts to the states at the end and the numbers of contacts."""
     compiled = _compiled(scene.parameters.tobytes(), float(scene.end), scene.components == 4)
 
     def run(starts):

@@ -12,7 +12,7 @@ namespace {
 using State = std::array<double, 4>;
 
 struct Motion {
-    double damping, stiffness, cubic, amplitude, frequency, clearance, wall, dashpot, inverse_ratio;
+    double damping, stiffness, cubic, amplitude, frequency, clearance, wall, dashpot, heavy;
     int side;  // -1 or 1 in contact, 0 in flight
 
     void operator()(const State &y, State &rates, double t) const {
@@ -20,7 +20,7 @@ struct Motion {
         double free = amplitude * std::cos(frequency * t) - damping * v;
         free -= (stiffness + cubic * x * x) * x;
         const double force = side ? wall * (z - side * clearance) + dashpot * w : 0.0;
-        rates = {v, free - force, w, free - (1.0 + inverse_ratio) * force};
+        rates = {v, free - force, w, free - heavy * force};
     }
 
     // Whether a state is on the other side of the wall than the present phase.

@@ -9,23 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from impact_damper.kernel.equation import forcing_amplitude
-from impact_damper.model.packed import (
-    CLEARANCE,
-    CONTACT_STIFFNESS,
-    DAMPING,
-    DASHPOT,
-    FREQUENCY,
-    INVERSE_MASS_RATIO,
-    cubic_spring,
-)
+from benchmarks.rivals import coefficients
 
 PROGRAM = Path(__file__).with_name("odeint.cpp")
 FLAGS = ("-O3", "-march=native", "-std=c++17", "-shared", "-fPIC")
 
 
 def obstacle():
-    """Return the reason why the program cannot be compiled on this computer, or an empty string."""
     if shutil.which("c++") is None:
         return "no C++ compiler `c++`"
     test = ["c++", "-E", "-x", "c++", "-include", "boost/numeric/odeint.hpp", "/dev/null"]
@@ -35,7 +25,6 @@ def obstacle():
 
 
 def version():
-    """Return the versions of Boost and of the compiler."""
     read = ["c++", "-E", "-P", "-x", "c++", "-include", "boost/version.hpp", "-"]
     boost = subprocess.run(read, input="BOOST_LIB_VERSION", capture_output=True, text=True)
     compiler = subprocess.run(["c++", "--version"], capture_output=True, text=True)
@@ -57,24 +46,18 @@ def _library():
     return loaded
 
 
-def numbers(p):
-    """Return the numbers that the program needs, from packed parameters."""
-    places = (CLEARANCE, CONTACT_STIFFNESS, DASHPOT, INVERSE_MASS_RATIO)
-    given = [p[DAMPING], *cubic_spring(p), forcing_amplitude.py_func(p), p[FREQUENCY]]
-    return np.array([*given, *p[list(places)]])
-
-
 def largest(p, states, begin, lead, end, tolerance) -> np.ndarray:
     """Return the largest displacement of each motion from the time `lead` to `end`."""
     sizes = np.empty(len(states))
     states = np.ascontiguousarray(states)
-    _library().largest(numbers(p), len(states), begin, lead, end, tolerance, states, sizes)
+    _library().largest(
+        np.array(coefficients(p)), len(states), begin, lead, end, tolerance, states, sizes
+    )
     return sizes
 
 
 def prepare(scene, tolerance):
-    """Return a function from starts to the states at the end and the numbers of contacts."""
-    given, library = numbers(scene.parameters), _library()
+    given, library = np.array(coefficients(scene.parameters)), _library()
 
     def run(starts):
         states, contacts = np.array(starts), np.zeros(len(starts), np.int64)

@@ -4,6 +4,7 @@ A program that is not installed is left out, with a line that says what it needs
 """
 
 import math
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -43,14 +44,9 @@ def available():
 
 def table(scenes, rounds):
     """Return the table of times and missed contacts, by scene and program."""
-    programs = available()
-    return pd.DataFrame(
-        [
-            _row(scene, title, program, rounds)
-            for scene in scenes
-            for title, program in programs.items()
-        ]
-    )
+    programs = available().items()
+    rows = [_row(scene, *program, rounds) for scene in scenes for program in programs]
+    return pd.DataFrame(rows)
 
 
 def contacts_of(scene):
@@ -70,12 +66,12 @@ def _row(scene, title, program, rounds):
         if error <= LIMIT:
             break
     ours = (ensemble if program is diffrax_runs else single)(scene, LIMIT / 10)
-    calls = {"ours": lambda: ours(scene.starts), "theirs": lambda: run(scene.starts)}
+    calls = {"ours": partial(ours, scene.starts), "theirs": partial(run, scene.starts)}
     seconds = interleaved(calls, rounds)
-    median, lower, upper = spread(seconds["theirs"] / seconds["ours"])
+    faster = spread("kernel_faster", seconds["theirs"] / seconds["ours"])
     cycles = len(scene.starts) * scene.periods
     exact = contacts_of(scene) if scene.components == 4 else 0
-    print(f"  {scene.name}, {title}: error {error:.1e}, {median:.4g} times slower", flush=True)
+    print(f"  {scene.name}, {title}: error {error:.1e}", flush=True)
     return {
         "scene": scene.name,
         "program": title,
@@ -87,7 +83,4 @@ def _row(scene, title, program, rounds):
         "missed": exact - int(contacts.sum()),
         "kernel_error": scene.error(ours(scene.starts)),
         "microseconds": 1e6 * np.median(seconds["theirs"]) / cycles,
-        "kernel_faster": median,
-        "lower_quartile": lower,
-        "upper_quartile": upper,
-    }
+    } | faster

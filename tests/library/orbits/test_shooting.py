@@ -36,12 +36,11 @@ def test_liouville(orbit):
 
 def test_multipliers_by_heyoka(orbit):
     pytest.importorskip("heyoka")
-    from references.variational import Variational
+    from references.taylor_events import Reference
 
-    length = TURN / orbit.p[0]
-    end, matrix = Variational().monodromy(
-        orbit.p, orbit.state, orbit.phase / orbit.p[0], orbit.periods * length
-    )
+    begin, length = orbit.phase / orbit.p[0], orbit.periods * TURN / orbit.p[0]
+    run = Reference(tangents=True).run(orbit.p, orbit.state, begin, [begin + length])
+    end, matrix = run.states[0, :4], run.states[0, 4:].reshape(4, 4)
     assert_allclose(end, orbit.state, atol=1e-11)
     expected = np.linalg.eigvals(matrix[: orbit.active, : orbit.active])
     found = orbit.multipliers[: orbit.active]

@@ -38,6 +38,13 @@ def _event(_, y, p, side, left):
 _event.terminal, _event.direction = True, -1
 
 
+def solved(method, p, y, span, side, tolerance, left, **options):
+    """Return the result of `solve_ivp`."""
+    given = {"args": (p, side, left), "rtol": tolerance, "atol": tolerance} | options
+    with np.errstate(all="ignore"):
+        return solve_ivp(derivative, span, y, method, **given)
+
+
 def parts(method, p, start, t, end, tolerance, locate, left):
     """Yield the results of `solve_ivp` for successive parts of a run.
 
@@ -48,17 +55,8 @@ def parts(method, p, start, t, end, tolerance, locate, left):
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
     while status == 1:
-        with np.errstate(all="ignore"):
-            result = solve_ivp(
-                derivative,
-                (t, end),
-                y,
-                method,
-                events=_event if locate else None,
-                args=(p, side, left),
-                rtol=tolerance,
-                atol=tolerance,
-            )
+        events = _event if locate else None
+        result = solved(method, p, y, (t, end), side, tolerance, left, events=events)
         status = result.status
         yield result
         if status == 1:
@@ -103,17 +101,8 @@ class SciPy(Integrator):
         return status, float(work), np.concatenate(times), np.concatenate(ends)
 
     def flight(self, p, state, end, resolution, time):
-        with np.errstate(all="ignore"):
-            result = solve_ivp(
-                derivative,
-                (0.0, end),
-                state,
-                self.name,
-                args=(p, 0, np.array([UNLIMITED])),
-                rtol=resolution,
-                atol=resolution,
-                dense_output=True,
-            )
+        given = state, (0.0, end), 0, resolution, np.array([UNLIMITED])
+        result = solved(self.name, p, *given, dense_output=True)
         return (np.abs(result.y[2]), abs(result.sol(time)[2])) if result.success else None
 
 
