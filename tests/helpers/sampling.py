@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from impact_damper.motions import traces
+from impact_damper.motions import strobe_map, traces
 
 
 def sample(p, state, start, times, tolerance=1e-14):
@@ -12,6 +12,13 @@ def sample(p, state, start, times, tolerance=1e-14):
     at both.
     """
     return traces.trace(p, state, start, times, tolerance)
+
+
+def flow_map(p, y, begin, periods, half, tolerance):
+    """Return the state after `strobe_map.flow`, its derivative by y, and the time in contact."""
+    state, tangents = y.copy(), np.eye(4)
+    _, touching = strobe_map.flow(p, state, tangents, begin, periods, half, tolerance)
+    return state, tangents.T.copy(), touching
 
 
 def gauss(breaks, longest=0.1, order=12):

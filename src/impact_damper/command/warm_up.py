@@ -27,7 +27,6 @@ def warm_up_orbits() -> None:
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
     strobe_map.polish(on, np.zeros(4), 1, 1e-3, 1e-9)
     strobe_map.repeats_sooner(on, np.zeros(4), 1, 1e-9)
-    strobe_map.flow_map(on, np.zeros(4), strobe_map.strobe_time(on), 1, False, 1e-9)
     traces.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9)
     records.envelope(on[None], np.zeros(1), np.zeros(4), 1e-9)
 

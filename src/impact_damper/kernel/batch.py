@@ -36,12 +36,13 @@ STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
 class Pool(NamedTuple):
     """Trajectories that are being integrated, each to its own end time.
 
-    `numbers` (m, LENGTH) are parameters, state, side, time, longest step and tolerance of each
-    trajectory, and `farthest` (m,) |Z1| beyond which it escapes (`equation.no_return`). `queues`
-    (4, m) are the indices of the trajectories that wait for a step of each kind, and `waiting` (4,)
-    the lengths of the queues. `contacts` (m,) counts contacts since the last call of `send`. `held`
-    (LANES,) is the index of the trajectory whose parameters are in each lane, or -1. `a` and `d`
-    are the rows of the step and of its tangents (`instances.rows`).
+    numbers: Parameters, state, side, time, longest step and tolerance; shape (m, LENGTH).
+    farthest: |Z1| beyond which a trajectory escapes (`equation.no_return`); shape (m,).
+    queues, waiting: Indices of the trajectories that wait for a step of each kind, shape (4, m),
+        and their numbers, shape (4,).
+    contacts: Contacts begun since the last call of `send`; shape (m,).
+    held: Index of the trajectory whose parameters are in each lane, or -1; shape (LANES,).
+    a, d: Rows of the step and of its tangents (`instances.rows`).
     """
 
     numbers: np.ndarray
@@ -108,10 +109,9 @@ def enqueue(queues, waiting, m, kind):
 
 @kernel
 def choose(pool, chosen):
-    """Take up to LANES trajectories from the longest queue, and write their indices to `chosen`.
+    """Take up to LANES trajectories from the longest queue; return their number and the queue.
 
-    If there are fewer, the last index fills the remaining entries. Return their number and the
-    queue.
+    `chosen` receives their indices, the last one repeated if there are fewer.
     """
     waiting = pool.waiting
     kind = FLIGHT
@@ -178,10 +178,9 @@ def scatter(pool, chosen, count, kind, arrived):
 
 @kernel
 def advance_some(pool, chosen, arrived):
-    """Step trajectories of a pool, which is not empty, until at least one of them is at its end.
+    """Step the trajectories of a pool until some are at their ends; return the number of these.
 
-    Return the number of these; `arrived` (LANES,) receives their indices. `chosen` is working
-    memory.
+    `arrived` (LANES,) receives their indices. `chosen` (LANES,) is working memory.
     """
     ended = 0
     a, d = pointer(pool.a), pointer(pool.d)
@@ -205,8 +204,7 @@ def advance(parameters, states, sides, starts, ends, tolerance, contacts):
     """Integrate trajectories, each from its start time to its end time.
 
     The `states` (m, 4) and the `sides`, the walls in contact (m,), are replaced by those at the
-    ends, and `contacts` (m,) receives the numbers of contacts begun. No end may be before its
-    start.
+    ends, and `contacts` (m,) receives the numbers of contacts begun.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

@@ -102,10 +102,9 @@ def aligned(count):
 
 @intrinsic
 def pointer(typing, array):
-    """Return a pointer to the first element of an array. The caller must keep the array alive.
+    """Return a pointer to the first element of an array, which the caller must keep alive.
 
-    numba changes the reference count of an array that is passed to a kernel twice with locked
-    instructions, which take longer than some kernels do. Pointers have no reference count.
+    For an array numba counts references with locked instructions, slower than some kernels.
     """
 
     def generate(context, builder, signature, arguments):
@@ -130,11 +129,9 @@ def compiled(function):
 def by_address(function):
     """Return a stand-in for a kernel; calls of the stand-in jump to the kernel's address.
 
-    Otherwise LLVM compiles a called kernel again as a part of each caller. A dozen kernels call the
-    steps of the integration, and one step takes most of a second to compile. A cached caller refers
-    to the kernel by name, and this name must be bound to an address before the caller is loaded.
-    Therefore `by_address` is called when a module is imported that the modules of all callers
-    import.
+    Otherwise LLVM compiles a called kernel again as a part of each caller. A cached caller refers
+    to the kernel by name, which must be bound to an address before the caller is loaded. Therefore
+    `by_address` is called while a module is imported that the modules of all callers import.
     """
     name = f"{function.__module__}.{function.__name__}"
     llvmlite.binding.add_symbol(name, compiled(function).address)

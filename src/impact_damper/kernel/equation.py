@@ -31,8 +31,7 @@ from impact_damper.model.packed import (
 def forcing_amplitude(p, lane=0, lanes=1):
     """Return the amplitude F + U W^2 + V/W^2 of the forcing per unit of primary mass.
 
-    For trajectories side by side `p` has a row of `lanes` numbers for each parameter, and `lane` is
-    the index of one of them.
+    `p` has a row of `lanes` numbers for each parameter; `lane` is the index of one of them.
     """
     frequency = p[FREQUENCY * lanes + lane]
     without = p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
@@ -70,8 +69,7 @@ def acceleration(p, y, t):
 def acceleration_by_parameters(p, x, v, cosine):
     """Return the derivatives of `acceleration` by the packed parameters, shape (COUNT, n).
 
-    They hold at a fixed phase W T of the forcing. x, v and cosine are Z1, Z1' and cos(W T), shape
-    (n,).
+    x, v and cosine are Z1, Z1' and cos(W T), shape (n,); the phase W T is fixed.
     """
     frequency = p[FREQUENCY]
     slopes = np.zeros((COUNT, len(x)))
@@ -83,24 +81,13 @@ def acceleration_by_parameters(p, x, v, cosine):
     return slopes
 
 
-def spring_slope_changes(p, x, change, parameters):
-    """Return first-order changes of `spring_slope`, shape (k, n), under k changes.
-
-    `x` is Z1, shape (n,), `change` (k, n) are changes of Z1, and `parameters` (COUNT, k) changes of
-    the packed parameters.
-    """
-    bent = np.outer(parameters[CUBIC], x) + 2 * p[CUBIC] * change
-    return parameters[STIFFNESS][:, None] + 3 * x * bent
-
-
 @kernel
 def no_return(p):
     """Return the |Z1| beyond which a primary mass that moves outward never comes back.
 
-    A softening spring (k3 < 0) pushes outward where |Z1| exceeds b = omega_l / sqrt(-k3). Where
-    |Z1| exceeds the larger of 2 b and (4 A / (-3 k3))^(1/3), this push is at least as large as the
-    amplitude A of the forcing: -k3 |Z1|^3 - omega_l^2 |Z1| >= -3/4 k3 |Z1|^3 >= A. The contact
-    forces of the loose mass are neglected. For k3 >= 0 the function returns infinity.
+    There a softening spring pushes outward at least as hard as the amplitude A of the forcing: with
+    |Z1| > 2 omega_l / sqrt(-k3), -k3 |Z1|^3 - omega_l^2 |Z1| >= -3/4 k3 |Z1|^3 >= A. The contact
+    forces of the loose mass are neglected.
     """
     if p[CUBIC] >= 0.0:
         return math.inf
@@ -110,10 +97,7 @@ def no_return(p):
 
 @kernel_only
 def has_escaped(p, x, v):
-    """Return whether |x| exceeds `no_return` and a mass with Z1 = x and Z1' = v moves outward.
-
-    With a softening spring the function also returns True if x or v is not finite.
-    """
+    """Return whether a mass at Z1 = x beyond `no_return` moves outward, or x or v is not finite."""
     return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 
@@ -149,14 +133,10 @@ def beginning(at):
 def motion(order, phase, constants):
     """Yield the lines for the series of a step up to an order, in a phase, "flight" or "contact".
 
-    Before these lines the following names must have values:
-
-    - x0, x1 and the names of `beginning`; in contact also q0 and q1;
-    - `cosine` and `sine` of the forcing's phase, times the amplitude of the forcing;
-    - in contact `r1` and `mobility` = 1 + 1/rm.
-
-    The function `constants` of k returns the lines for the coefficients that are the same in all
-    steps of a trajectory: h/k, D/k, and e[k] without its factor cosine or sine.
+    Before these lines x0, x1, the names of `beginning`, and `cosine` and `sine` of the forcing's
+    phase, times its amplitude, must have values; in contact also q0, q1, `r1` and `mobility` =
+    1 + 1/rm. The function `constants` of k returns the lines for the coefficients that are the same
+    in all steps of a trajectory: h/k, D/k, and e[k] without its factor cosine or sine.
     """
     for k in range(order - 1):
         yield from constants(k)

@@ -28,17 +28,11 @@ CONTACT_ORDER = 23
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
 # STEP            further arguments of the step, and its result LENGTH
 # SCRATCH         intermediate results
-# SERIES          coefficients of these series:
-#                 X  Z1
-#                 Q  penetration of the wall
-#                 G  acceleration without the force of the wall
-#                 U  slope of the spring's nonlinear force, for tangents
-#                 and coefficients that are the same in all steps of a trajectory:
-#                 E  forcing without its factor cosine or sine
-#                 H  h/k, with the damping h
-#                 D  D/k, with the dashpot coefficient D
-# The array of a tangent has the tangent's STATE, and then the TANGENT_SERIES with the coefficients
-# of its Z1 (DX) and of its penetration (DQ).
+# SERIES          coefficients of Z1 (X), of the penetration of the wall (Q), of the acceleration
+#                 without the force of the wall (G), of the slope of the spring's nonlinear force
+#                 (U, for tangents); and coefficients that are the same in all steps: the forcing
+#                 without its factor cosine or sine (E), h/k (H) and D/k (D)
+# A tangent has its STATE, and then the TANGENT_SERIES of its Z1 (DX) and penetration (DQ).
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (

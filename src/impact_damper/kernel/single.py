@@ -26,13 +26,8 @@ flight_step, contact_step = by_address(_ONE.flight_step), by_address(_ONE.contac
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
 # Index in a workspace at which the numbers of the tangents begin; a multiple of CACHE_LINE.
 BEHIND = -(-SIZE // CACHE_LINE) * CACHE_LINE
-SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
-    _ONE.SIDE,
-    _ONE.TIME,
-    _ONE.LONGEST,
-    _ONE.TOLERANCE,
-    _ONE.LENGTH,
-)
+SIDE, TIME, LONGEST = _ONE.SIDE, _ONE.TIME, _ONE.LONGEST
+TOLERANCE, LENGTH = _ONE.TOLERANCE, _ONE.LENGTH
 PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _ONE.Q
 FLIGHT_ORDER, CONTACT_ORDER = _ONE.FLIGHT_ORDER, _ONE.CONTACT_ORDER
 # Indices in a workspace at which the series of the tangents begin. Each coefficient has COLUMNS
@@ -107,14 +102,12 @@ def unload(y, a):
 def step(p, y, side, t, longest, tolerance, work):
     """Integrate one step of at most `longest` from the time t, which ends early at an event.
 
-    `side` is the wall in contact. The state y (4,) is replaced. After the call `work`, the result
-    of `workspace()`, holds the series of Z1 over the step from index X on and, after a step in
-    contact, the series of Z2 -+ d0 from index Q on. Return the length of the step and the wall in
-    contact.
+    `side` is the wall in contact. The state y (4,) is replaced. `work`, a `workspace()`, receives
+    the series of Z1 over the step from index X on and, in contact, the series of Z2 -+ d0 from
+    index Q on. Return the length of the step and the wall in contact.
 
     For a motion that has escaped (`equation.no_return`) the length is `longest`, because steps on
-    the way to infinity would become ever shorter. The state is then the state at the escape, after
-    the time `work[LENGTH]`.
+    the way to infinity become ever shorter; y is the state at the escape, after `work[LENGTH]`.
     """
     a = pointer(work)
     load(p, y, side, tolerance, a)

@@ -41,11 +41,11 @@ def straight(function):
     - The right side consists of names, constants, `a[1 + i]`, `a[1]` (the same for all lanes),
       `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`,
       which means `x if x > y else y`.
-    - `(x, y)` is a pair. Operators act on both of its values; a float combined with a pair is
-      used with both. A name can hold a pair, and `x, y = ...` unpacks it.
+    - `(x, y)` is a pair, which a name can hold and `x, y = ...` unpacks. Operators act on both of
+      its values; a float combined with a pair is used with both.
 
-    The result can be called in kernels; its attribute `py_func` is the function. Other
-    operations raise NotStraightError when a kernel that calls it is compiled.
+    The result can be called in kernels; its attribute `py_func` is the function. Other lines raise
+    NotStraightError when a kernel that calls it is compiled.
     """
 
     def generate(context, builder, signature, arguments):

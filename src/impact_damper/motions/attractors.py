@@ -25,15 +25,12 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 STEPS = 256
 FACTOR = 0.98
 HALVINGS = 30
-# Two free orbits are the same if their states at a strobe differ by less than ALIKE. Two settled
-# motions with contacts and the same period are the same if max |Z1| differs relatively by less than
-# SAME; mirror images are therefore one motion.
+# Two free orbits are the same if their states at a strobe differ by less than ALIKE; two settled
+# motions with contacts and the same period if max |Z1| differs relatively by less than SAME.
 ALIKE, SAME = 1e-6, 1e-5
 # Half width of the region that is searched for stable and unstable orbits, divided by the largest
-# displacement and speed of the free motions.
-REACH = 3.0
-# Number of starts on each axis of the grid whose motions lead to the attractors.
-SEARCHED = 24
+# displacement and speed of the free motions; and number of starts on each axis of its grid.
+REACH, SEARCHED = 3.0, 24
 # Labels of motions that have not settled to an orbit with contacts, keyed by their outcome.
 LABELS = {
     records.UNRESOLVED: BASIN_LABEL["unresolved"],
@@ -44,19 +41,18 @@ LABELS = {
     records.DRIFTING: BASIN_LABEL["no_contact"],
     records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
 }
-# The release set: PHASES in a forcing cycle at which a controller observes the state, an even
-# number; WIDTH is the half width of the grid in Z1 and in Z1'/W, divided by max |Z1| of the
-# resonance motion (larger states count as outside); REFINED cells of the fine grid in a cell of the
-# coarse grid, along an axis, a power of 2.
+# The release set: PHASES in a forcing cycle at which a controller observes the state, even; WIDTH
+# is the half width of the grid in Z1 and in Z1'/W, divided by max |Z1| of the resonance motion;
+# REFINED cells of the fine grid in a cell of the coarse grid, along an axis, a power of 2.
 PHASES, WIDTH, REFINED = 16, 1.6, 4
 
 
 class Attractors(NamedTuple):
     """Attracting orbits of the free oscillator, by ascending max |Z1|, and their m neighbourhoods.
 
-    `owner` (m,) is the index of the orbit of each neighbourhood; an orbit of period n has n of
-    them. `centre` (m, 2) are states Z1, Z1' at strobes, and `shape` (m, 2, 2) matrices S: a state z
-    lies in the neighbourhood if |S (z - centre)| < 1. Without a proof S is infinite.
+    `owner` (m,) is the index of the orbit of each neighbourhood, `centre` (m, 2) its state Z1, Z1'
+    at a strobe, and `shape` (m, 2, 2) a matrix S, infinite without a proof: a state z lies in the
+    neighbourhood if |S (z - centre)| < 1.
     """
 
     records: np.ndarray
@@ -162,9 +158,9 @@ def neighbourhood(p, state, periods):
 def _radius(coefficients, step, contraction):
     """Return the largest r0 for which `contraction` r(P) < FACTOR r0.
 
-    r grows, so in a step r' = a r^2 + b r^3 is at most its value with r at the end of the step. The
-    root of r = r(begin) + step (a r^2 + b r^3) is therefore an upper bound on r at the end. The
-    loop computes an upper bound on this root, by one iteration from a value `ahead` above the root.
+    r grows, so in a step r' = a r^2 + b r^3 is at most its value with r at the end. The loop
+    computes an upper bound on the root of r = r(begin) + step (a r^2 + b r^3), by one iteration
+    from a value `ahead` above the root.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -224,10 +220,11 @@ def orbit_passages(p, record, phase):
 class ReleaseSet(NamedTuple):
     """The states of the free oscillator at one frequency that lead to the goal of migration.
 
-    The goal is the smaller of the two free motions of period 1, with the index `goal` among the
-    `attractors`; the last attractor is the resonance motion. `depth` (PHASES, cells, cells) is the
-    distance of a state from the boundary of the set, positive inside, in units of Z1 with Z1'
-    divided by W, over phase, Z1' and Z1. `half` (2,) are the half widths of the grid in Z1 and Z1'.
+    goal: Index among the `attractors` of the smaller free motion of period 1; the last attractor is
+        the resonance motion.
+    depth: Distance of a state from the boundary of the set, positive inside, in units of Z1 with
+        Z1' divided by W, over phase, Z1' and Z1; shape (PHASES, cells, cells).
+    half: Half widths of the grid in Z1 and Z1'.
     """
 
     p: np.ndarray
@@ -241,8 +238,8 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
     """Compute the release set at one frequency on a grid at each of PHASES phases.
 
     A mirrored state half a cycle later leads to the mirrored motion, and the goal is its own mirror
-    image, so only half of the phases are computed. `cells` is the number of states on each axis of
-    the coarse grid. ValueError if one of the two free motions of period 1 is missing.
+    image, so only half of the phases are computed. `cells` are the states on each axis of the
+    coarse grid. ValueError if one of the two free motions of period 1 is missing.
     """
     p = pack(oscillator, None, frequency)
     known = free_motions(oscillator, frequency, settling)
@@ -273,8 +270,7 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 def _refined(inside, half, cells):
     """Return which cells of the fine grid lie inside a set, shape (n, n) with n = REFINED cells.
 
-    The function `inside` takes states, shape (m, 2). It is called for all cells of the coarse grid,
-    and on finer grids only for cells near the boundary.
+    The function `inside` of states (m, 2) is called on finer grids only near the boundary.
     """
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):

@@ -22,11 +22,9 @@ from impact_damper.kernel.batch import (
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import assign, side_of
-from impact_damper.model import packed
 from impact_damper.model.bounds import check_count
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import Settling
-from impact_damper.motions import ensemble
 from impact_damper.motions.records import MOTION, measure
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.motions.undecided import name_undecided
@@ -42,9 +40,8 @@ GONE, UNKNOWN = -2, -1
 def run_chunks(work, count, workers, progress, stop, size=CHUNK):
     """Call `work(slice)` for slices of length `size` that cover range(count), on `workers` threads.
 
-    `progress` is the title of a progress bar, or None. An error or Ctrl-C sets `stop[0]`; the
-    function then returns without waiting for the slices that are being computed, so `work` must end
-    soon after.
+    `progress` is the title of a progress bar, or None. An error or Ctrl-C sets `stop[0]` and does
+    not wait for the slices that are being computed, so `work` must end soon after.
     """
     check_count("workers", workers, most=4096)
     slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
@@ -73,39 +70,23 @@ def settle(
 ):
     """Run motions from states (m, 4), each with its packed parameters, until each has settled.
 
-    `start` is the time T of all states, in the forcing cycle that ends at the first strobe. With
-    `from_strobe` the states are states at the strobe. `progress` is the title of a progress bar. If
-    another thread sets `stop[0]`, the runs end and the records are incomplete. Return an array of
-    `records.MOTION`, shape (m,).
+    `start` is the time T of all states, in the forcing cycle that ends at the first strobe; with
+    `from_strobe` they are states at the strobe. `progress` is the title of a progress bar. If
+    another thread sets `stop[0]`, the records are incomplete. Return an array of `records.MOTION`.
     """
     settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)
     states = np.ascontiguousarray(states, float)
-    if states.shape[1:] != (4,) or parameters.shape != (len(states), packed.COUNT):
-        raise ValueError(
-            f"parameters and states: must be of shapes (m, {packed.COUNT}) and (m, 4), "
-            f"{parameters.shape} and {states.shape} given"
-        )
     records = np.zeros(len(states), MOTION)
     stop = np.zeros(1, bool) if stop is None else stop
+    begins = 0.5 * np.pi / parameters[:, FREQUENCY] if from_strobe else np.full(len(states), start)
+    settings = settling.tolerance, settling.patience, settling.limit
 
     def work(part):
-        if from_strobe:
-            begins = 0.5 * np.pi / parameters[part, FREQUENCY]
-        else:
-            begins = np.full(len(records[part]), start)
-        settle_many(
-            parameters[part],
-            states[part],
-            begins,
-            settling.tolerance,
-            settling.patience,
-            settling.limit,
-            records[part],
-            stop,
-        )
-        name_undecided(parameters[part], records[part], settling.limit, settling.further, stop)
-        measure(parameters[part], settling.tolerance, settling.watched, records[part], stop)
+        rows, out = parameters[part], records[part]
+        settle_many(rows, states[part], begins[part], *settings, out, stop)
+        name_undecided(rows, out, settling.limit, settling.further, stop)
+        measure(rows, settling.tolerance, settling.watched, out, stop)
 
     # This call compiles the kernels in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
@@ -117,9 +98,8 @@ def settle(
 def settle_many(parameters, states, start, tolerance, patience, limit, out, stop):
     """Run each motion until it has settled or is certainly chaotic, for at most `limit` cycles.
 
-    The states are those at the times `start`, not after the first strobe. The records `out` are
-    filled by `watch`; their `state` receives the last state at a strobe or, for a settled motion,
-    the state on the orbit. If another thread sets `stop[0]`, the records are incomplete.
+    The states are those at the times `start`, not after the first strobe. `watch` fills the records
+    `out`, whose `state` is the last one at a strobe or on the orbit.
     """
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
@@ -185,33 +165,23 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
     stop = np.zeros(1, bool)
 
     def work(part):
-        label_many(
-            p,
-            states[part],
-            begin,
-            tolerance,
-            limit,
-            attractors.owner,
-            attractors.centre,
-            attractors.shape,
-            labels[part],
-            periods[part],
-            stop,
-        )
+        here = states[part], labels[part], periods[part]
+        label_many(p, begin, tolerance, limit, attractors[1:], *here, stop)
 
     # This call compiles the kernel in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
-    ensemble.run_chunks(work, len(states), workers, progress, stop, size=LABELLED)
+    run_chunks(work, len(states), workers, progress, stop, size=LABELLED)
     return labels, periods
 
 
 @kernel
-def label_many(p, states, begin, tolerance, limit, owner, centre, shape, labels, periods, stop):
+def label_many(p, begin, tolerance, limit, neighbourhoods, states, labels, periods, stop):
     """Label states of the free oscillator by the orbit whose neighbourhood their motions enter.
 
     `states` are Z1 and Z1' at the time `begin`, at most a forcing cycle before the first strobe.
     `labels` and `periods` receive the results of `label_states`.
     """
+    owner, centre, shape = neighbourhoods
     size = min(len(states), RESIDENT)
     pool = make_pool(size)
     chosen, arrived = np.empty(LANES, np.int64), np.empty(LANES, np.int64)
@@ -232,9 +202,8 @@ def label_many(p, states, begin, tolerance, limit, owner, centre, shape, labels,
             if label != UNKNOWN or strobes[m] == limit:
                 labels[i], periods[i] = label, strobes[m]
                 left -= 1
-                take_state(
-                    pool, m, following, p, states, begin, first, tolerance, y, taken, strobes
-                )
+                new = following
+                take_state(pool, m, new, p, states, begin, first, tolerance, y, taken, strobes)
                 following += 1
             else:
                 strobes[m] += 1

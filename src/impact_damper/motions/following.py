@@ -26,10 +26,7 @@ RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two orbits on the way to a value of the parameter, and how following ended.
-
-    `status` is what the correction returned for the last attempted step.
-    """
+    """The last two orbits on the way to a value, and the status of the last correction."""
 
     values: tuple[float, float]
     orbits: tuple
@@ -48,10 +45,7 @@ class Followed(NamedTuple):
 
 
 class StrobeOrbit(NamedTuple):
-    """State of an orbit at the strobe, shape (4,), and its dominant Floquet multiplier.
-
-    The imaginary part of the multiplier is not negative.
-    """
+    """State of an orbit at the strobe, shape (4,), and its dominant Floquet multiplier."""
 
     state: np.ndarray
     multiplier: complex
@@ -72,12 +66,11 @@ def follow(
     """Follow an orbit from one value of a parameter to another, or as far as it goes.
 
     `correct` takes a value and a predicted state (4,), and returns an orbit with the attribute
-    `state`, or None if it fails, and a status. The first step leads from `start` to `target`. A
+    `state`, or None if it fails, and a status. The first step leads from `start` to `target`; a
     step grows by the factor `growth` after success. It fails also if Z1, Z1' or Z2 changes by
     `reach` or more, since it may have led to another orbit. Following stops when half of a failed
-    step is shorter than `shortest`. The prediction is extrapolated from the last two orbits if
-    `extrapolating`, otherwise it is the last state. `behind` is the orbit at 2 start - target, if
-    known.
+    step is shorter than `shortest`. The prediction is the last state, if `extrapolating`
+    extrapolated from the last two. `behind` is the orbit at 2 start - target, if known.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -109,10 +102,9 @@ def extrapolate(state, before, ratio):
 def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -> tuple:
     """Follow a stable orbit while the parameter of an index changes to a target value, if possible.
 
-    Following stops where the orbit becomes unstable, or where it repeats after fewer cycles; this
-    value is located with the accuracy `resolution`. Return the packed parameters and the
-    `StrobeOrbit` of the last orbit. The parameter equals the target exactly if this was reached;
-    the multiplier is NaN if no orbit was found near the given state.
+    Following stops where the orbit becomes unstable or repeats after fewer cycles, located with the
+    accuracy `resolution`. Return the packed parameters, with exactly the target if it was reached,
+    and the last `StrobeOrbit`, whose multiplier is NaN if there is no orbit near the given state.
     """
     # Records hold periods as two-byte integers; for these numba would compile the kernels again.
     periods = int(periods)
@@ -138,9 +130,6 @@ def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -
 
 
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
-    """Return the record of a stable orbit followed to a value, or None if it ends before.
-
-    The arguments are as in `follow_stable`; `tolerance` is that of the measurement.
-    """
+    """Return the record of an orbit that `follow_stable` follows to a value, None if it ends."""
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

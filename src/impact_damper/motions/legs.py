@@ -30,10 +30,9 @@ class Stopped(Exception):
 def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
     """Run a motion until it is near a stable orbit, at most `limit` strobes beyond the first one.
 
-    The state y (4,) lies `ahead` forcing cycles before the strobe number `strobe`, and is replaced
-    by the last state. Return a row for the beginning and for each strobe, shape (m, 5): the number
-    of the strobe and the state; and the `records.MOTION`, measured if the motion settled. If
-    another thread sets `stop[0]`, `Stopped` is raised.
+    The state y (4,), `ahead` forcing cycles before the strobe number `strobe`, is replaced by the
+    last state. Return a row for the beginning and for each strobe, shape (m, 5): the number of the
+    strobe and the state; and the `records.MOTION`, measured if the motion settled.
     """
     records, path = np.zeros(1, MOTION), np.empty((limit + 2, 5))
     out = records[0]
@@ -59,11 +58,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Do the part of `run` from strobe `first` to the strobe before `last`.
-
-    Return the wall in contact, and the distance from an orbit at which Newton's method is tried
-    next.
-    """
+    """Do the part of `run` from strobe `first` to the one before `last`; return side and `near`."""
     work = workspace()
     none = np.empty((0, 4))
     for k in range(first, last):
@@ -87,11 +82,7 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
-    """Wait `wait` forcing cycles from a strobe, switch the damper, and return the result of `run`.
-
-    `before` and `after` are the packed parameters before and after the switching; `place` is as in
-    `wait_and_switch`. The state y at the strobe number `strobe` is replaced by the last state.
-    """
+    """Do `wait_and_switch` from the strobe number `strobe`, and return the result of `run`."""
     wait_and_switch(before, after, y, wait, place, tolerance)
     return run(after, y, 1.0 - wait % 1.0, strobe + math.floor(wait) + 1.0, tolerance, limit, stop)
 
@@ -99,8 +90,8 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
 def wait_and_switch(before, after, y, wait, place, tolerance):
     """Run from a strobe for `wait` forcing cycles, and switch the damper; return the time.
 
-    When it is switched on, the loose mass is at rest relative to the primary mass, with Z2 at
-    `place` times the clearance.
+    `before` and `after` are the packed parameters. When the damper is switched on, the loose mass
+    is at rest relative to the primary mass, with Z2 at `place` times the clearance.
     """
     t = strobe_time(before)
     end = t + wait * 2.0 * math.pi / before[FREQUENCY]
@@ -115,8 +106,8 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
     """Wait, switch the damper on, and off as soon as the state lies in the set `releases`.
 
-    Return rows as `run` does, for the switching on, each strobe, and the switching off, at the
-    latest `longest` forcing cycles later. y is replaced by the free state after it.
+    Return rows as `run` does, for the switching on, each strobe, and the switching off, at most
+    `longest` forcing cycles later. y is replaced by the free state after it.
     """
     begin = wait_and_switch(off, on, y, wait, place, tolerance)
     path = np.full((longest + 2, 5), np.nan)
@@ -135,10 +126,7 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
 
 @kernel
 def depth_of(depth, half, phase, x, v):
-    """Return the depth of the state (x, v) at the phase of an index, minus infinity off the grid.
-
-    `depth` and `half` are the attributes of a `ReleaseSet`.
-    """
+    """Return the `depth` of a `ReleaseSet` at a state (x, v), minus infinity off the grid."""
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf
     cells = depth.shape[1]
@@ -154,11 +142,9 @@ def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, wo
     `rule` is a kind, a number n of forcing cycles, and the index of a phase. HOLD releases after n
     cycles, PHASE at the first such phase after n cycles, SETTLED at the fraction `draw` of a period
     after the states at the strobes repeat, STATE as soon as the state lies inside the release set
-    (`depth` and `half`, attributes of a `ReleaseSet`), or after n cycles. Each of the first strobes
-    fills a row of `path`, shape (m, 5): forcing cycles since `begin`, and the state.
-
-    Return the time of the end, whether the rule released within `limit` forcing cycles, and the
-    number of contacts begun.
+    (`depth` and `half` of a `ReleaseSet`), or after n cycles. The first strobes fill the rows of
+    `path` (m, 5): forcing cycles since `begin`, and the state. Return the time of the end, whether
+    the rule released within `limit` forcing cycles, and the number of contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

@@ -34,12 +34,9 @@ MARGIN = 10
 SAMPLES = 40
 # Two free motions are the same if their max |Z1| differs by less than ALIKE.
 ALIKE = 1e-6
-# One entry of a log: the damper is switched on and off once. Times are in forcing cycles from the
-# first strobe.
-# on_time, off_time: times at which the damper is switched on and off.
-# end_time: time at which the free motion after `off_time` has settled.
-# released_*: period and max |Z1| of the motion with the damper.
-# destination: flag (`FREE_MOTION`) of the free motion to which the release leads.
+# One entry of a log: the damper is switched on and off once, and at `end_time` the free motion has
+# settled. Times are in forcing cycles from the first strobe. released_*: the motion with the
+# damper; destination: flag (`FREE_MOTION`) of the free motion afterwards.
 SWITCHING = np.dtype(
     [
         ("on_time", "f8"),
@@ -155,8 +152,8 @@ def migrate(
 def _free_motion(oscillator, frequency, start, which, settling):
     """Return the record of a free motion of period 1 at a frequency, or None.
 
-    At the frequency `start` a run begins with the state of the harmonic-balance solution number
-    `which`, by ascending amplitude, and settles. From there the motion is followed to `frequency`.
+    It is followed from the frequency `start`, where a run begins with the harmonic-balance solution
+    number `which`, by ascending amplitude.
     """
     p = pack(oscillator, None, start)
     free = main_solutions(oscillator, start)
@@ -171,10 +168,9 @@ def _free_motion(oscillator, frequency, start, which, settling):
 def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     """Return the `ReleaseCase` of a damper; ValueError without both free motions of period 1.
 
-    With a hardening spring the resonance motion ends at a fold at a higher frequency, and the
-    non-resonance motion at a fold at a lower frequency. Therefore the resonance motion is followed
-    upward in frequency and the non-resonance motion downward. With a softening spring both
-    directions are reversed.
+    With a hardening spring the resonance motion ends at a higher frequency and the non-resonance
+    motion at a lower one, so they are followed upward and downward; with a softening spring the
+    other way round.
     """
     on, off = pack(oscillator, damper, frequency), pack(oscillator, None, frequency)
     above = min(1.1 * frequency, FREQUENCY_RANGE["most"])
@@ -182,12 +178,8 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     ends = (above, below) if oscillator.hardening >= 0 else (below, above)
     goal = _free_motion(oscillator, frequency, ends[0], 0, settling)
     resonance = _free_motion(oscillator, frequency, ends[1], -1, settling)
-    known = np.array(
-        [
-            np.nan if record is None else record["maximum_displacement"]
-            for record in (goal, resonance)
-        ]
-    )
+    found = goal, resonance
+    known = np.array([np.nan if each is None else each["maximum_displacement"] for each in found])
     if not known[0] + ALIKE < known[1]:
         told = oscillator.scales.told("frequency", frequency, "frequency")
         raise ValueError(
@@ -201,8 +193,7 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 def kinds(period, displacement, known):
     """Return flags (`DAMPED_MOTION`) that classify motions by period and max |Z1|, arrays.
 
-    A motion of period 1 is quiet if its max |Z1| is below half the max |Z1| of the free resonance
-    motion.
+    A motion of period 1 is quiet if its max |Z1| is below half that of the free resonance motion.
     """
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
@@ -222,23 +213,19 @@ def destination(known, record):
 
 
 def draw(seed, switchings):
-    """Return the random numbers of one run, shape (switchings, 3), uniform between 0 and 1.
-
-    A larger number of switchings adds rows at the end and leaves the others as they are.
-    """
+    """Return the random numbers of one run, shape (switchings, 3), uniform between 0 and 1."""
     return np.random.default_rng(seed).random((switchings, 3))
 
 
 def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """Return path and log of one run of the controller.
 
-    A row of `draws`, from `draw`, holds the phase at which the damper is switched on, the place of
-    the loose mass in the gap at this time, and the phase at which the damper is switched off. A
-    phase is a fraction of the period of the motion before the switching. `releases` is a
-    `ReleaseSet` for release by state, or None.
-
-    The path has a row for each strobe and each switching, shape (m, 5): forcing cycles from the
-    first strobe, then the state. The log has a SWITCHING for each row of `draws`.
+    A row of `draws` holds the phase at which the damper is switched on, the place of the loose mass
+    in the gap at this time, and the phase at which the damper is switched off. A phase is a
+    fraction of the period of the motion before the switching. `releases` is a `ReleaseSet` for
+    release by state, or None. The path has a row for each strobe and each switching, shape (m, 5):
+    forcing cycles from the first strobe, then the state. The log has a SWITCHING for each row of
+    `draws`.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit
@@ -280,8 +267,8 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
 def course(case, path, log, tolerance):
     """Return times T and Z1 along a run, with MARGIN forcing cycles before and after the run.
 
-    Each interval between two rows of the path is integrated from the state in the path. From the
-    first state alone the error would grow in chaotic parts until the result differs from the run.
+    Each interval between two rows of the path is integrated from its state in the path, because
+    errors grow in chaotic parts.
     """
     period = 2 * np.pi / case.on[FREQUENCY]
     path = np.vstack([np.append(-MARGIN, case.state), path])
@@ -292,16 +279,10 @@ def course(case, path, log, tolerance):
     switched = np.stack([log["on_time"], log["off_time"]], axis=-1).ravel()
     damped = np.searchsorted(switched, (path[:, 0] + ends) / 2) % 2 == 1
     cuts = np.searchsorted(cycles, np.append(path[:, 0], ends[-1]))
-    parts = [
-        states_at(
-            case.on if on else case.off,
-            row[1:],
-            (row[0] + 0.25) * period,
-            times[first:last],
-            tolerance,
-        )
-        for row, on, first, last in zip(path, damped, cuts, cuts[1:], strict=False)
-    ]
+    parts = []
+    for row, on, first, last in zip(path, damped, cuts, cuts[1:], strict=False):
+        p, begin = case.on if on else case.off, (row[0] + 0.25) * period
+        parts.append(states_at(p, row[1:], begin, times[first:last], tolerance))
     return times, np.concatenate(parts)[:, 0]
 
 
@@ -316,10 +297,7 @@ def switching_data(logs, case):
 
 
 def run_totals(logs):
-    """Return a dict of dataset variables of whole runs, whose times are in forcing cycles.
-
-    The totals count from the moment at which the damper is first switched on.
-    """
+    """Return a dict of dataset variables of whole runs, in cycles from the first `on_time`."""
     first = logs["on_time"][..., 0]
     reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
     return {

@@ -12,8 +12,8 @@ from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.kernel.single import X, assign, polynomial, side_of, step, workspace
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
-from impact_damper.motions.strobe_map import distance, speed_weight, strobe_time
-from impact_damper.motions.traces import series_of_step
+from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
+from impact_damper.motions.traces import record_beginning, series_of_step
 
 # A harmonic below PHASELESS times the harmonic of Z1 is a rounding error, so it has no phase.
 PHASELESS = 1e-9
@@ -76,9 +76,8 @@ MOTION = np.dtype(
 def extremum(c, order, length, start):
     """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
 
-    The polynomial exceeds the larger of its values at the two ends by at most length^2/8 times a
-    bound on its second derivative, which in most calls shows that `start` or an end is largest.
-    Otherwise Newton's method locates the turning point in each of PIECES pieces.
+    In most calls a bound shows that `start` or an end is largest: length^2/8 times a bound on the
+    second derivative. Otherwise Newton's method locates the turning point in each of PIECES pieces.
     """
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)
@@ -116,59 +115,87 @@ def turning_time(c, order, begin, end, first, last):
     return t
 
 
+@kernel
+def survey(p, states, phases, times, tolerance, log, sums):
+    """Record contacts, the largest |Z1| and first harmonics of a motion in segments.
+
+    `states` (m, 4) at the beginnings of the segments are replaced by the states at their ends;
+    `phases` and `times` (m + 1,) are W T and T at the beginnings and at the last end. `log` (n, 5)
+    receives the first n contacts, as from `traces.trace`; `sums` (2, 2) real and imaginary part of
+    the mean of 2 exp(-i W T) Z1 and 2 exp(-i W T) Z2, from SAMPLES samples in a forcing cycle.
+    Return the number of contacts and the largest |Z1|.
+    """
+    work, start = workspace(), np.empty(4)
+    frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
+    sample = math.ceil((phases[0] - STROBE) / spacing)
+    last = sample + round((phases[-1] - phases[0]) / spacing)
+    weight, contacts, largest = 2.0 / (last - sample), 0, 0.0
+    for i in range(2):
+        sums[i, 0] = sums[i, 1] = 0.0
+    for k in range(len(states)):
+        y, t, end = states[k], times[k], times[k + 1]
+        side, largest = side_of(p, y), max(largest, abs(y[0]))
+        while t < end:
+            assign(start, y)
+            before = side
+            order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
+            length, side = step(p, y, side, t, end - t, tolerance, work)
+            largest = extremum(work[X:], order, length, largest)
+            ahead = end if length >= end - t else t + length
+            final = k == len(states) - 1 and ahead == end
+            while sample < last and (final or STROBE + sample * spacing < ahead * frequency):
+                phase = STROBE + sample * spacing
+                x, _, z, _ = series_of_step(work, before, start, phase / frequency - t)
+                z += before * p[CLEARANCE] if before != 0 else 0.0
+                cosine, sine = weight * math.cos(phase), weight * math.sin(phase)
+                sums[0, 0] += x * cosine
+                sums[0, 1] -= x * sine
+                sums[1, 0] += z * cosine
+                sums[1, 1] -= z * sine
+                sample += 1
+            t = ahead
+            if before == 0 and side != 0:
+                contacts = record_beginning(log, contacts, side, t, y[3])
+            elif before != 0 and side == 0 and 0 < contacts <= len(log):
+                log[contacts - 1, 2], log[contacts - 1, 4] = t, y[3]
+    return contacts, largest
+
+
 @inlined
-def measure_one(p, y, periods, tolerance, out, stop):
-    """Do the same as `measure` for one motion and a given number of forcing cycles."""
-    work = workspace()
-    period = 2.0 * math.pi / p[FREQUENCY]
-    begin = strobe_time(p)
-    end = begin + periods * period
-    spacing = period / SAMPLES
-    start = y.copy()
-    state = y.copy()
-    half = begin + 0.5 * periods * period if periods % 2 == 1 else math.inf
-    side = side_of(p, y)
-    largest, contacts, t, sample = abs(y[0]), 0, begin, 0
-    first, second = 0.0j, 0.0j
+def measure_one(p, periods, tolerance, out):
+    """Complete one record over `periods` forcing cycles, if their number is odd in two halves."""
+    halves = 1 + periods % 2
+    y = out.state.copy().reshape(1, 4)
+    log, sums = np.empty((0, 5)), np.empty((2, 2))
+    phases, times = np.full(2, STROBE), np.full(2, strobe_time(p))
+    largest, contacts, first, second = 0.0, 0, 0.0j, 0.0j
     out.asymmetry = np.nan
-    while t < end and not stop[0]:
-        ahead = min(end, half) if t < half else end
-        assign(start, state)
-        before = side
-        length, side = step(p, state, side, t, ahead - t, tolerance, work)
-        order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
-        largest = extremum(work[X:], order, length, largest)
-        contacts += before == 0 and side != 0
-        while begin + sample * spacing < t + length and sample < periods * SAMPLES:
-            x, _, z, _ = series_of_step(work, before, start, begin + sample * spacing - t)
-            z += before * p[CLEARANCE] if before != 0 else 0.0
-            angle = p[FREQUENCY] * (begin + sample * spacing)
-            turn = complex(math.cos(angle), -math.sin(angle))
-            first += x * turn
-            second += z * turn
-            sample += 1
-        t = ahead if length >= ahead - t else t + length
-        if t == half:
-            out.asymmetry = distance(-state, y, speed_weight(p, side))
-    if has_escaped(p, state[0], state[1]):
+    for half in range(halves):
+        phases[0], times[0] = phases[1], times[1]
+        cycles = periods * (half + 1.0) / halves
+        phases[1] = STROBE + cycles * 2.0 * math.pi
+        times[1] = strobe_time(p) + cycles * (2.0 * math.pi / p[FREQUENCY])
+        begun, most = survey(p, y, phases, times, tolerance, log, sums)
+        contacts, largest = contacts + begun, max(largest, most)
+        first += complex(sums[0, 0], sums[0, 1]) / halves
+        second += complex(sums[1, 0], sums[1, 1]) / halves
+        if half == 0 and halves == 2:
+            out.asymmetry = distance(-y[0], out.state, speed_weight(p, side_of(p, y[0])))
+    if has_escaped(p, y[0, 0], y[0, 1]):
         measure_nothing(out)
         out.outcome = ESCAPED
         return
     out.maximum_displacement = largest
     out.contacts = contacts / periods
-    out.harmonic_displacement = first * (2.0 / sample)
-    out.harmonic_relative = second * (2.0 / sample)
+    out.harmonic_displacement, out.harmonic_relative = first, second
 
 
 @inlined
 def measure_nothing(out):
     """Fill the measurements of a motion that diverges or escapes."""
-    out.maximum_displacement = np.inf
-    out.contacts, out.asymmetry = np.nan, np.nan
-    out.harmonic_displacement, out.harmonic_relative = (
-        complex(np.nan, np.nan),
-        complex(np.nan, np.nan),
-    )
+    nothing = complex(np.nan, np.nan)
+    out.maximum_displacement, out.contacts, out.asymmetry = np.inf, np.nan, np.nan
+    out.harmonic_displacement, out.harmonic_relative = nothing, nothing
 
 
 @kernel
@@ -178,16 +205,17 @@ def measure(parameters, tolerance, watched, out, stop):
     A motion is integrated over its `period`, or over `watched` forcing cycles if its period is 0.
     One that has diverged or escaped gets an infinite displacement. Asymmetry is the distance
     between the mirrored first state and the state after half the measured time, NaN for an even
-    number of cycles. The harmonics are complex amplitudes c of Re(c exp(i W T)), from SAMPLES
-    samples in a forcing cycle. When another thread sets `stop[0]`, the remaining records are not
-    completed.
+    number of cycles. The harmonics are complex amplitudes c of Re(c exp(i W T)). If another thread
+    sets `stop[0]`, the remaining records are not completed.
     """
     for i in range(len(out)):
+        if stop[0]:
+            break
         if out[i].outcome == DIVERGED or out[i].outcome == ESCAPED:
             measure_nothing(out[i])
         else:
-            periods = out[i].period if out[i].period > 0 else watched
-            measure_one(parameters[i], out[i].state.copy(), periods, tolerance, out[i], stop)
+            periods = np.int64(out[i].period) if out[i].period > 0 else watched
+            measure_one(parameters[i], periods, tolerance, out[i])
 
 
 def measured(p, y, periods, tolerance):
@@ -199,10 +227,7 @@ def measured(p, y, periods, tolerance):
 
 
 def phase_of(harmonic, reference):
-    """Return the phases (radian) of harmonics relative to the phases of `reference`.
-
-    The phase is NaN where `reference` is a rounding error (PHASELESS).
-    """
+    """Return the phases of harmonics relative to `reference`, NaN if it is a rounding error."""
     phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
     return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
 
@@ -223,46 +248,53 @@ def envelope(parameters, lengths, y, tolerance):
     """Run a motion through windows of time (n,), each with its packed parameters (n, COUNT).
 
     Return the largest |Z1| and the number of contacts begun in each window; where the motion
-    escapes they are infinite and NaN, afterwards NaN. The state y is replaced by the last one. The
-    kernel of a step requires a fixed frequency, so in a sweep it changes at the strobe, where the
-    force is zero: each window begins at the strobe, and with forcing its length is a forcing cycle.
+    escapes they are infinite and NaN, afterwards NaN. The state y is replaced by the last one. A
+    step needs a fixed frequency, so in a sweep it changes at the strobe, where the force is zero:
+    each window begins at the strobe, and with forcing its length is a forcing cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)
     for first in range(0, len(lengths), AT_ONCE):
         part = slice(first, first + AT_ONCE)
-        side, escaped = run_windows(
+        side = run_windows(
             parameters[part], lengths[part], y, side, tolerance, largest[part], contacts[part]
         )
-        if escaped:
+        if np.isinf(largest[part]).any():
             break
     return largest, contacts
 
 
+@kernel_only
+def run_window(p, y, side, length, largest, tolerance, work):
+    """Run a motion in place from the strobe for a time `length`.
+
+    Return the wall in contact, the larger of max |Z1| and `largest`, infinite after an escape, and
+    the number of contacts begun.
+    """
+    t, begun = strobe_time(p), 0
+    end = t + length
+    while t < end:
+        before = side
+        taken, side = step(p, y, side, t, end - t, tolerance, work)
+        order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
+        largest = extremum(work[X:], order, taken, largest)
+        begun += before == 0 and side != 0
+        t = end if taken >= end - t else t + taken
+    return side, math.inf if has_escaped(p, y[0], y[1]) else largest, begun
+
+
 @kernel
 def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
-    """Fill `largest` and `contacts` of `envelope`.
-
-    Return the wall in contact, and whether the motion escaped.
-    """
+    """Fill `largest` and `contacts` of `envelope` up to an escape; return the wall in contact."""
     work = workspace()
     for k in range(len(lengths)):
-        p = parameters[k]
-        t = strobe_time(p)
-        end = t + lengths[k]
-        farthest, begun = abs(y[0]), 0
-        while t < end:
-            before = side
-            length, side = step(p, y, side, t, end - t, tolerance, work)
-            if has_escaped(p, y[0], y[1]):
-                largest[k] = np.inf
-                return side, True
-            order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
-            farthest = extremum(work[X:], order, length, farthest)
-            begun += before == 0 and side != 0
-            t = end if length >= end - t else t + length
-        largest[k], contacts[k] = farthest, begun
-    return side, False
+        side, largest[k], begun = run_window(
+            parameters[k], y, side, lengths[k], abs(y[0]), tolerance, work
+        )
+        if largest[k] == math.inf:
+            break
+        contacts[k] = begun
+    return side
 
 
 @kernel
@@ -273,19 +305,9 @@ def follow_peaks(parameters, states, periods, tolerance, largest, stop):
     """
     work = workspace()
     for i in range(len(states)):
-        p, y = parameters[i], states[i].copy()
-        side = side_of(p, y)
+        p, y = parameters[i], states[i]
+        side, cycle = side_of(p, y), 2.0 * math.pi / p[FREQUENCY]
         for _ in range(periods):
             if stop[0] or largest[i] == math.inf:
                 break
-            t = strobe_time(p)
-            end = t + 2.0 * math.pi / p[FREQUENCY]
-            while t < end:
-                before = side
-                length, side = step(p, y, side, t, end - t, tolerance, work)
-                order = FLIGHT_ORDER if before == 0 else CONTACT_ORDER
-                largest[i] = extremum(work[X:], order, length, largest[i])
-                t = end if length >= end - t else t + length
-            if has_escaped(p, y[0], y[1]):
-                largest[i] = math.inf
-        assign(states[i], y)
+            side, largest[i], _ = run_window(p, y, side, cycle, largest[i], tolerance, work)

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.data.datasets import dataset, flag, is_settled, named
 from impact_damper.data.shares import escape_rate
 from impact_damper.model.arguments import (
     read_forced,
@@ -58,12 +58,8 @@ def steady_motion(
     damper : Damper, MachineDamper or None
     frequency : float
         Forcing frequency W, or Hz for a machine.
-    state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
-        Z1, Z1', Z2, Z2' at time `start`, or a state of a dataset, which has its phase as a
-        coordinate.
-    start : float, optional
-        Time of the state, dimensionless. The default is the time of the phase of the state, or 0 if
-        the state has no phase.
+    state, start
+        As in `simulate`.
     settling : Settling, optional
 
     Returns
@@ -74,11 +70,6 @@ def steady_motion(
         multiplier, Lyapunov exponent, and the frequencies of a quasi-periodic motion. `state` is a
         state of the motion at W T = pi/2. It has this phase as a coordinate, so `simulate` and this
         function can continue from it, for example at the next frequency of a sweep.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is out of range; the message names it.
 
     Examples
     --------
@@ -98,12 +89,8 @@ def steady_motion(
     begin = before_strobe(start, model.frequency)
     record = ensemble.settle(p[None], y[None], settling, start=begin)[0]
     data = {name: ((), value) for name, value in tabulate(record).items()}
-    data["state"] = (("component",), record["state"])
-    data |= {"state_phase": STROBE}
-    parameters = model.describe(settling) | {
-        "state": y.tolist(),
-        "start": start,
-    }
+    data |= {"state": (("component",), record["state"]), "state_phase": STROBE}
+    parameters = model.describe(settling) | {"state": y.tolist(), "start": start}
     coordinates = {"component": list(COMPONENTS), "frequency": ((), model.frequency)}
     return dataset(data, coordinates, parameters, "Steady motion of the oscillator", model)
 
@@ -116,20 +103,16 @@ def before_strobe(start, frequency) -> float:
 
 
 def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None):
-    """Return samples of one period of the steady motion that a state leads to, as `simulate` does.
+    """Return one period of the steady motion that a state leads to, from W T = pi/2 on.
 
-    The period begins at W T = pi/2, with `samples` in a forcing cycle. ArithmeticError if the
-    motion does not settle, escapes, or comes to rest.
+    The dataset is as from `simulate`. ArithmeticError if the state leads to no periodic orbit.
     """
     settling = check_settling(settling)
     steady = steady_motion(system, damper, frequency, state, settling=settling)
-    for name in ("escaped", "at_rest", "drifting", "quasi_periodic"):
-        if steady["outcome"] == flag("outcome", name):
-            raise ArithmeticError(f"{name}: the state leads to no periodic orbit; use simulate")
     if not is_settled(steady):
         raise ArithmeticError(
-            f"settling.limit = {settling.limit}: the motion has not settled within this number of "
-            "forcing cycles; a larger limit lets it run longer; steady_motion returns its outcome"
+            f"{named(steady, 'outcome')}: the state has led to no periodic orbit within "
+            f"settling.limit = {settling.limit} forcing cycles; use simulate"
         )
     return simulate(
         system,
@@ -224,26 +207,12 @@ def frequency_response(
     parameters = np.array([model.pack(value) for value in frequencies])
     systems = [(model.damper, value) for value in frequencies]
     search = search_starts(model.oscillator, systems, starts, radius, seed, settling)
-    data = sweep(
-        parameters,
-        FREQUENCY,
-        "frequency",
-        search,
-        settling,
-        workers=workers,
-        progress=progress,
-    )
-    lives = find_lives(
-        parameters,
-        data["outcome"][1],
-        data["state"][1],
-        check_count("life_runs", life_runs, least=0, most=1000),
-        check_count("life_periods", life_periods, **LIFETIME_RANGE),
-        seed,
-        settling,
-        workers=workers,
-        progress=progress,
-    )
+    runs = check_count("life_runs", life_runs, least=0, most=1000)
+    cycles = check_count("life_periods", life_periods, **LIFETIME_RANGE)
+    running = {"workers": workers, "progress": progress}
+    data = sweep(parameters, FREQUENCY, "frequency", search, settling, **running)
+    found = data["outcome"][1], data["state"][1]
+    lives = find_lives(parameters, *found, runs, cycles, seed, settling, **running)
     data |= {name: (("frequency", "motion"), values) for name, values in lives.items()}
     made = model.describe(settling) | describe_search(starts, radius, seed)
     made |= {"life_runs": life_runs, "life_periods": life_periods}
@@ -254,9 +223,8 @@ def frequency_response(
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
     """Return the lives of the chaotic motions of a sweep, registered variables of shape (n, m).
 
-    `outcomes` (n, m) are flags of the motions at each row of the packed `parameters`, and `states`
-    (n, m, 4) their states at the strobe. Each chaotic motion is run `runs` times for `periods`
-    forcing cycles. `running` are `workers` and `progress` of `ensemble.settle`.
+    `outcomes` (n, m) and `states` (n, m, 4), at the strobe, are those of the motions at each row of
+    the packed `parameters`. Each chaotic motion is run `runs` times for `periods` forcing cycles.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}
@@ -286,18 +254,9 @@ def _lives(parameters, states, periods, settling, **running):
 
     def work(part):
         begin = 0.5 * np.pi / parameters[part, FREQUENCY]
-        # The patience exceeds the limit. Therefore no run is stopped as chaotic, and no
-        # neighbouring motion (tangent) is followed for the Lyapunov exponent.
-        settle_many(
-            parameters[part],
-            states[part],
-            begin,
-            settling.tolerance,
-            2 * periods + 2,
-            periods,
-            records[part],
-            stop,
-        )
+        # The patience exceeds the limit, so no run is stopped as chaotic, and no tangent followed.
+        settings = settling.tolerance, 2 * periods + 2, periods
+        settle_many(parameters[part], states[part], begin, *settings, records[part], stop)
 
     ensemble.run_chunks(work, len(states), running["workers"], running["progress"], stop)
     lasting = np.flatnonzero(records["outcome"] == UNRESOLVED)

@@ -1,7 +1,5 @@
 """Kernels of multiple shooting, for orbits cut into chains of segments (`orbits.segments`)."""
 
-import math
-
 import numpy as np
 
 from impact_damper.kernel.compiling import kernel
@@ -18,61 +16,13 @@ from impact_damper.kernel.single import (
 )
 from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
-from impact_damper.motions.records import PIECES, SAMPLES, extremum, turning_time
-from impact_damper.motions.strobe_map import STROBE
-from impact_damper.motions.traces import record_beginning, series_of_step
+from impact_damper.motions.records import PIECES, turning_time
 
 # NUDGE       change of the parameter forward and backward in the central difference
 # BENT        largest difference of the forward and the backward difference, divided by their sum.
 #             If it is larger, a contact has appeared or vanished within the change.
 # FINE_NUDGE  change of the parameter in this case
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
-
-
-@kernel
-def survey(p, states, phases, tolerance, log, sums):
-    """Record contacts, the largest |Z1| and first harmonics of a motion in segments.
-
-    `states` (m, 4) at the beginnings of the segments are replaced by the states at their ends;
-    `phases` (m + 1,) are W T at the beginnings and at the last end. `log` (n, 5) receives the first
-    n contacts, as from `traces.trace`; `sums` (2, 2) real and imaginary part of the mean of 2
-    exp(-i W T) Z1 and 2 exp(-i W T) Z2, from SAMPLES samples in a forcing cycle. Return the number
-    of contacts and the largest |Z1|.
-    """
-    work, start = workspace(), np.empty(4)
-    frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
-    sample = math.ceil((phases[0] - STROBE) / spacing)
-    last = sample + round((phases[-1] - phases[0]) / spacing)
-    weight, contacts, largest = 2.0 / (last - sample), 0, 0.0
-    for i in range(2):
-        sums[i, 0] = sums[i, 1] = 0.0
-    for k in range(len(states)):
-        y, t, end = states[k], phases[k] / frequency, phases[k + 1] / frequency
-        side, largest = side_of(p, y), max(largest, abs(y[0]))
-        while t < end:
-            assign(start, y)
-            before = side
-            order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
-            length, side = step(p, y, side, t, end - t, tolerance, work)
-            largest = extremum(work[X:], order, length, largest)
-            ahead = end if length >= end - t else t + length
-            final = k == len(states) - 1 and ahead == end
-            while sample < last and (final or STROBE + sample * spacing < ahead * frequency):
-                phase = STROBE + sample * spacing
-                x, _, z, _ = series_of_step(work, before, start, phase / frequency - t)
-                z += before * p[CLEARANCE] if before != 0 else 0.0
-                cosine, sine = weight * math.cos(phase), weight * math.sin(phase)
-                sums[0, 0] += x * cosine
-                sums[0, 1] -= x * sine
-                sums[1, 0] += z * cosine
-                sums[1, 1] -= z * sine
-                sample += 1
-            t = ahead
-            if before == 0 and side != 0:
-                contacts = record_beginning(log, contacts, side, t, y[3])
-            elif before != 0 and side == 0 and contacts <= len(log):
-                log[contacts - 1, 2], log[contacts - 1, 4] = t, y[3]
-    return contacts, largest
 
 
 @kernel

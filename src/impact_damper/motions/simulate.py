@@ -19,13 +19,7 @@ from impact_damper.motions import traces
 # Largest number of samples of a motion, which stay in memory.
 MOST_SAMPLES = 10**7
 COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_velocity")
-CONTACT = (
-    "contact_wall",
-    "contact_begin",
-    "contact_end",
-    "approach_velocity",
-    "departure_velocity",
-)
+CONTACT = "contact_wall contact_begin contact_end approach_velocity departure_velocity".split()
 
 
 def random_states(count, radius, damper, seed, *, within_gap=True):
@@ -33,8 +27,7 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
 
     Without a damper they are drawn from a disk of (Z1, Z1'), with Z2 = Z1 and Z2' = Z1'. If
     `within_gap`, states with |Z2| beyond the clearance are drawn again, because the contact spring
-    would store a large energy; the radius is then at most 1000 clearances. The seed is an int or a
-    sequence of int. ValueError if an argument is out of range.
+    would store a large energy. The seed is an int or a sequence of int.
     """
     check_count("count", count, least=0, most=10**8)
     check_number("radius", radius, **RADIUS_RANGE)
@@ -97,14 +90,8 @@ def simulate(
         - Over `time`: the state.
         - Over `contact`: wall (1 or -1, the sign of Z2), beginning and end of each contact, and Z2'
           at the beginning and the end. An end after the last sample is NaN.
-        - With a softening spring also the scalar `escape_time`. After this time the motion has
-          crossed a barrier of the spring and reaches infinity in a finite time, and the state is
-          NaN. Without an escape `escape_time` is NaN.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is out of range; the message names it.
+        - With a softening spring the scalar `escape_time`, or NaN. After this time the motion has
+          crossed a barrier of the spring and reaches infinity in a finite time; the state is NaN.
 
     Examples
     --------

@@ -3,14 +3,12 @@
 With a radius all starts are random and uniform in a ball, as in the paper (section 3, iii). Without
 it the range is scaled by the free motions at the frequency, and the starts are of two kinds:
 
-- random: the state of the primary mass has a random direction, and its size goes up to SPREAD times
-  these scales. Sizes are distributed evenly on a logarithmic scale, so that small and large motions
-  are found equally well.
+- random: the state of the primary mass has a random direction and a size up to SPREAD times these
+  scales, distributed evenly on a logarithmic scale.
 - placed: the primary mass on each free motion and at rest, with the loose mass at several places
-  and with several velocities; the solutions of harmonic balance with contacts; and the ends of slow
-  ramps of the frequency and of the force. On a ramp a motion stays on its branch, so ramps find the
-  violent motions of weakly damped machines, whose basins are so small that hardly any random start
-  lies in them.
+  and velocities; the solutions of harmonic balance with contacts; and the ends of slow ramps of the
+  frequency and of the force. Ramps find the violent motions of weakly damped machines, in whose
+  small basins hardly any random start lies.
 """
 
 import math
@@ -36,36 +34,24 @@ from impact_damper.theory.single_harmonic import impacting_solutions
 PHASES, SAMPLES, MOST_STATES = 6, 256, 5
 # SPREAD    size of the largest random start divided by the size of the largest free motion
 # SMALLEST  size of the smallest random start divided by the size of the largest
-SPREAD = 3.0
-SMALLEST = 0.01
-# Placed starts:
-# PLACES      Z2 divided by the clearance
-# VELOCITIES  Z2' divided by the larger of two speeds: the largest speed of the free motions, and
-#             the speed that crosses the gap in half a forcing cycle. With the primary mass at rest
-#             it is divided by the second speed.
-PLACES = (-2 / 3, 0.0, 2 / 3)
-VELOCITIES = (-1.0, 0.0, 1.0)
-# Search for orbits by Newton's method (`sweep.stable_orbits`):
-# LOOSE_STATES  number of states of the loose mass from which the search begins
-# LOOSE_SPEED   largest speed |Z1' - Z2'| of the loose mass in these states, divided by the larger
-#               of the two speeds of VELOCITIES
-LOOSE_STATES = 240
-LOOSE_SPEED = 2.0
+SPREAD, SMALLEST = 3.0, 0.01
+# Placed starts: Z2 divided by the clearance, and Z2' divided by the speed that crosses the gap in
+# half a forcing cycle or, with the primary mass in motion, by the largest speed of the free motions
+# if that is larger.
+PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
+# Number of states of the loose mass from which Newton's method searches for orbits
+# (`sweep.stable_orbits`), and their largest speed |Z1' - Z2'|, divided like VELOCITIES.
+LOOSE_STATES, LOOSE_SPEED = 240, 2.0
 # With a softening spring a random start has at most WITHIN times the displacement of the barrier
-# and WITHIN times the speed that reaches it: at most three quarters of the energy at the barrier.
-# With more energy than there it would cross the barrier even without forcing.
+# and the speed that reaches it, since with more energy it would cross it even without forcing.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps:
-# STEP     relative change of a parameter in one step
-# PERIODS  forcing cycles of a step
+# STEP     relative change of a parameter in one step, of PERIODS forcing cycles
 # BELOW    an upward ramp begins at most at BELOW times the frequency of the lowest fold, a downward
 #          ramp at least at the frequency of the highest fold divided by BELOW
 # RAISED   first force of a ramp divided by its last force
-STEP = 0.0125
-PERIODS = 20
-BELOW = 0.9
-RAISED = 5.0
+STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 # If none of n random starts leads to a motion, the share of starts that lead to it is, with 95 %
 # confidence, at most RULE_OF_THREE/n.
 RULE_OF_THREE = 3.0
@@ -101,8 +87,7 @@ def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
     """Return the starts of a search. If a radius is given, `warn_if_narrow` is called.
 
     `systems` is a list of a damper or None, and a frequency W. Each has `count` random starts,
-    which depend on the seed and on the index of the system: uniform in a ball of the radius, or
-    scaled by the free motions if the radius is None.
+    uniform in a ball of the radius, or scaled by the free motions if the radius is None.
     """
     if radius is None:
         rows = [
@@ -112,17 +97,10 @@ def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
     else:
         frequencies = [frequency for _, frequency in systems]
         free = warn_if_narrow(oscillator, frequencies, radius)
-        rows = [
-            (
-                random_states(count, radius, damper, [seed, i]),
-                NO_STARTS,
-                NO_LOOSE,
-                radius,
-                radius,
-                *free[w],
-            )
-            for i, (damper, w) in enumerate(systems)
-        ]
+        rows = []
+        for i, (damper, w) in enumerate(systems):
+            states = random_states(count, radius, damper, [seed, i])
+            rows.append((states, NO_STARTS, NO_LOOSE, radius, radius, *free[w]))
     random, placed, loose, *scales = zip(*rows, strict=True)
     return Search(np.array(random), list(placed), list(loose), *np.array(scales))
 
@@ -141,7 +119,7 @@ def missed_share(starts) -> float:
 def warn_if_narrow(oscillator, frequencies, radius) -> dict:
     """Return displacement and speed of the largest free motion for each frequency, by balance.
 
-    Warn if a free motion is larger or faster than the radius of the ball of starts.
+    Warn if it is larger or faster than the radius of the ball of starts.
     """
     check_number("radius", radius, **RADIUS_RANGE)
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
@@ -176,10 +154,7 @@ def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
 
 
 def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return random starts (count, 4) scaled by the free motions, and the largest |Z1| and |Z1'|.
-
-    `settling` has the settings of the runs of free motions.
-    """
+    """Return random starts (count, 4), scaled by the free motions, and largest |Z1| and |Z1'|."""
     generator = np.random.default_rng(seed)
     free = free_motions(oscillator, frequency, settling)
     crossing = 0.0 if damper is None else _crossing_speed(damper, frequency)
@@ -228,19 +203,15 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
 def ramped(oscillator, damper, frequency, tolerance) -> list:
     """Return the states at T = 0 at the ends of slow ramps, without motions that have escaped.
 
-    The upward ramp of the frequency begins below the lowest fold of the free response and at most
-    at half the frequency. The downward ramp begins above the highest fold and at least at twice the
-    frequency. The ramp of the force begins at RAISED times the force.
+    Ramps of the frequency begin below the lowest and above the highest fold of the free response,
+    and at most at half and at least at twice the frequency.
     """
     folds = [fold.frequency for fold in free_folds(oscillator)] or [frequency]
     lowest = max(BELOW * min(frequency / 2, *folds), FREQUENCY_RANGE["least"])
     highest = min(max(2 * frequency, *folds) / BELOW, FREQUENCY_RANGE["most"])
     target = pack(oscillator, damper, frequency)
-    ramps = [
-        _ramp(target, [FREQUENCY], lowest / frequency, tolerance),
-        _ramp(target, [FREQUENCY], highest / frequency, tolerance),
-        _ramp(target, list(FORCING.values()), RAISED, tolerance),
-    ]
+    ramps = [_ramp(target, [FREQUENCY], w / frequency, tolerance) for w in (lowest, highest)]
+    ramps.append(_ramp(target, list(FORCING.values()), RAISED, tolerance))
     return [state for state in ramps if np.isfinite(state).all()]
 
 
@@ -266,9 +237,8 @@ def barrier(oscillator):
 class FreeMotions(NamedTuple):
     """States and sizes of the free motions at one frequency.
 
-    `states` (k, 2) are Z1, Z1' of each motion at W T = 0, once in each forcing cycle until the
-    motion repeats, but at most MOST_STATES times. `displacement` and `speed` are the largest of all
-    motions.
+    `states` (k, 2) are Z1, Z1' at W T = 0, up to MOST_STATES of each motion. `displacement` and
+    `speed` are the largest of all motions.
     """
 
     states: np.ndarray
@@ -280,8 +250,8 @@ class FreeMotions(NamedTuple):
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
     """Find the free motions at one frequency W, by runs from rest and from harmonic balance.
 
-    These have the amplitudes of harmonic balance and of the resonance peak, each at PHASES phases.
-    The amplitude of the peak leads to motions near a fold that harmonic balance does not predict.
+    The amplitude of the resonance peak is tried too, since it leads to motions near a fold that
+    harmonic balance does not predict.
     """
     p = pack(oscillator, None, frequency)
     angles = 2 * np.pi * np.arange(PHASES) / PHASES

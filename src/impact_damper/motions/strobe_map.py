@@ -64,8 +64,8 @@ def distance(a, b, weight):
 def flow(p, state, tangents, begin, periods, half, tolerance):
     """Integrate over `periods` forcing cycles from `begin`, and half a cycle more if `half`.
 
-    The state (4,) and the tangents (n, 4) are replaced. Return the number of contacts begun and the
-    time in contact. No array is returned, because numba loses a Ctrl-C that arrives meanwhile.
+    The state (4,) and the tangents (n, 4) are replaced: if arrays were returned, numba would lose a
+    Ctrl-C that arrives meanwhile. Return the number of contacts begun and the time in contact.
     """
     period = 2.0 * math.pi / p[FREQUENCY]
     work = workspace()
@@ -80,19 +80,9 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
     return contacts, touching
 
 
-def flow_map(p, y, begin, periods, half, tolerance):
-    """Return the state after `flow`, its derivative by y (4, 4), and the time in contact."""
-    state, tangents = y.copy(), np.eye(4)
-    _, touching = flow(p, state, tangents, begin, periods, half, tolerance)
-    return state, tangents.T.copy(), touching
-
-
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state `periods` cycles after a strobe, its derivative by y, and a count.
-
-    The derivative has the shape (4, 4). The count is the number of contacts begun.
-    """
+    """Return the state `periods` cycles after a strobe, its derivative by y, and contacts begun."""
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents = y.copy(), np.eye(4)
     contacts, _ = flow(p, state, tangents, strobe_time(p), periods, half, tolerance)
@@ -153,10 +143,9 @@ def dominant(values):
 def polish(p, y, periods, reach, tolerance):
     """Move a state y onto the periodic orbit near it, by Newton's method on the map over `periods`.
 
-    Without contacts only Z1 and Z1' are unknown, and Z2 - Z1 and Z2' - Z1' do not change. y is
-    replaced if the method converges to an orbit within `reach` of it in Z1, Z1' and Z2. Return
-    whether it did, the largest difference between the state and its image, and the dominant
-    multiplier; otherwise NaN.
+    Without contacts only Z1 and Z1' are unknown, and Z2 - Z1 and Z2' - Z1' do not change. Return
+    whether the method converged to an orbit within `reach` of y in Z1, Z1' and Z2, the largest
+    difference between the state and its image, and the dominant multiplier, or NaN.
     """
     orbit = y.copy()
     for _ in range(ITERATIONS):

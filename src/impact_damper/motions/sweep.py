@@ -36,8 +36,7 @@ ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest
 # Newton's method for further orbits:
 # LONGEST     longest period of an orbit, in forcing cycles
 # REACH       largest distance of an orbit from its start, divided by the largest |Z1| or |Z1'| of
-#             the known motions at the strobe, or by the clearance if it is larger. With twice this
-#             distance Newton's method takes four times as long and finds hardly more orbits.
+#             the known motions at the strobe or the clearance; a larger one finds hardly more
 # SAME_ORBIT  two orbits are the same if their states differ by less
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch:
@@ -52,12 +51,12 @@ CLOSE = 0.05
 
 
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
-    """Find all motions along a sweep of one parameter.
+    """Find all motions along a sweep of one parameter; return a dict of registered variables.
 
     The rows of packed `parameters` differ in the parameter of this `index`; `dimension` is its name
-    in the data. `search` is a `start_states.Search`. Return a dict of registered variables of the
-    distinct motions, with the dimensions (dimension, motion); of the runs, with (dimension, start);
-    of the ends of branches, with (end); and of the search.
+    in the data. `search` is a `start_states.Search`. The dimensions of the variables are
+    (dimension, motion) for distinct motions, (dimension, start) for runs, (end) for the ends of
+    branches.
     """
     size, starts = search.random.shape[:2]
     runs = ensemble.settle(
@@ -94,21 +93,13 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
     branches = _branches(catalogues, links)
     ends = ends["down"] + ends["up"]
     data = _tables(catalogues, branches, dimension, starts)
-    columns = [
-        np.argsort(catalogue.order())[row]
-        for catalogue, row in zip(catalogues, reached, strict=True)
-    ]
+    columns = [np.argsort(each.order())[row] for each, row in zip(catalogues, reached, strict=True)]
     data |= {
         "run_outcome": ((dimension, "start"), runs["outcome"]),
         "run_motion": ((dimension, "start"), np.array(columns)),
         "run_length": ((dimension, "start"), runs["periods_run"]),
     }
-    for name in (
-        "end_value",
-        "end_direction",
-        "end_event",
-        "end_displacement",
-    ):
+    for name in ("end_value", "end_direction", "end_event", "end_displacement"):
         data[name] = np.array([end[name] for end in ends])
     data["end_branch"] = np.array([branches[end["end_motion"]] for end in ends], int)
     return data | search.variables(dimension)
@@ -122,8 +113,8 @@ def reached(data):
 def _follow(source, target, index, settling, links, ends):
     """Follow all motions of the catalogue `source` to the next value, and enter what they lead to.
 
-    For two motions on the same branch the pair of their numbers is appended to `links`. For each
-    branch that ends between the two values a dictionary is appended to `ends`.
+    `links` receives the numbers of two motions on the same branch, and `ends` a dictionary for each
+    branch that ends between the two values.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
@@ -144,13 +135,12 @@ def _follow(source, target, index, settling, links, ends):
             links.append((source.numbers[i], target.numbers[j]))
             continue
         last = measured(p, state, int(record["period"]), settling.tolerance)
+        direction = "up" if target.p[index] > p[index] else "down"
         ends.append(
             {
                 "end_value": p[index],
                 "end_motion": source.numbers[i],
-                "end_direction": flag(
-                    "end_direction", "up" if target.p[index] > p[index] else "down"
-                ),
+                "end_direction": flag("end_direction", direction),
                 "end_event": flag("end_event", _end_event(record, multiplier, beyond)),
                 "end_displacement": last["maximum_displacement"],
             }
@@ -160,9 +150,8 @@ def _follow(source, target, index, settling, links, ends):
 def _end_event(record, multiplier, beyond):
     """Return the name of the event that ends a branch of the motion `record`.
 
-    `multiplier` is the dominant multiplier of the last orbit, NaN if the motion does not depend
-    smoothly on its start. `beyond` is the motion that the state of the last orbit leads to at the
-    next value.
+    `multiplier` is the dominant multiplier of the last orbit, NaN without one, and `beyond` the
+    motion that its state leads to at the next value.
     """
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
@@ -178,11 +167,7 @@ def _end_event(record, multiplier, beyond):
 
 
 def _branches(catalogues, links):
-    """Return the branch of each motion, indexed by the number of the motion.
-
-    Branches are the connected components of the links and the matches of motions that have not
-    settled.
-    """
+    """Return the branch of each motion by its number: connected components of links and matches."""
     links = links + [
         (first.numbers[i], second.numbers[j])
         for first, second in pairwise(catalogues)
@@ -196,8 +181,7 @@ def _branches(catalogues, links):
 def _tables(catalogues, branches, dimension, starts):
     """Return variables with the dimensions (dimension, motion), by descending displacement.
 
-    Rows with fewer motions are padded by motions with the outcome absent. `starts` is the number of
-    random starts at each value.
+    Rows are padded by motions with the outcome absent. Each has `starts` random starts.
     """
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
@@ -300,30 +284,23 @@ def match_unsettled(first, second) -> list:
 
 
 def size_ratio(one, other):
-    """Return the ratio of the sizes of two motions of the same period, larger over smaller.
+    """Return the ratio of max |Z1| of two motions of the same period, larger over smaller.
 
-    The size is max |Z1|. A chaotic motion may be small during its measurement, so for motions
-    without a period the ratio of their `reach` is returned if it is closer to 1; in an unforced
-    decay these fields are 0. The ratio is 1 if both motions are infinite, or if both are at rest.
+    A chaotic motion may be small during its measurement, so for motions without a period the ratio
+    of their `reach` is returned if it is closer to 1. It is 1 if both are infinite or 0.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0
-    names = ["maximum_displacement"] if one["period"] else ["maximum_displacement", "reach"]
-    pairs = [sorted((float(one[name]), float(other[name]))) for name in names]
-    return min(_ratio(larger, smaller) for smaller, larger in pairs)
-
-
-def _ratio(larger, smaller):
-    if larger == smaller:
-        return 1.0
-    return larger / smaller if smaller else math.inf
+    ratios = []
+    for name in ["maximum_displacement"] if one["period"] else ["maximum_displacement", "reach"]:
+        smaller, larger = sorted((float(one[name]), float(other[name])))
+        unequal = larger / smaller if smaller else math.inf
+        ratios.append(1.0 if larger == smaller else unequal)
+    return min(ratios)
 
 
 def add_orbits(catalogues, loose, settling, workers) -> None:
-    """Enter the orbits that `stable_orbits` finds into the catalogues of known motions.
-
-    `loose` holds the argument `loose` of `stable_orbits` for each catalogue.
-    """
+    """Enter the orbits that `stable_orbits` finds into the catalogues, each with its `loose`."""
     found, stop = [np.empty((0, 4))] * len(catalogues), np.zeros(1, bool)
 
     def work(part):
@@ -344,10 +321,9 @@ def add_orbits(catalogues, loose, settling, workers) -> None:
 def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
     """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
 
-    On most of these orbits the primary mass moves nearly as in another motion of the same system,
-    while the loose mass moves differently. So start k of Newton's method has the primary mass on
-    motion k modulo m of `motions` (m, 2), Z1 and Z1' at the strobe, and the loose mass with Z2 and
-    Z1' - Z2' in row k of `loose` (n, 2).
+    On most of these orbits the primary mass moves nearly as in another motion of the same system.
+    So Newton's method starts with the primary mass on the `motions` in turn, Z1 and Z1' at the
+    strobe, shape (m, 2), and with Z2 and Z1' - Z2' of the loose mass in `loose` (n, 2).
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

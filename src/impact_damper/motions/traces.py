@@ -13,8 +13,6 @@ from impact_damper.model.packed import CLEARANCE
 
 # Number of steps of a trace in one call of its kernel, which takes a fraction of a second.
 STEPS_AT_ONCE = 50_000
-# Number of contacts for which a trace has room at first.
-ROOM = 1024
 
 
 @kernel_only
@@ -32,41 +30,31 @@ def series_of_step(work, side, y, t):
     return x, v, q, w
 
 
-def trace(p, state, begin, times, tolerance, room=ROOM):
+def trace(p, state, begin, times, tolerance):
     """Return the states at increasing times, shape (n, 4), and the contacts, shape (k, 5).
 
     The states are NaN after the motion has escaped (`kernel.equation.no_return`). A contact has a
-    row of wall, beginning, end, and Z2' at the beginning and the end. With more than `room`
-    contacts the motion is integrated twice.
+    row of wall, beginning, end, and Z2' at the beginning and the end.
     """
-    states, log = np.empty((len(times), 4)), np.empty((room, 5))
-    contacts = _trace(p, state, begin, times, tolerance, states, log)
-    if contacts > room:
-        return trace(p, state, begin, times, tolerance, contacts)
-    return states, log[:contacts]
-
-
-def states_at(p, state, begin, times, tolerance):
-    """Return the states of a motion at increasing times, shape (n, 4)."""
-    states = np.empty((len(times), 4))
-    _trace(p, state, begin, times, tolerance, states, np.empty((0, 5)))
-    return states
-
-
-def _trace(p, state, t, times, tolerance, states, log):
-    """Fill `states`, and `log` with the first contacts; return the number of all contacts."""
-    y, t, times = np.array(state, float), float(t), np.ascontiguousarray(times, float)
+    y, t, times = np.array(state, float), float(begin), np.ascontiguousarray(times, float)
+    states, log = np.empty((len(times), 4)), np.empty((STEPS_AT_ONCE, 5))
     side, contacts = side_of(p, y), 0
     if side != 0:
-        log[:1] = [[side, t, np.nan, y[3], np.nan]]
-        contacts = 1
+        log[0], contacts = (side, t, np.nan, y[3], np.nan), 1
     sample = int(np.searchsorted(times, t, side="right"))
     states[:sample] = y
     while sample < len(times):
         t, side, sample, contacts = trace_steps(
             p, y, t, side, sample, contacts, times, tolerance, states, log
         )
-    return contacts
+        if len(log) < contacts + STEPS_AT_ONCE:
+            log = np.concatenate([log[:contacts], np.empty((STEPS_AT_ONCE, 5))])
+    return states, log[:contacts].copy()
+
+
+def states_at(p, state, begin, times, tolerance):
+    """Return the states of a motion at increasing times, shape (n, 4)."""
+    return trace(p, state, begin, times, tolerance)[0]
 
 
 @kernel
@@ -97,7 +85,7 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
         t += length
         if before == 0 and side != 0:
             contacts = record_beginning(log, contacts, side, t, y[3])
-        elif before != 0 and side == 0 and contacts <= len(log):
+        elif before != 0 and side == 0:
             log[contacts - 1, 2], log[contacts - 1, 4] = t, y[3]
     return t, side, sample, contacts
 

@@ -1,14 +1,11 @@
 """Run undecided motions longer, until their outcome is certain.
 
-A run that does not settle and is not certainly chaotic may be quasi-periodic, periodic with a long
-period, close to an orbit that it approaches slowly, or weakly chaotic, or its loose mass may drift
-in the gap. It is continued in blocks, each twice as long as the block before.
-
-The states of a quasi-periodic motion at the strobes lie on a closed curve, and advance along it by
-the rotation number on average. The average of a smooth function over N states converges as 1/N, and
-faster than any power of 1/N with weights that vanish at both ends with all derivatives (S. Das, Y.
-Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017). On a chaotic motion the error
-falls as N^(-1/2), so averages over parts of an orbit agree only if the motion is quasi-periodic.
+They may be quasi-periodic, periodic with a long period, close to an orbit that they approach
+slowly, or weakly chaotic, or the loose mass may drift in the gap. The states of a quasi-periodic
+motion at the strobes lie on a closed curve, and advance along it by the rotation number on average.
+With weights that vanish at both ends with all derivatives the average over N states converges
+faster than any power of 1/N (S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity 30,
+4111-4140, 2017), on a chaotic motion only as N^(-1/2).
 """
 
 import math
@@ -20,24 +17,14 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.equation import forcing_amplitude, has_escaped
 from impact_damper.kernel.single import side_of, workspace
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
-from impact_damper.motions.records import (
-    CHAOTIC,
-    DIVERGED,
-    DRIFTING,
-    ESCAPED,
-    NON_COLLIDING,
-    QUASI_PERIODIC,
-    SETTLED,
-    UNRESOLVED,
-)
+from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR
 
 # Largest number of forcing cycles of the first block.
 FIRST = 1500
-# Smallest growth of the tangent of a chaotic motion in a block, as a natural logarithm. The tangent
-# also grows while a motion leaves an unstable orbit, from a rounding error of 1e-16 to order 1: by
-# ln(1e16) = 37.
+# Smallest growth of the tangent of a chaotic motion in a block, as a natural logarithm. While a
+# motion leaves an unstable orbit the tangent grows by ln(1e16) = 37, from rounding errors.
 GROWN = 40.0
 # Number of batches of a block, from which the standard error of the exponent is computed.
 BATCHES = 30
@@ -49,16 +36,9 @@ LONGEST = 256
 REACH = 1e-2
 # A motion lies on known closed curves if its distance from them is below NEIGHBOUR.
 NEIGHBOUR = 1e-3
-# If a motion lies on known closed curves, these fields are copied from the record of the known
-# motion.
-TORUS = (
-    "outcome",
-    "lyapunov_exponent",
-    "lyapunov_error",
-    "first_frequency",
-    "second_frequency",
-    "frequency_error",
-)
+# Fields that a motion on known closed curves takes over from the known motion.
+TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
+TORUS += ["first_frequency", "second_frequency", "frequency_error"]
 # The rotation number counts as known if the results for parts of an orbit differ by at most
 # AGREEMENT.
 AGREEMENT = 1e-8
@@ -75,11 +55,11 @@ FEWEST = 100
 
 @kernel
 def run_block(p, y, tangent, states, growth, stop):
-    """Run a motion in place over the forcing cycles of a block.
+    """Run a motion and its tangent (1, 4) in place over the forcing cycles of a block.
 
-    The state `y` and the tangent (1, 4), scaled to length 1 after each cycle, are replaced.
-    `states` (n, 4) and `growth` (n,) receive the state and the logarithm of the growth of the
-    tangent after each cycle. Return the number of contacts, and whether the motion escaped.
+    After each cycle the tangent is scaled to length 1; `states` (n, 4) and `growth` (n,) receive
+    the state and the logarithm of the tangent's growth. Return the number of contacts, and whether
+    the motion escaped.
     """
     work = workspace()
     side = side_of(p, y)
@@ -102,20 +82,19 @@ def run_block(p, y, tangent, states, growth, stop):
     return total, False
 
 
-def name_undecided(parameters, records, limit, further, stop):
+def name_undecided(parameters, motions, limit, further, stop):
     """Continue the motions that `settle_many` left unresolved, and complete their records.
 
-    The first block has the length of the run before, `limit`, but at most FIRST; all blocks
-    together have at most `further` forcing cycles. If another thread sets `stop[0]`, the records
-    are incomplete.
+    They are run in blocks, each twice as long as the block before, for at most `further` forcing
+    cycles. If another thread sets `stop[0]`, the records are incomplete.
     """
     curves = []
-    for i in np.flatnonzero(records["outcome"] == UNRESOLVED):
-        p, record = parameters[i], records[i : i + 1]
+    for i in np.flatnonzero(motions["outcome"] == records.UNRESOLVED):
+        p, record = parameters[i], motions[i : i + 1]
         if forcing_amplitude.py_func(p) > 0:
             known = [curve for curve in curves if np.array_equal(curve.parameters, p)]
             states = _name_one(p, record, limit, further, known, stop)
-            if record["outcome"] == QUASI_PERIODIC:
+            if record["outcome"] == records.QUASI_PERIODIC:
                 curves.append(_Curves(p, states, record.copy()))
 
 
@@ -128,10 +107,9 @@ class _Curves(NamedTuple):
 
 
 def _name_one(p, record, limit, further, known, stop):
-    """Continue one motion, whose record is an array of length 1, until its outcome is certain.
+    """Continue one motion, whose record is an array of length 1; return the last block's states.
 
-    A motion that reaches known closed curves is the same motion as the known one. Return the states
-    of the last block.
+    A motion that reaches known closed curves is the same motion as the known one.
     """
     y, tangent = record["state"][0].copy(), np.full((1, 4), 0.5)
     period, count = 2 * math.pi / p[FREQUENCY], min(limit, FIRST)
@@ -148,7 +126,7 @@ def _name_one(p, record, limit, further, known, stop):
         if stop[0]:
             break
         if escaped or not np.all(np.isfinite(y)):
-            record["outcome"] = ESCAPED if escaped else DIVERGED
+            record["outcome"] = records.ESCAPED if escaped else records.DIVERGED
             break
         far = np.max(np.hypot(states[:, 0], states[:, 1] / p[FREQUENCY]))
         record["reach"] = np.maximum(record["reach"], far)
@@ -159,9 +137,9 @@ def _name_one(p, record, limit, further, known, stop):
         record["outcome"] = (
             _on_orbit(p, record, states, contacts, limit)
             or _quasi_periodic(p, record, states, mean, error)
-            or (CHAOTIC if _grows(growth, mean, error) else UNRESOLVED)
+            or (records.CHAOTIC if _grows(growth, mean, error) else records.UNRESOLVED)
         )
-        if record["outcome"] != UNRESOLVED:
+        if record["outcome"] != records.UNRESOLVED:
             break
         further, count = further - count, 2 * count
     return states
@@ -179,9 +157,9 @@ def _is_known(record, known, states):
 
 
 def _exponent(growth):
-    """Return the mean growth (logarithm) in a cycle and its standard error, from BATCHES batches.
+    """Return the mean growth (logarithm) in a cycle and its standard error.
 
-    On a closed curve growth and decay alternate, and cancel only in long batches.
+    On a closed curve growth and decay cancel only in long batches.
     """
     length = len(growth) // BATCHES
     batches = growth[-BATCHES * length :].reshape(BATCHES, length).mean(axis=1)
@@ -189,19 +167,13 @@ def _exponent(growth):
 
 
 def _grows(growth, mean, error):
-    """Return whether a tangent certainly grows in a block, and still grows in its last quarter.
-
-    In the last quarter the growth in a cycle must exceed half the mean growth of the block.
-    """
+    """Return whether a tangent certainly grows in a block, and still grows in its last quarter."""
     lasting = np.mean(growth[-len(growth) // 4 :]) > mean / 2
     return lasting and mean > CONFIDENCE * error and np.sum(growth) > GROWN
 
 
 def _on_orbit(p, record, states, contacts, limit):
-    """Move a motion onto the stable orbit near it and return its outcome; else UNRESOLVED.
-
-    If the loose mass has touched no wall, only the primary mass must be on an orbit.
-    """
+    """Move a motion onto the stable orbit near it and return its outcome; else UNRESOLVED."""
     last, components = states[-1], 2 if contacts == 0 else 3
     before = states[-2 : -2 - LONGEST : -1]
     near = np.max(np.abs(before - last)[:, :components], axis=1) < NEAR
@@ -216,22 +188,21 @@ def _on_orbit(p, record, states, contacts, limit):
         record["multiplier"], record["lyapunov_error"] = multiplier, 0.0
         record["lyapunov_exponent"] = math.log(abs(multiplier)) / duration
         if contacts > 0 or p[CLEARANCE] == math.inf:
-            return SETTLED
+            return records.SETTLED
         drift = abs(y[3] - y[1]) * limit * 2 * math.pi / p[FREQUENCY]
-        return NON_COLLIDING if drift < 0.01 * p[CLEARANCE] else DRIFTING
-    return UNRESOLVED
+        return records.NON_COLLIDING if drift < 0.01 * p[CLEARANCE] else records.DRIFTING
+    return records.UNRESOLVED
 
 
 def _quasi_periodic(p, record, states, mean, error):
     """Return QUASI_PERIODIC if the states move along closed curves, otherwise UNRESOLVED.
 
-    For each number of curves up to LONGEST_PERIOD, `find_rotation` is tried on every curve, because
-    it can fail on a curve with corners. A curve has corners if contacts begin or end at the strobe.
-    It is tried in the plane of (Z1, Z1') and in the plane of (Z2, Z2'), because in one of these
-    planes the curve may be so bent that it does not go around its centre.
+    `find_rotation` is tried on every curve, because it can fail on one with corners, at which
+    contacts begin or end, and in the planes of (Z1, Z1') and (Z2, Z2'), because in one of them the
+    curve may be so bent that it does not go around its centre.
     """
     if abs(mean) > NEUTRAL * error:
-        return UNRESOLVED
+        return records.UNRESOLVED
     planes = [states[:, k] + 1j * states[:, k + 1] / p[FREQUENCY] for k in (0, 2)]
     for curves in range(1, LONGEST_PERIOD + 1):
         rotations = [
@@ -239,28 +210,12 @@ def _quasi_periodic(p, record, states, mean, error):
         ]
         rotations = [rotation for rotation in rotations if rotation is not None]
         if rotations:
-            best = min(rotations, key=lambda rotation: rotation.error)
+            number, error = min(rotations, key=lambda rotation: rotation[1])
             first = p[FREQUENCY] / curves
-            record["first_frequency"], record["second_frequency"] = first, first * best.number
-            record["frequency_error"] = first * best.error
-            return QUASI_PERIODIC if best.known else UNRESOLVED
-    return UNRESOLVED
-
-
-class Rotation(NamedTuple):
-    """Rotation number of a map on a closed curve, in revolutions per iterate, from 0 to 1/2.
-
-    `error` is the largest difference between the numbers of the first, middle and last half of an
-    orbit.
-    """
-
-    number: float
-    error: float
-
-    @property
-    def known(self):
-        """True if the error is at most AGREEMENT."""
-        return self.error <= AGREEMENT
+            record["first_frequency"], record["second_frequency"] = first, first * number
+            record["frequency_error"] = first * error
+            return records.QUASI_PERIODIC if error <= AGREEMENT else records.UNRESOLVED
+    return records.UNRESOLVED
 
 
 def birkhoff_average(values):
@@ -271,12 +226,13 @@ def birkhoff_average(values):
 
 
 def find_rotation(points):
-    """Return the `Rotation` of a map on the closed curve on which an orbit lies, or None.
+    """Return rotation number and error of an orbit's map on its closed curve, or None without one.
 
-    The rotation number is the average advance of the angle around the average of the complex
-    points, which are stretched first to have the same spread in all directions: on a slender curve
-    the angle advances mainly at the two ends. Sorted by the phases that follow from the number, the
-    points of a closed curve go around once; on other sets they jump from side to side.
+    The number (revolutions, from 0 to 1/2) is the average advance of the angle around the average
+    of the complex points, which are stretched first to have the same spread in all directions: on a
+    slender curve the angle advances mainly at the two ends. The error is the largest difference
+    between the first, middle and last half of the orbit. Sorted by the phases that follow from the
+    number, the points of a closed curve go around once; on other sets they jump from side to side.
     """
     if len(points) < FEWEST:
         return None
@@ -295,7 +251,7 @@ def find_rotation(points):
         return None
     half, quarter = len(advance) // 2, len(advance) // 4
     parts = [birkhoff_average(advance[k : k + half]) for k in (0, quarter, len(advance) - half)]
-    return Rotation(float(min(number % 1, -number % 1)), float(np.ptp(parts)))
+    return min(number % 1, -number % 1), np.ptp(parts)
 
 
 def _rounded(points):

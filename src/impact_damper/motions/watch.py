@@ -1,10 +1,9 @@
 """Judge a motion once in each forcing cycle: whether it has settled to an orbit, or is chaotic.
 
-The judgement is at the strobe. When a motion settles to an orbit of period n, the distances between
-states n cycles apart decrease geometrically. Once the sum of the remaining series is small,
-Newton's method moves the state onto the orbit. The motion has settled if this orbit is close and
-stable, so a slow passage near a fold is not mistaken for an orbit. For other motions the largest
-Lyapunov exponent is computed from the growth of a tangent, a solution of the variational equations.
+When a motion settles to an orbit of period n, the distances between states n cycles apart decrease
+geometrically. Once the sum of the remaining series is small, Newton's method moves the state onto
+the orbit. If this orbit is close and stable, the motion has settled; so a slow passage near a fold
+is not mistaken for an orbit.
 """
 
 import math
@@ -13,17 +12,9 @@ import numpy as np
 
 from impact_damper.kernel.compiling import inlined, kernel, kernel_only
 from impact_damper.kernel.equation import energy, forcing_amplitude, has_escaped
+from impact_damper.kernel.single import assign
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
-from impact_damper.motions.records import (
-    AT_REST,
-    CHAOTIC,
-    DIVERGED,
-    DRIFTING,
-    ESCAPED,
-    NON_COLLIDING,
-    SETTLED,
-    UNRESOLVED,
-)
+from impact_damper.motions import records
 from impact_damper.motions.strobe_map import (
     POLISH_TOLERANCE,
     distance,
@@ -50,12 +41,9 @@ NEAR = 1e-4
 NEAREST = 1e-9
 # Without forcing a motion is at rest once its energy is below REST times the first energy.
 REST = 1e-9
-# Data of one motion while it runs:
-# index      number of the motion
-# strobes    number of strobes so far
+# Data of one motion while it runs, among them
 # untouched  number of successive forcing cycles without contact
 # near       distance from an orbit at which Newton's method is tried next
-# energy     without forcing, the energy at the first strobe
 # periods    number of cycles over which the tangent has been followed
 # batch      logarithm of its growth in the present batch
 # mean, squares, recent: mean, sum of squares and last values of complete batches
@@ -116,8 +104,8 @@ def exponent(growth):
 def nearby_period(ring, k, weight, floor, tolerance):
     """Return the period of an orbit within `tolerance` of the motion, or 0.
 
-    `ring[k % RING]` is the last of k + 1 strobe states. Distances below `floor` count as errors of
-    the integration. `weight` is the weight of Z2' in a distance.
+    `ring[k % RING]` is the last of k + 1 strobe states, `weight` as in `distance`. Distances below
+    `floor` are errors of the integration.
     """
     last = ring[k % RING]
     for n in range(1, LONGEST_PERIOD + 1):
@@ -139,10 +127,10 @@ def nearby_period(ring, k, weight, floor, tolerance):
 def move_onto_orbit(p, y, periods, near, out):
     """Move a state y onto the stable orbit near it; return whether there is such an orbit.
 
-    A motion that spirals towards an orbit may seem to repeat after a multiple of the orbit's
-    period, so the divisors of `periods` are tried first. At a distance below NEAREST a motion
-    counts as an orbit even if Newton's method fails, because near a grazing contact the later state
-    is not a smooth function of the state. The residual and the multiplier are then NaN.
+    A motion that spirals towards an orbit may seem to repeat after a multiple of the period, so the
+    divisors of `periods` are tried first. At a distance below NEAREST a motion counts as an orbit
+    even if Newton's method fails, because the map is not smooth near a grazing contact; residual
+    and multiplier are then NaN.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):
@@ -155,7 +143,7 @@ def move_onto_orbit(p, y, periods, near, out):
     if not stable or repeats_sooner(p, y, np.int64(out.period), POLISH_TOLERANCE):
         out.period = 0
         return False
-    out.outcome = SETTLED
+    out.outcome = records.SETTLED
     return True
 
 
@@ -169,10 +157,9 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Move the primary mass of a motion without contacts onto the orbit near it, if there is one.
+    """Move the primary mass of a motion without contacts onto the stable orbit near it, if any.
 
-    The loose mass keeps its place and its velocity. Return whether there is a stable orbit of the
-    primary mass with a period of at most LONGEST_PERIOD.
+    Return whether there is one. The loose mass keeps its place and its velocity.
     """
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
@@ -190,7 +177,7 @@ def begin_watch(seen, index, out):
     """Reset `seen` and the record `out` before the motion `index` is run."""
     seen.index, seen.strobes, seen.untouched, seen.near = index, 0, 0, NEAR
     seen.periods, seen.batch, seen.mean, seen.squares = 0, 0.0, 0.0, 0.0
-    out.outcome, out.period = UNRESOLVED, 0
+    out.outcome, out.period = records.UNRESOLVED, 0
     out.residual, out.multiplier = np.nan, complex(np.nan, np.nan)
     out.lyapunov_exponent, out.lyapunov_error = np.nan, np.nan
     out.first_frequency, out.second_frequency, out.frequency_error = np.nan, np.nan, np.nan
@@ -208,7 +195,7 @@ def watch_free(p, y, seen, out):
         return False
     y[0], y[1], y[3] = 0.0, 0.0, 0.0
     y[2] = min(max(y[2], -p[CLEARANCE]), p[CLEARANCE])
-    out.outcome, out.residual = AT_REST, 0.0
+    out.outcome, out.residual = records.AT_REST, 0.0
     return True
 
 
@@ -216,11 +203,10 @@ def watch_free(p, y, seen, out):
 def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
     """Judge a motion at a strobe, complete its record `out`, and return whether it is stopped.
 
-    `patience` and `limit` are numbers of forcing cycles. A motion is stopped
+    A motion is stopped
 
     - when it has settled, diverged or escaped, or after `limit` cycles;
-    - as at_rest if there is no forcing and its energy, which cannot grow, is below REST times the
-      energy at the first strobe;
+    - as at_rest if there is no forcing and hardly any energy is left (REST);
     - as non_colliding if it has settled without contacts, or if the primary mass is on an orbit and
       the loose mass has touched no wall for `patience` cycles and would drift by less than 1 % of
       the clearance in `limit` cycles; as drifting after `limit` cycles if it drifts faster;
@@ -229,28 +215,26 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
       may just have ended). With an exponent below WEAK only in the last BLOCK cycles before
       `limit`, because a slow spiral can look like weak chaos for some time.
 
-    The tangent is followed from cycle `patience`/2 on. From this cycle on `reach` is updated too.
-    For a motion on an orbit the exponent is computed from the dominant multiplier instead, because
-    the motion before is a transient. y is moved onto the orbit if there is one.
+    Tangent and `reach` are followed from cycle `patience`/2 on. y is moved onto an orbit, whose
+    exponent follows from the dominant multiplier, because the motion before is a transient.
     """
     k = seen.strobes
     bounded = p[CLEARANCE] < math.inf
     if k == limit:
         flying = bounded and contacts == 0 and side == 0 and seen.untouched >= patience
         if flying and stays_without_contact(p, y, ring, k, out):
-            out.outcome = DRIFTING
+            out.outcome = records.DRIFTING
         return True
     period = 2.0 * math.pi / p[FREQUENCY]
-    for i in range(4):
-        ring[k % RING, i] = y[i]
+    assign(ring[k % RING], y)
     out.periods_run = k
     if k > 0:
         seen.untouched = seen.untouched + 1 if contacts == 0 and side == 0 else 0
     if has_escaped(p, y[0], y[1]):
-        out.outcome = ESCAPED
+        out.outcome = records.ESCAPED
         return True
     if not abs(y[0]) + abs(y[1]) + abs(y[3]) < math.inf:
-        out.outcome = DIVERGED
+        out.outcome = records.DIVERGED
         return True
     if forcing_amplitude(p) == 0.0:
         return watch_free(p, y, seen, out)
@@ -258,14 +242,14 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
     if n > 0:
         if move_onto_orbit(p, y, n, seen.near, out):
             if seen.untouched >= out.period and bounded:
-                out.outcome = NON_COLLIDING
+                out.outcome = records.NON_COLLIDING
             leave_transient(p, out)
             return True
         seen.near = max(0.1 * seen.near, NEAREST)
     drift = abs(y[3] - y[1]) * limit * period
     if bounded and seen.untouched >= patience and drift < 0.01 * p[CLEARANCE]:
         if stays_without_contact(p, y, ring, k, out):
-            out.outcome = NON_COLLIDING
+            out.outcome = records.NON_COLLIDING
             return True
     half = patience // 2
     if k == half:
@@ -281,7 +265,7 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
         last = k >= limit - BLOCK
         ripe = last or (k >= patience and out.lyapunov_exponent > WEAK)
         if ripe and growing and mean > CONFIDENCE * error:
-            out.outcome = CHAOTIC
+            out.outcome = records.CHAOTIC
             return True
     seen.strobes += 1
     return False

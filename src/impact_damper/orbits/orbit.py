@@ -15,7 +15,8 @@ from impact_damper.model.packed import (
     INVERSE_MASS_RATIO,
 )
 from impact_damper.motions import records
-from impact_damper.motions.segment_runs import flow_all, list_turns, survey
+from impact_damper.motions.records import survey
+from impact_damper.motions.segment_runs import flow_all, list_turns
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 
@@ -166,10 +167,11 @@ class Orbit:
         if side_of(self.p, states[0]) != 0:
             # The contact of the first state has no beginning in the cycle, but in the next one.
             phases = self.phases[0] + np.array([0.0, 2 * self.cycle])
+        times = phases / self.p[FREQUENCY]
         room, sums = 2 * CONTACTS * (self.periods + len(states)), np.empty((2, 2))
         while True:
             log, given = np.empty((room, 5)), states.copy()
-            count, largest = survey(self.p, given, phases, POLISH_TOLERANCE, log, sums)
+            count, largest = survey(self.p, given, phases, times, POLISH_TOLERANCE, log, sums)
             if count <= room:
                 break
             room = count

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from helpers.sampling import sample
+from helpers.sampling import flow_map, sample
 from numpy.testing import assert_allclose
 from references import equation
 from references.equation import SPRINGS, in_other_units
@@ -14,7 +14,6 @@ from impact_damper.kernel import batch
 from impact_damper.kernel.equation import no_return
 from impact_damper.model.packed import FORCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.motions.strobe_map import flow_map
 
 OSCILLATORS = SPRINGS | {
     "no_force": Oscillator(0.05, 0.9, 0.5, 0.0),

@@ -151,35 +151,23 @@ def test_a_softening_spring_lets_motions_escape():
     assert float(data["attractor_share"].sum()) > 0
 
 
-def test_a_box_is_a_part_of_the_plane():
-    whole = basins(CUBIC, PAPER, 2.0, loose=(1.0, -0.2), displacement=0.3, velocity=0.4, cells=4)
+def test_a_plane_with_the_damper_its_mirror_image_and_a_part_of_it():
+    """(Z, T) -> (-Z, T + half a period) maps basins onto each other."""
+    plane = {"displacement": 0.3, "velocity": 0.4, "cells": 4}
     box = {"displacement": (-0.3, -0.1), "velocity": (0.4 / 3, 0.4), "cells": 2}
-    part = basins(CUBIC, PAPER, 2.0, loose=(1.0, -0.2), **box)
+    one = basins(CUBIC, PAPER, 2.0, loose=(1.0, -0.2), phase=1.0, **plane)
+    two = basins(CUBIC, PAPER, 2.0, loose=(-1.0, 0.2), phase=1.0 + np.pi, **plane)
+    part = basins(CUBIC, PAPER, 2.0, loose=(1.0, -0.2), phase=1.0, **box)
     sizes = [
         np.append(data["attractor_displacement"].values, np.nan)[
             np.maximum(data["basin_label"].values, -1)
         ]
-        for data in (whole, part)
-    ]
-    assert_allclose(sizes[0][2:, :2], sizes[1], rtol=1e-9)
-    with pytest.raises(ValueError, match="displacement = .*least and greatest"):
-        basins(CUBIC, PAPER, 2.0, displacement=(0.1, -0.1))
-
-
-def test_mirrored_states_with_the_damper_lead_to_motions_of_equal_size():
-    """(Z, T) -> (-Z, T + half a period) maps basins onto each other with the damper too."""
-    plane = {"displacement": 0.3, "velocity": 0.4, "cells": 4}
-    one = basins(CUBIC, PAPER, 2.0, loose=(1.0, -0.2), phase=1.0, **plane)
-    two = basins(CUBIC, PAPER, 2.0, loose=(-1.0, 0.2), phase=1.0 + np.pi, **plane)
-    sizes = [
-        np.where(
-            data["basin_label"] >= 0,
-            data["attractor_displacement"].values[data["basin_label"].values],
-            np.nan,
-        )
-        for data in (one, two)
+        for data in (one, two, part)
     ]
     assert_allclose(sizes[0], sizes[1][::-1, ::-1], rtol=1e-4)
+    assert_allclose(sizes[0][2:, :2], sizes[2], rtol=1e-9)
+    with pytest.raises(ValueError, match="displacement = .*least and greatest"):
+        basins(CUBIC, PAPER, 2.0, displacement=(0.1, -0.1))
 
 
 def test_the_numbers_of_labels_stand_in_the_registry():

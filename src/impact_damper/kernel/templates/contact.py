@@ -79,21 +79,18 @@ def find_contact(a):
 
     If there is such a time, MODE becomes MET and WALL the wall that is met. If there is certainly
     none, MODE becomes MISSED and T keeps its value. In either case END_Z1 and END_Z1_SLOPE receive
-    Z1 and its slope at T. Before the call, Z1 and its slope at T must be known, and a T below
-    LENGTH means that `expect_contact` expects a contact at T; the contact may lie slightly later.
+    Z1 and its slope at T, which must be known before the call. A T below LENGTH means that
+    `expect_contact` expects a contact at T; the contact may lie slightly later.
 
-    Bounds decide most flights without a search. CHANGE is the sum of the moduli of all terms of Z1'
-    after the first, at T. The bounds hold for any series, so they do not depend on the spring. The
-    wall "ahead" is the wall to which the loose mass moves at the beginning of the flight, and the
-    other wall is "behind".
+    Bounds decide most flights without a search, for any spring. CHANGE is the sum of the moduli of
+    all terms of Z1' after the first, at T. The loose mass first moves to the wall `ahead`.
 
-    - `clear`: over [0, T], Z1 and therefore Z2 deviate from their chords by at most SAG CHANGE T.
-      If the distance to the wall ahead exceeds this deviation at both ends, this wall is not met.
-    - `left`: the chord gives one lower bound on the distance to the wall behind, and the initial
-      speed minus CHANGE gives another. If the mean of the bounds is positive, this wall is not met.
-    - `certain`: the speed at each end of the flight gives a lower bound on the speed within it. If
-      the mean of the two bounds is positive, the velocity keeps its sign. Then only the wall ahead
-      can be met, and only once.
+    - `clear`: Z1 and therefore Z2 deviate from their chords by at most SAG CHANGE T. If the wall
+      ahead is further away at both ends, it is not met.
+    - `left`: the chord gives a lower bound on the distance to the wall behind, and the first speed
+      minus CHANGE another. If their mean is positive, this wall is not met.
+    - `certain`: the speeds at both ends give lower bounds on the speed. If their mean is positive,
+      the velocity keeps its sign: only the wall ahead can be met, and only once.
     """
     undecided = 0
     expected = 0

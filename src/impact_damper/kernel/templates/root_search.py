@@ -79,13 +79,12 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
     """Return the next move and mode of a search in mode BRACKET, by one safeguarded iteration.
 
     The event function is positive at LOW and not positive at HIGH, with one root between them. HIGH
-    is FAR while no time is known at which the function is not positive; then at most one root lies
-    between LOW and the end of the step. A move that would leave the bracket is replaced by
-    bisection.
+    is FAR while no such time is known; then at most one root lies between LOW and the end of the
+    step. A move that would leave the bracket is replaced by bisection.
 
-    `first` may be another estimate of the move to the root than a Newton step; `bend` then belongs
-    to the terms which that estimate neglects. `rate` is a lower limit of the rate that
-    `is_last_move` gets, and `fine` the rounding error of the event function.
+    `first` is an estimate of the move to the root, such as a Newton step, and `bend` belongs to the
+    terms that it neglects. `rate` is a lower limit of the rate that `is_last_move` gets, and `fine`
+    the rounding error of the event function.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t

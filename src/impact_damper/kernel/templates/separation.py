@@ -81,17 +81,12 @@ def find_separation(a):
     none, T becomes LENGTH and MODE becomes MISSED. END_Z1, END_DEPTH and the rows of their slopes
     receive the values of Z1, of the penetration q and of both slopes at T.
 
-    Let g be the part of the acceleration that does not come from the wall. Its bound |g| <= G, in
-    the row BOUND, is the sum of the moduli of the terms of its series, so it holds for any spring
-    and forcing. With the natural frequency w of the contact and the damping
-    D = DASHPOT (1 + 1/rm) of the relative motion,
-
-        q'' = g - w^2 q - D q'.
-
-    The radius R = (q'^2 + w^2 q^2)^(1/2) grows at most at the rate G and falls at most at the rate
-    G + D R. The bounds on R bound |q''|. The phase of (w q, q') turns at the rate w, with a
-    deviation of at most G/R + D/2. If the deviation is below PHASE_MARGIN w over the step, q has at
-    most one root in the step, and the search begins in mode BRACKET.
+    In q'' = g - w^2 q - D q', w is the natural frequency of the contact, D = DASHPOT (1 + 1/rm),
+    and g, bounded by the sum G of the moduli of its terms (BOUND), does not come from the wall. The
+    radius R = (q'^2 + w^2 q^2)^(1/2) grows at most at the rate G and falls at most at the rate
+    G + D R, which bounds |q''|. The phase of (w q, q') turns at the rate w, with a deviation of at
+    most G/R + D/2. If this is below PHASE_MARGIN w, q has at most one root in the step, and the
+    search begins in mode BRACKET.
     """
     contact_values(a)
     uncertain = 0

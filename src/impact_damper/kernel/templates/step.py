@@ -57,9 +57,9 @@ def largest_tail(a, i):
 def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a series' derivative stay below `largest_tail`.
 
-    Only lanes whose TAIL exceeds `largest_tail` by the factor `excess` are changed. The new LENGTH
-    is the n-th root of `largest_tail` divided by a coefficient. It is computed with an error of a
-    few per cent from the bits of the numbers, which are nearly proportional to logarithms.
+    Only lanes whose TAIL exceeds `largest_tail` by the factor `excess` are changed. The n-th root
+    of `largest_tail` divided by a coefficient is computed from the bits of the numbers, which are
+    nearly proportional to logarithms, with an error of a few per cent.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
@@ -76,9 +76,8 @@ def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
     The coefficients of Z1 are assumed to decay geometrically from SCALE, at the rate of the
-    coefficient of order EARLY or of the two after it. LENGTH is the time at which the last terms of
-    Z1' then reach SAFETY times the tolerance. The last coefficients are not needed, so the
-    processor can begin with the next step before they are computed.
+    coefficients from order EARLY on, until the last terms of Z1' reach SAFETY times the tolerance.
+    The processor can begin with the next step before the last coefficients are computed.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -172,9 +171,8 @@ def contact_tangents(a, d):
 def dashpot_jump(a, d, direction):
     """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
 
-    The tangent jumps where the dashpot's force sets in (direction -1) or ends (direction +1). Only
-    this force is discontinuous. Therefore the jump is proportional to the tangent's Z2 and does not
-    depend on the speed, and the matrix has determinant 1.
+    The dashpot's force sets in (direction -1) or ends (direction +1). Only this force jumps, so the
+    jump is proportional to the tangent's Z2, and the matrix has determinant 1.
     """
     for i in range(TANGENTS):
         j = i % LANES
