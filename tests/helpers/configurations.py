@@ -1,8 +1,9 @@
 """The configurations of the project, read from their files."""
 
 import yaml
+from snakemake.utils import update_config
 
-from chatterjee1995.sections.configuration import configuration
+from chatterjee1995.sections.configuration import configuration, without_left_out
 from helpers.running import ROOT
 from impact_damper.command.section import LOADER
 
@@ -15,3 +16,10 @@ def read(path=ROOT / "config/config.yaml"):
 def paper():
     """Return the configuration of the paper as an object."""
     return configuration(read(), trusted=True)
+
+
+def small():
+    """Return the configuration of the smoke run, which has one or two entries in each section."""
+    config = read()
+    update_config(config, read(ROOT / "config/smoke.yaml"))
+    return without_left_out(config)

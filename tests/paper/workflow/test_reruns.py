@@ -4,15 +4,14 @@ Snakemake only plans the jobs, for a copy of the project whose results are empty
 """
 
 import copy
-import json
 import re
-from base64 import b64decode
+from fnmatch import fnmatch
 from modulefinder import ModuleFinder
 from pathlib import Path
 
 import pytest
 import yaml
-from helpers import configurations, planning
+from helpers import configurations
 from helpers.running import ROOT, copy_of_project, snakemake
 from netCDF4 import Dataset
 
@@ -24,17 +23,19 @@ from impact_damper.kernel.sources import module_file, sources
 
 pytestmark = pytest.mark.workflow
 
+# Rules with one job each.
+ALONE = "chapter_.*|machine_pages|compile_kernels|"
+ALONE += "|".join(name for name, stage in STAGES.items() if stage.together)
 # The rule `compile_kernels` has no inputs.
 SCRIPTS = ("stage", "studies", "chapter", "machine_pages")
 
 
 def chapters(*names):
     """Return the names of the jobs of chapters of the report."""
-    return {f"chapter/{name}" for name in names}
+    return {f"chapter_{name}" for name in names}
 
 
-# Paths of values in the configuration, and the jobs that run again after an edit. A final star
-# stands for any text.
+# Paths of values in the configuration, and the jobs that run again after an edit.
 VALUES = {
     ("curves", "figure_08", "clearance"): {
         *(f"{s}/figure_08" for s in ("harmonic_balance", "response", "subharmonic", "branches")),
@@ -42,7 +43,6 @@ VALUES = {
     },
     ("points", "clearances"): {"optimum/*", *chapters("clearance", "responses", "claims")},
     ("collisions", "figure_05a", "mass_ratio"): {"collisions", *chapters("claims")},
-    ("comparison", "harmonics"): {"accuracy/*", *chapters("methods")},
     ("oscillators", "l100", "damping"): {
         *(f"{stage}/free_l100" for stage in ("harmonic_balance", "response", "branches")),
         *("harmonic_balance/figure_03b*", "design_orbit"),
@@ -53,14 +53,11 @@ VALUES = {
 }
 # Files, and the jobs that run again after an edit.
 FILES = {
-    "requirements.lock": {"*"},
-    "src/impact_damper/plot/style.py": {"pages/machines", *chapters(*CHAPTERS)},
-    "src/impact_damper/plot/pages/templates/design.jinja": {"pages/machines"},
+    "src/impact_damper/plot/pages/templates/design.jinja": {"machine_pages"},
     "src/chatterjee1995/tables/migration.py": chapters("migration"),
     "src/chatterjee1995/claims/claims.yaml": chapters("claims"),
-    "workflow/scripts/machine_pages.py": {"pages/machines"},
     "src/chatterjee1995/stages/studies.py": {
-        *("study_chunks/design_plane", "studies/design_plane"),
+        *("study_chunks/*", "studies/design_plane"),
         *chapters("clearance", "responses"),
     },
     "src/impact_damper/motions/legs.py": {
@@ -91,11 +88,6 @@ def project(tmp_path_factory):
 @pytest.fixture(scope="module")
 def config(project):
     return configurations.read(project / "config/config.yaml")
-
-
-@pytest.fixture(scope="module")
-def jobs(config):
-    return planning.jobs(config)
 
 
 @pytest.fixture
@@ -146,85 +138,62 @@ def changed(config, path):
     return config
 
 
-def to_do(project, config):
-    """Return the names of the jobs that Snakemake would run, from its summary of the outputs."""
+def to_do(project):
+    """Return the names of the jobs that Snakemake would run, and of all jobs."""
     result = snakemake(project, "everything", "--summary")
     assert result.returncode == 0, result.stdout + result.stderr
-    lines = [line.split("\t") for line in result.stdout.splitlines()[1:]]
-    config = configuration(config, trusted=True)
-    return {planning.job_of_file(config, line[0]) for line in lines if line[-1] != "no update"}
+    planned, known = set(), set()
+    for line in result.stdout.splitlines()[1:]:
+        output, _, rule, *_, plan = line.split("\t")
+        name = rule if re.fullmatch(ALONE, rule) else f"{rule}/{Path(output).stem}"
+        known.add(name)
+        if plan != "no update":
+            planned.add(name)
+    return planned, known
 
 
 def matching(jobs, patterns):
-    """Return the jobs whose names match one of the patterns, as in `VALUES`."""
-    return {
-        job
-        for job in jobs
-        for pattern in patterns
-        if job == pattern or pattern.endswith("*") and job.startswith(pattern[:-1])
-    }
+    """Return the jobs whose names match one of the patterns."""
+    return {job for job in jobs if any(fnmatch(job, pattern) for pattern in patterns)}
 
 
-@pytest.fixture(scope="module")
-def noted(project, config):
-    """Return what Snakemake recorded of the complete run: {job: its parameters and inputs}."""
-    config, found = configuration(config, trusted=True), {}
-    for path in (project / ".snakemake/metadata").iterdir():
-        record = json.loads(path.read_text())
-        name = planning.job_of_file(config, b64decode(path.name).decode())
-        found[name] = frozenset(record["params"]), frozenset(record["input"])
-    del found["kernels"]
+def parameters(given):
+    """Return the parameters of all jobs with `chunks: 1`, by stage and entry, as texts."""
+    config, found = configuration(given, trusted=True), {}
+    for stage in STAGES:
+        for name in selection.entries(config, stage):
+            found[stage, name] = repr(selection.job(config, stage, name))
+    for name, study in config.studies.items():
+        found["studies", name] = repr(study.chunk(config, "1-of-1"))
+    for chapter in CHAPTERS:
+        found["chapter", chapter] = repr(selection.chapter_values(config, chapter))
     return found
 
 
-def test_snakemake_compares_what_the_registry_says(noted, config, jobs):
-    config, found = configuration(config, trusted=True), {}
-    for name, (parameters, files) in noted.items():
-        read = {planning.job_of_file(config, file) for file in files if file.endswith(".nc")}
-        found[name] = planning.Job(parameters, frozenset(read))
-    assert found == jobs
-
-
-def test_each_value_is_read_and_reruns_not_everything(config, jobs):
+def test_each_value_is_read_and_reruns_not_everything(config):
+    before = parameters(config)
     for path, _ in leaves(config):
         edited = changed(config, path)
         if edited and path != ("chunks",):
-            again = planning.reruns(jobs, planning.jobs(edited))
-            assert 0 < len(again) < len(jobs), path
+            after = parameters(edited)
+            assert 0 < sum(after[job] != before[job] for job in before) < len(before), path
 
 
-@pytest.mark.parametrize("path", VALUES, ids=".".join)
-def test_an_edit_of_a_value_concerns_what_reads_it(path, config, jobs):
-    again = planning.reruns(jobs, planning.jobs(changed(config, path)))
-    assert again == matching(jobs, VALUES[path])
-
-
-@pytest.mark.parametrize("path", FILES)
-def test_an_edit_of_a_file_concerns_what_runs_it(path, noted, jobs):
-    edited = {name for name, (_, files) in noted.items() if path in files}
-    assert planning.reruns(jobs, jobs, edited) == matching(jobs, FILES[path])
-
-
-def test_snakemake_reruns_what_edits_concern(project, edit, config, jobs):
-    """The edits concern values, a script, a module that two stages import, and a template.
-
-    Jobs that both an edit of a value and an edit of a file concern are jobs of chapters.
-    """
-    paths = [
-        "workflow/scripts/machine_pages.py",
-        "src/chatterjee1995/stages/studies.py",
-        "src/impact_damper/plot/pages/templates/design.jinja",
-    ]
+def test_an_edit_of_values_concerns_what_reads_them(project, edit, config):
     edited = config
     for path in VALUES:
         edited = changed(edited, path)
     edit("config/config.yaml", yaml.safe_dump(edited, sort_keys=False))
-    for path in paths:
+    planned, known = to_do(project)
+    assert planned == matching(known, set().union(*VALUES.values()))
+
+
+def test_an_edit_of_files_concerns_what_runs_them(project, edit):
+    """The edits concern a table, claims, a template, and modules of one and of several stages."""
+    for path in FILES:
         edit(path, (project / path).read_text() + "\n")
-    by_values = planning.reruns(jobs, planning.jobs(edited))
-    by_files = matching(jobs, set().union(*(FILES[path] for path in paths)))
-    assert by_values & by_files <= matching(jobs, chapters(*CHAPTERS))
-    assert to_do(project, config) == by_values | by_files
+    planned, known = to_do(project)
+    assert planned == matching(known, set().union(*FILES.values()))
 
 
 @pytest.mark.parametrize("script", SCRIPTS)
