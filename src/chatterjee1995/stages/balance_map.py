@@ -13,12 +13,9 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wall
 from impact_damper.data.variables import OUTCOME, register
-from impact_damper.model.arguments import read_increasing
-from impact_damper.model.bounds import check_number
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, pick
-from impact_damper.model.settling import check_settling
-from impact_damper.model.units import UNITLESS
+from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import MOTION
 from impact_damper.orbits.quiet_orbits import (
@@ -196,7 +193,7 @@ class _Row(NamedTuple):
 
 
 def balance_map(
-    parameter, values, frequency_ratios, fixed, *, settling=None, workers=1, progress=None
+    parameter, values, frequency_ratios, fixed, *, settling=Settling(), workers=1, progress=None
 ):
     """Compare harmonic balance with exact motions over frequency and one parameter of the rows.
 
@@ -204,7 +201,6 @@ def balance_map(
     peak of the row. `fixed` holds the other arguments of `Oscillator` and `Damper`; without
     `clearance` each row has the clearance of rule (19), as a designer would choose.
     """
-    settling = check_settling(settling)
     rows = _rows(parameter, values, frequency_ratios, fixed)
     parameters = np.array(
         [[pack(row.oscillator, row.damper, w) for w in row.frequencies] for row in rows]
@@ -243,11 +239,6 @@ def balance_map(
 
 
 def _rows(parameter, values, ratios, fixed):
-    if parameter in fixed:
-        raise ValueError(f"fixed: must not hold {parameter}, which changes from row to row")
-    values = read_increasing(UNITLESS, "values", values, count=2)
-    ratios = read_increasing(UNITLESS, "frequency_ratios", ratios, count=2)
-    check_number("frequency_ratios", ratios[0], above=0.0, why="the forcing is periodic")
     rows = []
     for value in values:
         given = fixed | {parameter: float(value)}

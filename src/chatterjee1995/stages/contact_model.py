@@ -12,19 +12,9 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.data.variables import register
 from impact_damper.kernel.equation import acceleration
-from impact_damper.model.arguments import read_frequencies, read_increasing
-from impact_damper.model.bounds import (
-    LOAD_RANGE,
-    PERIODS_RANGE,
-    POINTS_RANGE,
-    RUNS_RANGE,
-    check_count,
-    check_number,
-)
 from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.model.parameters import check_damper, describe
-from impact_damper.model.settling import check_settling
-from impact_damper.model.units import UNITLESS
+from impact_damper.model.parameters import describe
+from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble, strobe_map, traces
 from impact_damper.motions.simulate import random_states
 from impact_damper.theory.contact_law import (
@@ -76,7 +66,7 @@ def contact_model(
     starts=8,
     periods=200,
     seed=1995,
-    settling=None,
+    settling=Settling(),
 ):
     """Compute the contact for each restitution and load, and the loads of simulated motions.
 
@@ -84,15 +74,7 @@ def contact_model(
     the smallest and of the largest motion found from `starts` random starts are recorded over
     `periods` forcing cycles. `restitutions` and `loads` are the axes of the map.
     """
-    settling = check_settling(settling)
-    check_damper(damper)
-    check_count("starts", starts, **RUNS_RANGE)
-    check_count("periods", periods, **PERIODS_RANGE)
-    frequencies = read_frequencies(UNITLESS, frequencies)
-    restitutions, loads, used = (
-        read_increasing(UNITLESS, name, values, count=2)
-        for name, values in (("restitutions", restitutions), ("loads", loads), ("used", used))
-    )
+    used, frequencies = np.array(used, float), np.array(frequencies, float)
     data = contact_map(restitutions, loads) | unloaded_table(used)
     rows = [[np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0)]]
     for i, e in enumerate(used):
@@ -120,8 +102,6 @@ def contact_model(
 
 def spread_loads(largest, count):
     """Return loads from -largest to largest, evenly spaced near 0, logarithmically above LINEAR."""
-    check_number("largest", largest, **LOAD_RANGE)
-    check_count("count", count, **POINTS_RANGE)
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 

@@ -9,11 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
-from impact_damper.model.bounds import SEED_RANGE, check_count
 from impact_damper.model.families import family_of
 from impact_damper.model.packed import pack
-from impact_damper.model.parameters import check_damper, describe
-from impact_damper.model.settling import check_settling
+from impact_damper.model.parameters import describe
+from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.start_states import search_starts
 from impact_damper.orbits.branches import follow_branch
@@ -25,16 +24,13 @@ from impact_damper.theory.design_rule import peak_frequency
 HEAVY, HEAVY_SHARE = 2.0, 0.5
 
 
-def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settling=None):
+def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settling=Settling()):
     """Find the quiet orbit at the peak frequency Wp, and follow it in the damping h.
 
     The dataset has the variables of `orbit_branches` over the damping, from the h of the oscillator
     up to the heavy damping; whether the orbit was found and followed down to the h of the
     oscillator; and for each `design_start` the outcome of a run from this start with this h.
     """
-    check_damper(damper)
-    check_count("seed", seed, **SEED_RANGE)
-    settling = check_settling(settling)
     peak = peak_frequency(oscillator)
     damping = max(HEAVY, 2 * oscillator.damping, HEAVY_SHARE * peak)
     heavy = replace(oscillator, damping=min(damping, 10.0))

@@ -14,10 +14,8 @@ from tqdm import tqdm
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import MINIMUM, STABILITY, register
-from impact_damper.model.arguments import read_frequencies, read_increasing
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import Damper, describe
-from impact_damper.model.units import UNITLESS
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.motions.traces import states_at
 from impact_damper.orbits.quiet_orbits import compliant_orbit
@@ -75,17 +73,10 @@ def design_rules(
     dataset has the ratio at the optimum and by each rule (`optimum_clearance.rule_ratios`), and the
     fraction by which max |Z1| at the ratio of a rule exceeds the smallest max |Z1|.
     """
-    given = {
-        name: read_increasing(UNITLESS, name, values)
-        for name, values in zip(
-            ("mass_ratios", "restitutions", "contact_stiffnesses"),
-            (mass_ratios, restitutions, contact_stiffnesses),
-            strict=True,
-        )
-    }
-    given["frequencies"] = read_frequencies(UNITLESS, frequencies)
-    shape = tuple(len(values) for values in given.values())
-    cells = itertools.product(*given.values())
+    given = mass_ratios, restitutions, contact_stiffnesses, frequencies
+    axes = {name: np.array(values, float) for name, values in zip(SWEPT, given, strict=True)}
+    shape = tuple(len(values) for values in axes.values())
+    cells = itertools.product(*axes.values())
     rows = [
         _cell(oscillator, *values)
         for values in tqdm(
@@ -97,8 +88,7 @@ def design_rules(
         name: np.array([row[name] for row in rows]).reshape(*shape, *np.shape(names[name]))
         for name in names
     }
-    coordinates = dict(zip(SWEPT, given.values(), strict=True))
-    coordinates |= {"criterion": list(CRITERIA), "rule": list(RULES)}
+    coordinates = axes | {"criterion": list(CRITERIA), "rule": list(RULES)}
     return dataset(data, coordinates, describe(oscillator), "Rules for the optimum clearance")
 
 

@@ -17,10 +17,9 @@ from impact_damper.data.variables import register
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import side_of, workspace
 from impact_damper.kernel.tangents import advance
-from impact_damper.model.bounds import RUNS_RANGE, SEED_RANGE, check_count
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import describe
-from impact_damper.model.settling import check_settling
+from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.attractors import PHASES, release_set
 from impact_damper.motions.legs import HOLD, PHASE, SETTLED, STATE, hold
@@ -84,7 +83,7 @@ def release_policies(
     trials=200,
     cells=64,
     seed=1995,
-    settling=None,
+    settling=Settling(),
     workers=1,
     progress=None,
 ):
@@ -94,9 +93,6 @@ def release_policies(
     `cells` are the cells on each axis of the coarse grid of a release set; `progress` is unused,
     jobs pass it to every stage.
     """
-    settling = check_settling(settling)
-    check_count("trials", trials, **RUNS_RANGE)
-    check_count("seed", seed, **SEED_RANGE)
     shape = len(dampers), len(frequencies), len(POLICIES)
     data = {
         "policy_success": np.empty((*shape, 3)),

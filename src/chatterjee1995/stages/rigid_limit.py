@@ -14,12 +14,9 @@ from chatterjee1995.methods.rigid_impacts import mended_orbit, rigid_orbit
 from chatterjee1995.stages.contact_model import extreme_motions
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import register
-from impact_damper.model.arguments import read_frequencies, read_increasing
-from impact_damper.model.bounds import RUNS_RANGE, check_count, check_frequency
 from impact_damper.model.packed import pack
-from impact_damper.model.parameters import check_damper, describe
-from impact_damper.model.settling import check_settling
-from impact_damper.model.units import UNITLESS
+from impact_damper.model.parameters import describe
+from impact_damper.model.settling import Settling
 from impact_damper.orbits.grid_following import Grid, follow_line
 from impact_damper.orbits.quiet_orbits import compliant_orbit
 
@@ -55,7 +52,15 @@ STIFF = 1e4
 
 
 def rigid_limit(
-    oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling=None
+    oscillator,
+    damper,
+    frequency,
+    frequencies,
+    stiffnesses,
+    *,
+    starts=16,
+    seed=1995,
+    settling=Settling(),
 ):
     """Compare rigid impacts with compliant contact at each frequency and stiffness.
 
@@ -63,12 +68,7 @@ def rigid_limit(
     `frequencies` and `stiffnesses` are the axes of the grid. An ArithmeticError says that no start
     leads to a quiet motion, or that its orbit cannot be followed into the grid.
     """
-    check_damper(damper)
-    check_count("starts", starts, **RUNS_RANGE)
-    frequency = check_frequency(frequency)
-    frequencies = read_frequencies(UNITLESS, frequencies, 2)
-    stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, count=2)
-    settling = check_settling(settling)
+    frequencies, stiffnesses = np.array(frequencies, float), np.array(stiffnesses, float)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
     compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)
     data = _errors(oscillator, damper, frequencies, stiffnesses, compliant.orbits, rigid.orbits)
@@ -83,7 +83,7 @@ def rigid_limit(
         "own_mended_error": mended_size / quiet.displacement - 1,
     }
     made = describe(oscillator, damper, settling)
-    made |= {"frequency": frequency, "starts": starts, "seed": seed}
+    made |= {"frequency": float(frequency), "starts": starts, "seed": seed}
     coordinates = {
         "frequency": frequencies,
         "stiffness": stiffnesses,

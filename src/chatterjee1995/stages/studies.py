@@ -14,12 +14,9 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag, is_settled, load, oscillator_of, save
 from impact_damper.data.variables import OUTCOME, register
 from impact_damper.data.whole_files import BrokenFileError
-from impact_damper.model.arguments import read_increasing
-from impact_damper.model.bounds import RUNS_RANGE, SEED_RANGE, check_count
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper, describe
 from impact_damper.model.settling import Settling
-from impact_damper.model.units import UNITLESS
 from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.start_states import (
@@ -65,7 +62,7 @@ def study_chunk(
     starts=8,
     radius=None,
     seed=1995,
-    settling=None,
+    settling=Settling(),
     workers=1,
     progress=None,
 ):
@@ -77,12 +74,8 @@ def study_chunk(
     `cell` the largest displacement of all motions to which the starts lead, the displacement on
     the quiet orbit, and the numbers of random starts that lead to this orbit and to each outcome.
     """
-    settling = settling or Settling()
-    check_count("starts", starts, **RUNS_RANGE)
-    axes = _checked(axes)
-    shape = [len(values) for values in axes.values()]
-    first = check_count("cells[0]", cells[0], least=0, most=math.prod(shape) - 1)
-    last = check_count("cells[1]", cells[1], least=first + 1, most=math.prod(shape))
+    axes = {name: np.array(axes[name], float) for name in AXES}
+    shape, (first, last) = [len(values) for values in axes.values()], cells
 
     def system(place):
         values = {name: axis[i] for (name, axis), i in zip(axes.items(), place, strict=True)}
@@ -95,13 +88,6 @@ def study_chunk(
             return wide_starts(oscillator, damper, frequency, starts, [seed, cell], settling)[:2]
         return random_states(starts, radius, damper, [seed, cell]), NO_STARTS
 
-    check_count("seed", seed, **SEED_RANGE)
-    # The axes are sorted, so a value out of range is at an end of its axis. It is found here, not
-    # after hours of work.
-    for end in (0, -1):
-        _, damper = system([end] * len(AXES))
-        if radius is not None:
-            random_states(0, radius, damper, seed)
     if radius is not None:
         warn_if_narrow(oscillator, axes["frequency"], radius)
     found, stop = np.empty(last - first, CELL), np.zeros(1, bool)
@@ -139,16 +125,6 @@ def _condensed(runs, starts):
         np.max(sizes),
         np.min(sizes[quiet]) if quiet.any() else np.nan,
     )
-
-
-def _checked(axes):
-    """Return the axes as increasing arrays in the order of `AXES`."""
-    if not isinstance(axes, dict) or set(axes) != set(AXES):
-        raise TypeError(f"axes = {axes!r}: must be a dictionary of {', '.join(AXES)}")
-    return {
-        name: read_increasing(UNITLESS, f"axes[{name!r}]", np.atleast_1d(axes[name]))
-        for name in AXES
-    }
 
 
 def gather_chunks(paths, path) -> None:

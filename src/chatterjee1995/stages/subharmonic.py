@@ -12,12 +12,9 @@ from impact_damper.data.datasets import dataset, flag, touches_no_wall
 from impact_damper.data.variables import register
 from impact_damper.kernel.single import side_of
 from impact_damper.model import packed
-from impact_damper.model.arguments import read_frequencies
-from impact_damper.model.bounds import SEED_RANGE, check_count, check_starts
 from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.model.parameters import check_damper, check_oscillator, describe
-from impact_damper.model.settling import check_settling
-from impact_damper.model.units import UNITLESS
+from impact_damper.model.parameters import describe
+from impact_damper.model.settling import Settling
 from impact_damper.motions import strobe_map, traces
 from impact_damper.motions.following import record_at
 from impact_damper.motions.simulate import COMPONENTS
@@ -69,7 +66,7 @@ def subharmonic_suppression(
     starts=96,
     radius=None,
     seed=1995,
-    settling=None,
+    settling=Settling(),
     workers=1,
     progress=None,
 ):
@@ -81,16 +78,10 @@ def subharmonic_suppression(
     Where the free subharmonic exists, one half of the starts has the primary mass on it and
     switches the damper on at a random time. The other arguments are those of `frequency_response`.
     """
-    settling = check_settling(settling)
-    check_damper(damper)
-    check_oscillator(oscillator)
     if oscillator.is_linear:
         raise ValueError(
             "cubic = 0: must not be 0 (without the damper a linear spring has no subharmonic)"
         )
-    frequencies = read_frequencies(UNITLESS, frequencies, 2)
-    check_starts(starts, max(SEARCHED, len(frequencies)), least=2)
-    check_count("seed", seed, **SEED_RANGE)
     free = free_subharmonic(
         oscillator,
         frequencies[0],
@@ -269,7 +260,7 @@ class FreeSubharmonic(NamedTuple):
 
 
 def free_subharmonic(
-    oscillator, first, last, *, starts=96, radius=None, seed=1995, settling=None, workers=1
+    oscillator, first, last, *, starts=96, radius=None, seed=1995, settling=Settling(), workers=1
 ) -> FreeSubharmonic:
     """Find the free symmetric motion of period 3 between two frequencies.
 
@@ -278,7 +269,6 @@ def free_subharmonic(
     """
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
-    settling = check_settling(settling)
     systems = [(None, value) for value in frequencies]
     search = search_starts(oscillator, systems, starts, radius, seed, settling)
     data = sweep(

@@ -94,17 +94,3 @@ def test_counts_add_up(over_restitution):
     verdict = names(over_restitution, "quiet_verdict")
     assert counted["map cells"].sum() == np.char.endswith(verdict.astype(str), "absent").sum()
     assert table_of({}).empty
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (("clearance", [1, 2], [1, 2], FIXED), "must not hold clearance"),
-        (("restitution", [1, 0.9], [1, 2], FIXED), "must be increasing"),
-        (("restitution", [0.9, 1.1], [1, 2], FIXED), "restitution = 1.1"),
-        (("restitution", [0.9, 1], [0, 1], FIXED), "greater than 0"),
-    ],
-)
-def test_arguments_are_checked(arguments, words):
-    with pytest.raises(ValueError, match=words):
-        balance_map(*arguments)

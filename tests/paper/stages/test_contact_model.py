@@ -85,10 +85,3 @@ def test_table_and_figure(model):
     assert len(verdicts) == 5 and (counts[verdicts].sum(axis=1) == 9).all()
     # A map for each exit rule, and the colour scale.
     assert len(draw_contact_model(contact_model=[model]).axes) == 3
-
-
-def test_bad_arguments_are_named():
-    with pytest.raises(ValueError, match="loads = .*: must be increasing"):
-        contact_model(PAPER, INELASTIC, [2.0], [0.5, 1.0], [1, 0], used=[0.5, 1.0])
-    with pytest.raises(ValueError, match="count = 1: must be from 2"):
-        spread_loads(10, 1)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from helpers.known_orbits import DESIGN, PAPER
+from helpers.known_orbits import PAPER
 from scipy.special import ellipk
 
 from chatterjee1995.figures.balance import draw_harmonic_convergence
@@ -71,20 +71,6 @@ def test_table_and_figure(soft, free):
     assert np.isnan(rows.loc["free", "mass ratio rm"])
     drawn = draw_harmonic_convergence(harmonic_convergence=[soft, free])
     assert len(drawn.axes) == 4
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"harmonics": [3, 1]}, "increasing"),
-        ({"harmonics": [1, 2]}, "odd"),
-        ({"cold": [5]}, "cold"),
-    ],
-)
-def test_wrong_arguments_are_named(change, message):
-    given = {"harmonics": [1, 3], "cold": []} | change
-    with pytest.raises(ValueError, match=message):
-        harmonic_convergence.harmonic_convergence(PAPER, DESIGN, 2.0, **given)
 
 
 def test_failures_are_stored():

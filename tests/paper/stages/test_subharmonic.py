@@ -11,8 +11,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from chatterjee1995.stages.subharmonic import (
-    SWITCHED_MOTIONS,
-    _suppression,
     free_subharmonic,
     subharmonic_suppression,
     switched_on,
@@ -116,23 +114,6 @@ def test_switching_on_keeps_the_primary_on_the_subharmonic_until_a_contact(free)
     assert len(set(away.argmin(axis=1))) == 3
 
 
-@pytest.mark.thorough
-def test_shares_of_switching_on(damped):
-    shares = damped.switched_share.sum("switched_motion", skipna=False)
-    present = np.isfinite(damped.free_subharmonic)
-    assert_allclose(shares.values[present], 1)
-    assert np.isnan(shares.values[~present]).all()
-    assert list(damped.switched_motion.values) == list(SWITCHED_MOTIONS)
-
-
-def test_suppression_by_size():
-    meanings = ["no_subharmonic_without_damper", "removed", "reduced", "unchanged", "unchanged"]
-    flags = _suppression(
-        np.array([0.5, -np.inf, 0.5, 0.99, 1.2]), np.array([np.nan, 1.0, 1.0, 1.0, 1.0])
-    )
-    assert flags.tolist() == [flag("suppression", meaning) for meaning in meanings]
-
-
 def test_no_free_subharmonic(tmp_path):
     """With heavy damping there is no subharmonic.
 
@@ -144,14 +125,3 @@ def test_no_free_subharmonic(tmp_path):
     assert np.all(data.suppression == flag("suppression", "no_subharmonic_without_damper"))
     save(data, tmp_path / "data.nc")
     assert load(tmp_path / "data.nc").identical(data)
-
-
-@pytest.mark.parametrize("frequencies", [[2.0], [2.0, 1.0]])
-def test_frequencies_are_checked(frequencies):
-    with pytest.raises(ValueError, match="frequencies"):
-        subharmonic_suppression(PAPER, DAMPER, frequencies)
-
-
-def test_a_damper_is_needed():
-    with pytest.raises(TypeError, match="damper = None"):
-        subharmonic_suppression(PAPER, None, [1.6, 2.2])
