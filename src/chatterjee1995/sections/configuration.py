@@ -1,5 +1,7 @@
 """The whole configuration: its check before any job starts, with a line for each problem."""
 
+from contextlib import suppress
+
 from pydantic import ValidationError, create_model
 
 from chatterjee1995.sections.methods import Comparison
@@ -237,22 +239,17 @@ def without_left_out(given):
     """
     if not isinstance(given, dict):
         return given
-    kept = {key: _present(value) for key, value in given.items()}
-    figures = kept.get("figures")
-    for name, figure in list(figures.items()) if isinstance(figures, dict) else []:
-        kind = figure.get("kind") if isinstance(figure, dict) else None
-        section = section_of(kind) if isinstance(kind, str) and kind in KINDS else None
-        entries, data = given.get(section), isinstance(figure, dict) and figure.get("data")
-        if isinstance(entries, dict) and isinstance(data, list):
-            left_out = [key for key, entry in entries.items() if entry is None]
-            figures[name] = figure | {"data": [key for key in data if key not in left_out]}
-            if data and not figures[name]["data"]:
-                del figures[name]
+    sections = {key: value for key, value in given.items() if isinstance(value, dict)}
+    kept = given | {
+        key: {name: entry for name, entry in section.items() if entry is not None}
+        for key, section in sections.items()
+    }
+    for name, figure in list(sections.get("figures", {}).items()):
+        with suppress(AttributeError, KeyError, TypeError):  # the check names what is wrong
+            known = sections[section_of(figure["kind"])]
+            data = [each for each in figure["data"] if known.get(each, each) is not None]
+            if len(data) < len(figure["data"]):
+                kept["figures"][name] = figure | {"data": data}
+                if not data:
+                    del kept["figures"][name]
     return kept
-
-
-def _present(section):
-    """Return a section without entries that are None."""
-    if not isinstance(section, dict):
-        return section
-    return {name: entry for name, entry in section.items() if entry is not None}

@@ -19,6 +19,7 @@ from chatterjee1995.sections.system import (
     WithDamper,
     WithOscillator,
     damper_values,
+    given,
     keys_of,
     range_of,
 )
@@ -141,8 +142,7 @@ class MissedContacts(WithOscillator):
         priority=1,
     )
     def missed_contacts(self, config) -> dict:
-        keys = ("frequency", "passages", "radius")
-        values = {key: getattr(self, key) for key in keys} | {
+        values = given(self, ["frequency", "passages", "radius"]) | {
             "depths": self.depths.geometric(),
             "tolerances": self.tolerances.geometric(),
             "steps": {"counts": [self.steps.first, self.steps.last, self.tolerances.points]},
@@ -170,7 +170,7 @@ class StableSteps(WithDamper):
         "Largest stable steps of fixed-step methods, {name}",
     )
     def stable_steps(self, config) -> dict:
-        values = {key: getattr(self, key) for key in ("frequency", "most_steps", "periods")} | {
+        values = given(self, ["frequency", "most_steps", "periods"]) | {
             "stiffnesses": self.stiffnesses.geometric(),
             "scaled_steps": self.scaled_steps.geometric(),
         }
@@ -219,10 +219,9 @@ class Scene(MaybeWithDamper):
         priority=1,
     )
     def job(self, config) -> dict:
-        keys = ("frequency", "state", "periods", "motion")
-        values = {key: getattr(self, key) for key in keys} | {"accuracy": dict(self.accuracy)}
-        settings = config.comparison.model_dump()
-        return self.system(config) | values | {"settings": settings}
+        values = given(self, ["frequency", "state", "periods", "motion"])
+        settings = {"settings": config.comparison.model_dump(), "accuracy": dict(self.accuracy)}
+        return self.system(config) | values | settings
 
 
 class Comparison(Section):

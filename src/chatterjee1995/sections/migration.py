@@ -11,6 +11,7 @@ from chatterjee1995.sections.system import (
     WithDamper,
     WithOscillator,
     damper_values,
+    given,
     keys_of,
 )
 from impact_damper.command.section import increasing
@@ -79,8 +80,7 @@ class Basins(MaybeWithDamper):
         "Motions to which the states of a plane lead, the plane {name}",
     )
     def basins(self, config) -> dict:
-        keys = ("frequency", "displacement", "velocity", "cells")
-        plane = {key: getattr(self, key) for key in keys}
+        plane = given(self, ["frequency", "displacement", "velocity", "cells"])
         return self.system(config) | plane | config.settling.job()
 
 
@@ -108,7 +108,7 @@ class ReleasePolicies(WithOscillator):
     def release_policies(self, config) -> dict:
         dampers = [each for _, each in sorted(self.dampers.items())]
         values = {"dampers": [{"Damper": damper_values(each, config)} for each in dampers]}
-        values |= {key: getattr(self, key) for key in ("frequencies", "trials", "cells")}
+        values |= given(self, ["frequencies", "trials", "cells"])
         return self.system(config) | values | {"seed": config.seed} | config.settling.job()
 
 

@@ -1,7 +1,8 @@
 """Records of a stage, a kind of figure and a table, which the workflow and the tests read."""
 
 from collections.abc import Callable
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple
 
 
 class Stage(NamedTuple):
@@ -40,42 +41,41 @@ def stage(function, message, **options):
     return mark
 
 
-class Table(NamedTuple):
-    """A table of a chapter, made by the function with its name from the datasets of stages.
-
-    The CSV file has all columns, the Markdown file those that the module lists in `SHOWN`.
-    """
+@dataclass(frozen=True)
+class Shown:
+    """What a chapter shows, made from the datasets of stages by a function of a module."""
 
     name: str
     chapter: str
-    # Full name of the module, or its name in `chatterjee1995.tables`.
+    # Name of the module in the room `tables` or `figures`, or its full name.
     module: str
+    # For a figure of `curves`: an entry must have the first of these stages.
     stages: tuple[str, ...]
-    # Whether its Markdown shows figures, so that it needs their names.
-    pictures: bool = False
+
+    room: ClassVar[str]
 
     @property
     def source(self) -> str:
         """Full name of the module."""
-        return self.module if "." in self.module else f"chatterjee1995.tables.{self.module}"
+        return self.module if "." in self.module else f"chatterjee1995.{self.room}.{self.module}"
 
 
-class Kind(NamedTuple):
-    """A kind of figure, drawn by the function `draw_<name>` from the datasets of stages."""
+@dataclass(frozen=True)
+class Table(Shown):
+    """A table, made by the function with its name."""
 
-    name: str
-    chapter: str
-    # Full name of the module, or its name in `chatterjee1995.figures`.
-    module: str
-    # An entry of `curves` must have the first of these stages.
-    stages: tuple[str, ...]
+    room = "tables"
+    # Whether its Markdown shows figures, so that it needs their names.
+    pictures: bool = False
+
+
+@dataclass(frozen=True)
+class Kind(Shown):
+    """A kind of figure, drawn by the function `draw_<name>`."""
+
+    room = "figures"
     # Largest number of entries in a figure.
     most: int = 6
     # Whether entries of `curves` must have a damper, or must have none. If they have one, a figure
     # with `branches` also draws those of the same oscillators without a damper.
     damper: bool = True
-
-    @property
-    def source(self) -> str:
-        """Full name of the module."""
-        return self.module if "." in self.module else f"chatterjee1995.figures.{self.module}"

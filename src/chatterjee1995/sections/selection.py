@@ -4,6 +4,7 @@ import re
 
 from chatterjee1995.sections.registry import KINDS, PAPER, STAGES, TABLES, section_of
 from impact_damper.model.parameters import SYMBOLS
+from impact_damper.model.text import number
 
 # If a list has more values than this, the text gives only the smallest and the largest.
 MANY = 3
@@ -184,5 +185,4 @@ def _value(value):
 
 
 def _number(value):
-    """Return a number as short text: 1e6 in place of 1e+06."""
-    return f"{value:g}".replace("e+0", "e")
+    return number(value, 6)
