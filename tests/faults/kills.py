@@ -11,7 +11,7 @@ from functools import partial
 
 import psutil
 
-from .project import DATA, Project, expect
+from .project import expect
 
 WAIT = 0.02  # seconds between two checks
 
@@ -93,33 +93,4 @@ def interrupt(context):
         yield f"Ctrl-C after {moment:.1f} s", trial
 
 
-def edit_after_kill(context):
-    """Yield a trial: a job that outlives its killed run must not overwrite newer results.
-
-    The configuration is edited after the kill, and the newer results are those of the edited one.
-    """
-
-    def trial():
-        def edit(project):
-            project.edit("config/small.yaml", "clearances: 3", "clearances: 4")
-
-        undisturbed = Project(context.folder / "edited")
-        edit(undisturbed)
-        expect(undisturbed.run()[0] == 0, "the edited configuration does not run")
-        project = context.fresh("edit-after-kill")
-        process = project.start()
-        while not (project.folder / DATA.replace("/", "/logs/", 1)).with_suffix(".log").exists():
-            expect(process.poll() is None, "the run ended before its job began")
-            time.sleep(WAIT)
-        process.kill()
-        edit(project)
-        project.run("--unlock")
-        expect(project.run()[0] == 0, "the edited configuration does not run after a kill")
-        process.communicate()
-        project.expect_same(undisturbed.outputs())
-        return "--unlock, run again"
-
-    yield "`kill -9` of Snakemake, then an edit at once", trial
-
-
-TRIALS = [kill_snakemake, kill_job, interrupt, edit_after_kill]
+TRIALS = [kill_snakemake, kill_job, interrupt]

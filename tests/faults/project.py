@@ -172,10 +172,3 @@ class Project:
         left = [path.name for path in (self.folder / "results").rglob("*.part-*")]
         expect(not left, f"unfinished files are left: {left}")
         expect(not self.planned(), "another run would run jobs again")
-
-    def edit(self, name, old, new):
-        """Replace the first occurrence of a text in a file."""
-        path = self.folder / name
-        text = path.read_text()
-        expect(old in text, f"{old} does not stand in {name}")
-        path.write_text(text.replace(old, new, 1))
