@@ -4,7 +4,6 @@ In the invented world all claims are reproduced, except claim 15 and S5, which c
 """
 
 import numpy as np
-import pandas as pd
 import pytest
 from helpers.changes import assign, each, power, put, renamed, scale, share, unstable
 from helpers.made_up import (
@@ -24,7 +23,6 @@ from helpers.made_up_orbits import branch, branches
 from chatterjee1995.claims.bands import largest_difference
 from chatterjee1995.claims.claim import DIFFERENT, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from chatterjee1995.claims.verdicts import CLAIMS, claims
-from chatterjee1995.reading import orbits
 from chatterjee1995.reading.bands import Band
 from chatterjee1995.reading.datasets import ELASTIC
 from impact_damper.data.datasets import flag
@@ -83,48 +81,36 @@ THIRD = put("branches", "figure_08", damped_branches("figure_08", third=0.8))
 CHANGES = [
     ("1", scale("harmonic_balance", "figure_03a_rule", quiet_amplitude=1000), NOT_REPRODUCED),
     ("2", scale("harmonic_balance", "figure_05a", rigid_amplitude=1.1), NOT_REPRODUCED),
-    ("3", unstable_balance(1.12), REPRODUCED),
     ("3", unstable_balance(1.08), NOT_REPRODUCED),
-    ("3", unstable("figure_05a", 1.11, 1.2), REPRODUCED),
     ("3", unstable("figure_05a", 1.08, 1.2), DIFFERENT),
-    ("3", unstable("figure_05a", 0.8, 0.85), DIFFERENT),
-    ("4", scale("harmonic_balance", "figure_03b", band_width=0.85), REPRODUCED),
     ("4", scale("harmonic_balance", "figure_03b", band_width=0.78), NOT_REPRODUCED),
     ("4", assign("design_orbit", "figure_03b", orbit_multiplier_real=1.01), DIFFERENT),
     ("4", scale("harmonic_balance", "figure_03b", reduction=0.89), NOT_REPRODUCED),
-    ("4", scale("design_orbit", "figure_03b", orbit_displacement=6.0), DIFFERENT),
     ("5", assign("branches", "figure_05b", orbit_contacts=3.0), NOT_REPRODUCED),
     ("6", FEW, NOT_REPRODUCED),
     ("6", assign("response", "figure_05b", outcome=flag("outcome", "chaotic")), DIFFERENT),
-    ("6", orbits_times(0.92, variable="orbit_amplitude"), REPRODUCED),
     ("6", orbits_times(0.9, variable="orbit_amplitude"), NOT_REPRODUCED),
     ("7", scale("branches", "figure_05a", orbit_phase_relative=0.5), NOT_REPRODUCED),
     ("8", scale("collisions", "figure_05a", colliding=0.995), DIFFERENT),
-    ("8", scale("collisions", "figure_05a", colliding=0.5), NOT_REPRODUCED),
     ("9", scale("optimum", "0.215_0.12_1.0", optimum_clearance=0.9), NOT_REPRODUCED),
     ("9", RISE, DIFFERENT),
     ("9", optima_times(0.87), DIFFERENT),
-    ("9", optima_times(1.06), NOT_REPRODUCED),
     ("10", copied("figure_05b", "figure_05c"), NOT_REPRODUCED),
     ("11", copied("figure_10", "figure_05c"), NOT_REPRODUCED),
     ("11", scale("optimum", "0.215_0.12_0.75", quiet_displacement=1.5), DIFFERENT),
     ("12", share("figure_13", "quiet", 0.001), NOT_REPRODUCED),
-    ("12", share("figure_13", "unsettled", 0.5), REPRODUCED),
     ("13", share("figure_15", "quiet", 0.0), NOT_REPRODUCED),
     ("14", scale("migration", "figure_13", within_share=0.4), DIFFERENT),
     ("15", renamed("response", "figure_10", restitution=0.2), NOT_REPRODUCED),
     ("16", orbits_times(1.2), REPRODUCED),
     ("16", orbits_times(1.3, ["figure_08"]), DIFFERENT),
-    ("16", orbits_times(0.75), DIFFERENT),
     ("16", WIDE, NOT_REPRODUCED),
     ("17", scale("optimum", "0.215_0.18_1.0", quiet_displacement=1.08), DIFFERENT),
     ("17", scale("branches", "figure_05c", orbit_displacement=10), NOT_REPRODUCED),
     ("18", THIRD, DIFFERENT),
     ("19", scale("migration", "figure_16", reached_share=0.9), DIFFERENT),
     ("S1", power, NOT_REPRODUCED),
-    ("S2", renamed("harmonic_balance", "figure_03a", clearance=1.58), REPRODUCED),
     ("S2", renamed("harmonic_balance", "figure_03a", clearance=1.57), NOT_REPRODUCED),
-    ("S4", renamed("harmonic_balance", "figure_05a", clearance=2.1), REPRODUCED),
     ("S4", renamed("harmonic_balance", "figure_05a", clearance=2.2), NOT_REPRODUCED),
     ("S6", renamed("harmonic_balance", "figure_08", clearance=1.07), NOT_REPRODUCED),
     ("S6", renamed("optimum", "0.215_0.12_0.75", frequency=1.0), NOT_REPRODUCED),
@@ -162,14 +148,6 @@ def damped(*parts, mass_ratio):
     size, phase = quiet_size(frequency, PEAK, mass_ratio), np.where(frequency < PEAK, np.pi, 0.0)
     made = parameters(**damper(mass_ratio, PEAK))
     return branches(branch(frequency, size, phase=phase), *parts, parameters=made)
-
-
-def test_width_in_which_different_values_coexist():
-    columns = {"lower": [1.0, 1.5, 1.8, 3.0], "upper": [1.5, 2.0, 2.2, 3.1]}
-    part = pd.DataFrame(columns | {"contacts": [2.0, 2.0, 4.0, 4.0]})
-    assert orbits.coexisting(part, "contacts") == pytest.approx(0.2)
-    assert orbits.coexisting(part[:2], "contacts") == 0
-    assert orbits.coexisting(part[:0], "contacts") == 0
 
 
 @pytest.mark.parametrize(("overlap", "expected"), [(0.004, REPRODUCED), (0.006, DIFFERENT)])
@@ -241,16 +219,6 @@ def test_runs_that_could_arrive_by_the_better_way(within, by_hold, expected, dat
     values = BY_NUMBER["14"].evidence(data)
     assert values["worst"] == 1.7 and values["best"] == pytest.approx(max(within, by_hold or 0))
     assert BY_NUMBER["14"].verdict(values) == expected
-
-
-def test_policies_count_for_their_damper_and_frequency(data):
-    case = data["migration"]["figure_15"]
-    for frequency, expected in ((1.7, 0.2), (1.8, np.nan)):
-        data["release_policies"] = {"paper": policies(case, frequency)}
-        (found,) = (
-            each for each in BY_NUMBER["14"].evidence(data)["cases"] if each["frequency"] == 1.7
-        )
-        assert found["hold"] == pytest.approx(expected, nan_ok=True)
 
 
 @pytest.mark.parametrize(("third", "expected"), [(11, REPRODUCED), (9, NOT_REPRODUCED)])
