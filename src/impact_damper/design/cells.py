@@ -32,7 +32,7 @@ APART = 1.3
 # doubling of this number let it grow by less than GROWN. Run for MOST_POOLED cycles, it counts as
 # it is, with a flag. Before, it may grow by MISSING for each doubling up to POOLED.
 POOLED, GROWN, MOST_POOLED = 25_000, 0.01, 200_000
-MISSING = 0.04
+MISSING = 0.025
 # A motion that approaches an orbit may exceed it by SLACK.
 SLACK = 0.001
 # Cycles in which a motion that is followed must settle to be found on an orbit.
@@ -143,11 +143,11 @@ class Motions:
         return any(self.growth(k, regime) >= GROWN for regime in self.regimes(k) if len(regime))
 
     def largest(self, rank) -> np.ndarray:
-        """Return the bounds of all cells, after those that may be the largest are known."""
+        """Return the bounds of all cells, after the largest one is known."""
         while True:
             bounds, known = self.bounds(rank)
-            floor = -np.sort(-self.peaks, axis=1)[:, rank - 1].max()
-            unsure = np.flatnonzero(~known & (bounds >= floor))
+            largest = np.max(bounds, where=known, initial=0.0)
+            unsure = np.flatnonzero(~known & (bounds > largest))
             if not len(unsure):
                 return bounds
             self.follow(unsure[np.argsort(-bounds[unsure], kind="stable")[:TOGETHER]])
