@@ -95,10 +95,7 @@ def build(folder):
 def points(folder, damping, run, setting):
     """Return the special points of one run of AUTO, in order along the branch.
 
-    Raises
-    ------
-    RuntimeError
-        If AUTO lost the branch, ran out of steps, or could not locate a point that it detected.
+    A RuntimeError says that AUTO lost the branch, ran out of steps, or did not locate a point.
     """
     branch, (periods, frequency, starts), stop, kinds, _ = RUNS[run]
     orbit = first_orbit(damping, frequency, starts[damping], periods)
@@ -125,10 +122,7 @@ def points(folder, damping, run, setting):
 
 
 def first_orbit(damping, frequency, start, periods):
-    """Return T, Z1, Z1', sin W T, cos W T over one period of the orbit that a start leads to.
-
-    The array has one row for each of 200 times in a forcing cycle, and a row for the last time.
-    """
+    """Return rows of T, Z1, Z1', sin W T, cos W T over a period of the orbit that a start leads to."""
 
     def rate(time, z):
         return z[1], math.cos(frequency * time) - damping * z[1] - z[0] ** 3
@@ -144,9 +138,8 @@ def first_orbit(damping, frequency, start, periods):
 def solutions(path):
     """Yield the type and (parameters, profile) of each solution that AUTO stored.
 
-    In AUTO's file a header states the number of values that follow: the profile, then the direction
-    of the branch and the parameters. The profile has a row for each mesh point, with the columns
-    time divided by the period, Z1, Z1', sin W T, cos W T.
+    A header in AUTO's file states the number of values that follow: the profile, with a row for
+    each mesh point (time over period, Z1, Z1', sin W T, cos W T), and the parameters.
     """
     lines = path.read_text().splitlines()
     while lines:
@@ -176,8 +169,7 @@ def found_in(folder, damping, run, settings):
     """Return the points found with the last of several settings, each with an estimated error.
 
     The error is the largest difference between the settings, but at least AUTO's tolerance EPSU and
-    at least the last digit that AUTO writes. Folds that AUTO meets a second time on a closed branch
-    are omitted.
+    the last digit that AUTO writes. Folds met a second time on a closed branch are omitted.
     """
     runs = [points(folder, damping, run, setting) for setting in settings]
     if len({tuple(point["kind"] for point in run) for run in runs}) != 1:

@@ -1,10 +1,9 @@
 """Motions in 80-bit arithmetic by a C program that shares no code with the package.
 
-The package's own integrators are called kernels. State and parameters are the same as theirs:
-(Z1, Z1', Z2, Z2') and the array from `model.packed.pack`. The program uses Taylor series of order
-32 with a local error of 1e-20, and isolates events (beginnings and ends of contacts) by the signs
-of Bernstein coefficients (see motion.c). The compiler `cc` compiles the program on first use, in
-about half a second.
+State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and the array from
+`model.packed.pack`. The program uses Taylor series of order 32 with a local error of 1e-20, and
+isolates events (beginnings and ends of contacts) by the signs of Bernstein coefficients (see
+motion.c). The compiler `cc` compiles it on first use.
 """
 
 import ctypes
@@ -62,28 +61,14 @@ def _library():
 class Run(NamedTuple):
     """One motion; all arrays are long double.
 
-    Attributes
-    ----------
-    states : array, shape (n, 4)
-        State at each requested time.
-    extremes : array, shape (n, 2)
-        Smallest and largest Z1 since the requested time before, or since the first state.
-    contacts : array, shape (k, 5)
-        Wall, beginning, end, and Z2' at both; NaN for a contact that has not ended. If the first
-        state is in contact, this contact is the first row and begins at the first state.
-    begun : int
-        Number of contacts that begin in the run; a contact of the first state is not counted.
-    turnings : array, shape (m, 4)
-        Extrema of Z2, in contact or in flight, and the last Z2. A row holds the time, the nearest
-        wall, the height of Z2 beyond this wall (negative inside the gap), and the largest factor by
-        which an error of the state at an earlier instant grows to an error of Z2. Empty without
-        walls.
-    flow : array, shape (4, 4)
-        Derivative of the last state with respect to the first state.
-    growth : long double
-        Largest norm of the derivative of the last state with respect to the state at an instant of
-        the run, at least 1. Instants are the first time, the requested times and the events (after
-        the jump of the derivative). The norm is the largest sum of moduli in a row.
+    `states`, shape (n, 4), are at the requested times. `extremes`, shape (n, 2), are the smallest
+    and largest Z1 since the time before. `contacts`, shape (k, 5): wall, beginning, end, and Z2' at
+    both, NaN if the contact has not ended; a contact of the first state begins there. `begun`
+    counts contacts without that one. `turnings`, shape (m, 4): extrema of Z2 and the last Z2, each
+    with the time, the nearest wall, the height of Z2 beyond this wall (negative inside the gap),
+    and the largest factor by which an error of an earlier state grows to an error of Z2. `flow` is
+    the derivative of the last state by the first. `growth` is the largest norm, at least 1, of the
+    derivative of the last state by the state at a requested time or an event.
     """
 
     states: np.ndarray
@@ -101,25 +86,12 @@ class Run(NamedTuple):
 
 
 def run(p, state, start, times, *, tolerance=1e-20, longest=math.inf, room=100_000):
-    """Return the `Run` from the time `start` through increasing `times`.
+    """Return the `Run` from the time `start` through increasing times.
 
-    Parameters
-    ----------
-    p : array, shape (COUNT,)
-        Packed parameters.
-    state : array, shape (4,)
-        First state. It is in contact if it lies beyond a wall, or on a wall with outward velocity.
-    start : float or long double
-    times : array, shape (n,)
-    tolerance, longest : float
-        Local error of a step, relative to the state if this is larger than 1; longest step.
-    room : int
-        Largest number of contacts, of extrema of Z2, and of instants.
-
-    Raises
-    ------
-    RuntimeError
-        If the program cannot be compiled on this computer, or if `room` is too small.
+    The first state is in contact if it lies beyond a wall, or on a wall with outward velocity.
+    `tolerance` is the local error of a step, relative to the state if this is larger than 1, and
+    `longest` the longest step. `room` is the largest number of contacts, and of extrema of Z2. A
+    RuntimeError says that it is too small, or that the program cannot be compiled.
     """
     times = np.atleast_1d(np.asarray(times, Real))
     n, counts = len(times), np.empty(3, np.int64)

@@ -1,7 +1,6 @@
 """Errors of the kernels' last states and contact counts against the 80-bit reference.
 
-The kernels are the package's integrators, for one motion and for sixteen motions side by side. A
-start is a random initial state of a random system, see `starts`.
+The kernels are those for one motion and for sixteen motions side by side.
 """
 
 import functools
@@ -46,10 +45,9 @@ KERNELS = {"scalar": scalar, "lanes": side_by_side}
 class Agreement(NamedTuple):
     """Errors of a kernel for the starts of one kind: arrays of shape (m,).
 
-    `error` is the largest error of a component of the last state, divided by the tolerance and by
-    `Run.growth`. `differs` says whether the number of contacts differs. `apart` marks the starts
-    with an extremum of Z2, or a last Z2, closer to a wall than the tolerance times the growth of an
-    error until then: the kernel cannot decide whether there is a contact.
+    `error` is the largest error of the last state, divided by the tolerance and by `Run.growth`.
+    `differs` marks another number of contacts. `apart` marks starts with an extremum of Z2 closer
+    to a wall than the tolerance times the growth of an error: a contact cannot be decided.
     """
 
     error: np.ndarray

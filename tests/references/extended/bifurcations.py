@@ -44,23 +44,11 @@ def _test(kind, run, wall_phase, p):
 
 
 def located(kind, family, value, state, phase):
-    """Return the parameter of an event, and the error of the orbit at this parameter.
+    """Return the parameter of an event, and the residual of the orbit at this parameter.
 
-    Parameters
-    ----------
-    kind : str
-        Kind of the event: "fold", "symmetry_breaking", "neimark_sacker", "grazing", or "merging" of
-        two contacts with a wall.
-    family : callable
-        Maps the parameter to packed parameters.
-    value, state, phase
-        Parameter, state (4,) and phase W T of an orbit close to the event.
-
-    Returns
-    -------
-    value : float
-    residual : float
-        Residual of the map, in 80 bits.
+    `kind` is "fold", "symmetry_breaking", "neimark_sacker", "grazing", or "merging" of two contacts
+    with a wall. `family` maps the parameter to packed parameters. `value`, `state` and `phase` are
+    those of an orbit close to the event.
     """
     first = _half(family(value), state, phase)
     wall_phase = None

@@ -42,10 +42,7 @@ def packed(parameters):
 def reference(parameters, state, periods):
     """Return the entry of the file for one scene, rounded to doubles.
 
-    Raises
-    ------
-    RuntimeError
-        If a run with a smaller tolerance and shorter steps gives another motion.
+    A RuntimeError says that a run with a smaller tolerance and shorter steps gives another motion.
     """
     p = packed(parameters)
     period, start = 2 * math.pi / p[FREQUENCY], 0.5 * math.pi / p[FREQUENCY]

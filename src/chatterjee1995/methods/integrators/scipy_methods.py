@@ -82,6 +82,7 @@ class SciPy(Integrator):
         self.place, self.operations, self.factorising = place, operations, factorising
 
     def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations=UNLIMITED):
+        locate = locate and p[CLEARANCE] < math.inf
         left, factorisations = np.array([most_evaluations]), 0
         times, ends, status = [np.array([begin])], [start[None]], "failed"
         end = begin + periods * 2 * math.pi / p[FREQUENCY]
