@@ -30,10 +30,6 @@ def warm_up_orbits() -> None:
     traces.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9)
     records.envelope(on[None], np.zeros(1), np.zeros(4), 1e-9)
 
-    from impact_damper.orbits.paths import follow_path
-
-    follow_path(on, np.zeros(4), 0.0, 0.01)
-
     from impact_damper.orbits import segments
     from impact_damper.orbits.continuation import Problem
     from impact_damper.orbits.orbit import integrate

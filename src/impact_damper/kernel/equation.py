@@ -9,13 +9,10 @@ recurrence and the names in the generated lines stand in docs/explanation/series
 import math
 from functools import partial
 
-import numpy as np
-
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.model.packed import (
     CLEARANCE,
     CONTACT_STIFFNESS,
-    COUNT,
     CUBIC,
     DAMPING,
     FORCE,
@@ -64,21 +61,6 @@ def spring_slope(p, x, lane=0, lanes=1):
 def acceleration(p, y, t):
     """Return Z1'', which in flight is also Z2'', at the state y = (Z1, Z1', Z2, Z2') and time t."""
     return external_force(p, t) - p[DAMPING] * y[1] - spring(p, y[0])
-
-
-def acceleration_by_parameters(p, x, v, cosine):
-    """Return the derivatives of `acceleration` by the packed parameters, shape (COUNT, n).
-
-    x, v and cosine are Z1, Z1' and cos(W T), shape (n,); the phase W T is fixed.
-    """
-    frequency = p[FREQUENCY]
-    slopes = np.zeros((COUNT, len(x)))
-    slopes[DAMPING], slopes[STIFFNESS], slopes[CUBIC] = -v, -x, -(x**3)
-    slopes[FORCE], slopes[UNBALANCE] = cosine, frequency**2 * cosine
-    slopes[SHAKER] = cosine / frequency**2
-    growth = p[UNBALANCE] * frequency - p[SHAKER] / frequency**3
-    slopes[FREQUENCY] = 2 * growth * cosine
-    return slopes
 
 
 @kernel

@@ -170,16 +170,9 @@ class Problem:
             2 * NUDGE
         )
 
-    def rows(self, x, orbit, known=None):
-        """Return the derivative of the defects by the unknowns, shape (m n, m n + 1).
-
-        `known` is a segment and the derivative of its end by the parameter, without the sign.
-        """
-        slopes = self._slopes(orbit, self.rate(x[-1]))
-        if known is not None:
-            last = known[0] == len(slopes) - 1
-            slopes[known[0]] = known[1] * (self.sign if last else 1)
-        return self._matrix(orbit, slopes)
+    def rows(self, x, orbit):
+        """Return the derivative of the defects by the unknowns, shape (m n, m n + 1)."""
+        return self._matrix(orbit, self._slopes(orbit, self.rate(x[-1])))
 
     def _slopes(self, orbit, rate):
         """Return the derivatives of the ends of the segments by the parameter, shape (m, n)."""

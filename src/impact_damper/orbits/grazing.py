@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.model.packed import CLEARANCE, FREQUENCY
+from impact_damper.model.packed import CLEARANCE
+from impact_damper.motions.segment_runs import slopes_of_ends
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE
+from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
-from impact_damper.orbits.paths import POINTS
-from impact_damper.orbits.sensitivity import Variations, path_of
 
 # On the side with more contacts the heights of successive points are LEAST, RATIO * LEAST, ... up
 # to MOST in modulus.
@@ -32,21 +33,17 @@ BESIDE = 1e-9, 2e-5
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
-def at_height(problem, x, turn, height, direction, exact=True):
+def at_height(problem, x, turn, height, direction):
     """Return the point of a branch at which an extremum has a given height, and the extremum."""
     x = x.copy()
     for _ in range(NEWTON):
         orbit = problem.shoot(x)
-        if exact:
-            reached = nearest(turns_of(problem, x, orbit, turn.segment), turn)
-        else:
-            reached = moved(orbit, turn)
-        if reached is None:
+        turn = nearest(turns_of(orbit), turn)
+        if turn is None:
             return None
-        turn, missing = reached, height - reached.height
+        turn, missing = with_gradient(problem, x, orbit, turn), height - turn.height
         settled = orbit.converged and abs(missing) < CLOSE * abs(height) + ROUNDING
-        rows = problem.rows(x, orbit, known=(turn.segment, turn.by_parameter))
-        matrix, last = np.vstack([rows, turn.gradient]), np.eye(len(x))[-1]
+        matrix, last = np.vstack([problem.rows(x, orbit), turn.gradient]), np.eye(len(x))[-1]
         try:
             if settled:
                 tangent = direction * np.linalg.solve(matrix, last)
@@ -87,8 +84,7 @@ class Passage(NamedTuple):
         def point_at(height, halvings=HALVINGS_BETWEEN):
             near, start, turn = min(known, key=lambda each: abs(each[0] - height))
             x = guess(start, turn, height)
-            where = start.problem, x, turn, height, direction
-            found = at_height(*where, exact=False) or at_height(*where)
+            found = at_height(start.problem, x, turn, height, direction)
             if found is None and halvings == 0:
                 raise ArithmeticError
             if found is None:
@@ -192,9 +188,7 @@ class Turn(NamedTuple):
     outer: True if |Z2| has a maximum, False if it has a minimum.
     height: |Z2| - d0.
     gradient: Derivative of the height by the unknowns: the states at the beginnings of the m
-        segments, and the parameter; shape (4 m + 1,). It may be unknown.
-    by_parameter: Derivative of the state at the end of the segment by the parameter, without the
-        change of sign at the end of a symmetric orbit's half period; shape (4,).
+        segments, and the parameter; shape (4 m + 1,). None if unknown.
     """
 
     segment: int
@@ -202,78 +196,53 @@ class Turn(NamedTuple):
     outer: bool
     height: float
     gradient: np.ndarray | None = None
-    by_parameter: np.ndarray | None = None
 
 
-def _listed(orbit):
-    """Return all extrema of an orbit without their derivatives."""
+def turns_of(orbit):
+    """Return all extrema of an orbit without their gradients."""
     return [Turn(int(row[0]), row[1], bool(row[2]), row[3]) for row in orbit.turns()]
 
 
-def turns_of(problem, x, orbit, segment=None):
-    """Return a list of all extrema of an orbit, or of one segment, whose gradients are known.
+def with_gradient(problem, x, orbit, turn):
+    """Return an extremum of the orbit at the unknowns x of a `continuation.Problem`, with gradient.
 
-    `problem` is the `continuation.Problem` of the branch, and x are the unknowns of the orbit. The
-    entries are `Turn`.
+    The velocity of Z2 is zero there, so the height changes like Z2 at a constant phase.
     """
-    rate = problem.rate(x[-1])
-    turns = []
-    for k in range(len(problem.phases) - 1) if segment is None else [segment]:
-        path = path_of(orbit, k)
-        steps, sizes, weights, times = path.turns(1)
-        if not len(steps):
-            continue
-        variations = Variations(path, rate[:, None])
-        try:
-            change = variations.changes(np.zeros((4, 1)), np.eye(1))[2, 0]
-        except np.linalg.LinAlgError:
-            # After many inelastic contacts the derivative of the motion by its first state is
-            # singular up to rounding errors. The gradients of the segment are then not known.
-            continue
-        by_parameter = variations.slopes()[:, 0]
-        for step, size, weight, time in zip(steps, sizes, weights, times, strict=True):
-            wall, part = np.sign(size), slice(step * POINTS, (step + 1) * POINTS)
-            gradient = np.zeros(len(x))
-            gradient[4 * k : 4 * k + 4] = wall * (path.tangents[2, :, part] @ weight)
-            gradient[-1] = wall * (change[part] @ weight) - rate[CLEARANCE]
-            before = path.times[part] < time
-            speed = wall * path.states[3, part]
-            outer = (speed[before][-1] if before.any() else -speed[~before][0]) > 0
-            height = wall * size - orbit.p[CLEARANCE]
-            phase = orbit.p[FREQUENCY] * time
-            turns.append(Turn(k, phase, bool(outer), height, gradient, by_parameter))
-    return turns
+    k, rate = turn.segment, problem.rate(x[-1])
+    phases, begin = np.array([orbit.phases[k], turn.phase]), orbit.states[k]
+    end, tangents, slopes = begin.copy(), np.eye(4), np.empty((1, 4))
+    segments.run(orbit.p, end, tangents, *phases)
+    slopes_of_ends(orbit.p, rate, phases, begin[None], end[None], 1, POLISH_TOLERANCE, slopes)
+    gradient = np.zeros(len(x))
+    gradient[4 * k : 4 * k + 4] = np.sign(end[2]) * tangents[:, 2]
+    gradient[-1] = np.sign(end[2]) * slopes[0, 2] - rate[CLEARANCE]
+    return turn._replace(gradient=gradient)
 
 
 def nearest(turns, turn):
-    """Return the extremum that corresponds to a given one, or None.
+    """Return the extremum in the same segment that corresponds to a given one, or None.
 
     It is the closest in phase, at a distance of less than MOVED. A maximum of |Z2| is preferred for
     a maximum, a minimum for a minimum.
     """
-    near = [each for each in turns if abs(each.phase - turn.phase) < MOVED]
+    near = [each for each in turns if each.segment == turn.segment]
+    near = [each for each in near if abs(each.phase - turn.phase) < MOVED]
     near = [each for each in near if each.outer == turn.outer] or near
     return min(near, key=lambda each: abs(each.phase - turn.phase), default=None)
-
-
-def moved(orbit, turn):
-    """Return an extremum with its phase and height on another orbit nearby, or None."""
-    found = nearest([each for each in _listed(orbit) if each.segment == turn.segment], turn)
-    return found and turn._replace(phase=found.phase, outer=found.outer, height=found.height)
 
 
 def next_grazing(point, reach):
     """Return the extremum that first reaches its wall along the tangent of a point, or None."""
     problem, candidates = point.problem, []
-    ahead = problem.shoot(point.x + SHIFT * point.tangent)
-    for turn in _listed(point.orbit):
-        near = moved(ahead, turn)
+    ahead = turns_of(problem.shoot(point.x + SHIFT * point.tangent))
+    for turn in turns_of(point.orbit):
+        near = nearest(ahead, turn)
         distance = SHIFT * turn.height / (turn.height - near.height or np.inf) if near else 0.0
         if 0 < distance < 2 * reach:
             candidates.append((distance, turn))
-    for _, turn in sorted(candidates):
-        turn = nearest(turns_of(problem, point.x, point.orbit, turn.segment), turn)
-        rate = turn.gradient @ point.tangent if turn else 0.0
+    for _, turn in sorted(candidates, key=lambda pair: pair[0]):
+        turn = with_gradient(problem, point.x, point.orbit, turn)
+        rate = turn.gradient @ point.tangent
         if rate and 0 < -turn.height / rate < reach:
             return turn
     return None

@@ -12,7 +12,7 @@ import numpy as np
 
 from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import SYMMETRIC, Point, Problem
-from impact_damper.orbits.grazing import at_height, through_grazing, turns_of
+from impact_damper.orbits.grazing import at_height, through_grazing, turns_of, with_gradient
 from impact_damper.orbits.shooting import shoot
 
 # Search for an orbit of the other branch at a distance from the bifurcation.
@@ -119,7 +119,8 @@ def _at_heights(leaving):
     # Only the first half of the segments is searched, because the second half has the same extrema.
     half = (len(problem.phases) - 1) // 2 if problem.damped else 0
     orbit = problem.shoot(x)
-    turns = [turn for k in range(half) for turn in turns_of(problem, x, orbit, k)]
+    turns = [turn for turn in turns_of(orbit) if turn.segment < half]
+    turns = [with_gradient(problem, x, orbit, turn) for turn in turns]
     if not turns:
         return
     turn = max(turns, key=lambda turn: abs(turn.gradient @ direction / turn.height))

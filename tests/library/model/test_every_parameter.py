@@ -20,7 +20,7 @@ from chatterjee1995.methods.equations import rate
 from impact_damper.kernel import batch
 from impact_damper.kernel import equation as kernel
 from impact_damper.model.families import FORCING
-from impact_damper.model.packed import COUNT, NAMES, cubic_spring, pack
+from impact_damper.model.packed import cubic_spring, pack
 from impact_damper.model.parameters import (
     NONLINEAR,
     SPRING_POWER,
@@ -268,26 +268,6 @@ def test_a_spring_that_pushes_outward_is_said_to_soften(name):
             edge, _ = barrier(other)
             pushes = kernel.spring.py_func(p, edge * np.array([1 - 1e-9, 1 + 1e-9]))
             assert pushes[0] > 0 > pushes[1], "motions/start_states.py: barrier"
-
-
-@pytest.mark.parametrize("spring", SPRINGS)
-@pytest.mark.parametrize("number", range(COUNT), ids=NAMES)
-def test_derivatives_of_the_equation(number, spring):
-    """Against central differences, whose step is a power of two."""
-    p, step = packed(SPRINGS[spring]), np.zeros(COUNT)
-    step[number] = 2.0**-12
-    speed = np.linspace(-1.0, 1.0, len(Z1))
-    where = f"kernel/equation.py, {NAMES[number]}: "
-
-    def flights(q):
-        cosine = kernel.forcing_amplitude.py_func(q) * np.cos(0.4)
-        return cosine - q[1] * speed - kernel.spring.py_func(q, Z1)
-
-    found = kernel.acceleration_by_parameters(p, Z1, speed, np.full(len(Z1), np.cos(0.4)))
-    expected = (flights(p + step) - flights(p - step)) / (2 * step[number])
-    assert_allclose(
-        found[number], expected, rtol=1e-6, atol=1e-9, err_msg=where + "acceleration_by_parameters"
-    )
 
 
 @pytest.mark.parametrize("name", SPRINGS)

@@ -17,7 +17,6 @@ from references import extended
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import STROBE
-from impact_damper.orbits.sensitivity import path_of
 from impact_damper.orbits.shooting import find_orbit, polish, shoot
 
 # A state of a chaotic motion at W = 1.55 that nearly repeats after 12 forcing cycles.
@@ -139,11 +138,11 @@ def test_strongly_unstable_orbit_in_80_bit(saddle):
     assert_allclose(np.sort(abs(again)), np.sort(abs(saddle.multipliers)), rtol=1e-8)
 
 
-def test_turns_are_those_of_the_taylor_series(saddle):
-    """Each zero of Z2' between points of the series of a segment is listed, with its height."""
-    chain, found = saddle, saddle.turns()
-    for k in range(len(chain.states)):
-        _, sizes, _, times = path_of(chain, k).turns(1)
-        own = found[found[:, 0] == k]
-        assert_allclose(own[:, 1], chain.p[FREQUENCY] * times, rtol=0, atol=1e-9)
-        assert_allclose(own[:, 3], np.abs(sizes) - chain.p[CLEARANCE], rtol=0, atol=1e-11)
+def test_turns_are_the_extrema_of_a_sampled_motion(saddle):
+    turns, samples = saddle.turns(), np.linspace(*saddle.phases[[0, -1]], 4000)
+    for _, phase, _, height in turns:
+        _, _, place, speed = saddle.at(phase)
+        assert abs(speed) < 1e-8
+        assert_allclose(height, abs(place) - saddle.p[CLEARANCE], rtol=0, atol=1e-11)
+    speeds = np.array([saddle.at(phase)[3] for phase in samples])
+    assert np.sum(speeds[:-1] * speeds[1:] < 0) == len(turns)
