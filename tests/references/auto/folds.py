@@ -122,7 +122,7 @@ def points(folder, damping, run, setting):
 
 
 def first_orbit(damping, frequency, start, periods):
-    """Return rows of T, Z1, Z1', sin W T, cos W T over a period of the orbit that a start leads to."""
+    """Return rows of T, Z1, Z1', sin W T, cos W T over a period of the orbit of a start."""
 
     def rate(time, z):
         return z[1], math.cos(frequency * time) - damping * z[1] - z[0] ** 3
