@@ -49,6 +49,8 @@ span |= st.sampled_from([(math.nan, 3.0), (1.0, math.inf), ("1", "3"), (1.0, 1e9
 motion = {"system": no_oscillator, "damper": no_damper, "frequency": positive}
 # None is allowed as radius: the starts are then scaled by the motions without the damper.
 radius = positive.filter(lambda value: value is not None)
+# a box may be two numbers
+no_box = radius.filter(lambda value: not isinstance(value, np.ndarray))
 search = {"starts": count, "radius": radius, "seed": seed, "workers": count}
 search |= {"settling": no_settling, "system": no_oscillator}
 GOOD = {"system": OSCILLATOR, "damper": DAMPER}
@@ -165,7 +167,7 @@ FUNCTIONS = {
     "basins": (
         GOOD | {"frequency": 1.95, "cells": 2},
         motion
-        | {"displacement": radius, "velocity": radius, "cells": count, "settling": no_settling}
+        | {"displacement": no_box, "velocity": no_box, "cells": count, "settling": no_settling}
         | {"phase": no_numbers | not_finite | negative | huge, "workers": count}
         | {"loose": st.sampled_from([1.0, "12", (1,), (1, 2, 3), (math.nan, 0), ("1", 0)])},
     ),

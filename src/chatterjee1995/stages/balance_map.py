@@ -15,7 +15,6 @@ from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wa
 from impact_damper.data.variables import OUTCOME, register
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, pick
-from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import MOTION
 from impact_damper.orbits.quiet_orbits import (
@@ -192,9 +191,7 @@ class _Row(NamedTuple):
     frequencies: np.ndarray
 
 
-def balance_map(
-    parameter, values, frequency_ratios, fixed, *, settling=Settling(), workers=1, progress=None
-):
+def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers=1, progress=None):
     """Compare harmonic balance with exact motions over frequency and one parameter of the rows.
 
     `frequency_ratios` are forcing frequencies W divided by the frequency Wp of the free resonance
@@ -239,6 +236,7 @@ def balance_map(
 
 
 def _rows(parameter, values, ratios, fixed):
+    """Return the `_Row` of each value of the parameter."""
     rows = []
     for value in values:
         given = fixed | {parameter: float(value)}
@@ -247,7 +245,9 @@ def _rows(parameter, values, ratios, fixed):
         given = {name: number for name, number in given.items() if name not in own}
         if "clearance" not in given:
             given["clearance"] = rule_clearance(oscillator, given["mass_ratio"])
-        rows.append(_Row(oscillator, Damper(**given), ratios * peak_frequency(oscillator)))
+        rows.append(
+            _Row(oscillator, Damper(**given), np.asarray(ratios) * peak_frequency(oscillator))
+        )
     return rows
 
 

@@ -14,15 +14,9 @@ from impact_damper.data.variables import register
 from impact_damper.kernel.equation import acceleration
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
-from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble, strobe_map, traces
 from impact_damper.motions.simulate import random_states
-from impact_damper.theory.contact_law import (
-    EXIT_RULES,
-    contact,
-    natural_frequency,
-    pull_time,
-)
+from impact_damper.theory.contact_law import EXIT_RULES, contact, natural_frequency, pull_time
 
 register(
     """
@@ -51,8 +45,6 @@ LINEAR = 1e-3
 CLOSE, FAIR = 0.01, 0.05
 # Simulated motions at each restitution and frequency.
 SIZES = ("smallest", "largest")
-# Largest number of contacts of a motion.
-LARGEST_LOG = 10**5
 
 
 def contact_model(
@@ -66,7 +58,7 @@ def contact_model(
     starts=8,
     periods=200,
     seed=1995,
-    settling=Settling(),
+    settling,
 ):
     """Compute the contact for each restitution and load, and the loads of simulated motions.
 
@@ -83,7 +75,7 @@ def contact_model(
             found = extreme_motions(oscillator, each, frequency, starts, [seed, i, j], settling)
             for size, motion in enumerate(found):
                 if motion is not None:
-                    log = contacts_of(oscillator, each, frequency, motion["state"], periods)["load"]
+                    log = loads_of(oscillator, each, frequency, motion["state"], periods)
                     rows.append([np.full(len(log), i), np.full(len(log), size), log])
     names = "contact_used", "contact_size", "contact_load"
     data |= dict(zip(names, map(np.concatenate, zip(*rows, strict=True)), strict=True))
@@ -153,26 +145,19 @@ def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
     )
 
 
-def contacts_of(oscillator, damper, frequency, state, periods):
-    """Return load and restitution of the contacts of a motion within forcing cycles.
+def loads_of(oscillator, damper, frequency, state, periods):
+    """Return the loads at the beginning of contacts that begin and end within forcing cycles.
 
-    `state` is Z1, Z1', Z2, Z2' at W T = pi/2. The load is taken at the beginning of a contact, and
-    the restitution is the speed of departure divided by the speed of approach. Contacts that do not
-    both begin and end within the time are omitted.
+    `state` is the state of the motion at W T = pi/2.
     """
     p = pack(oscillator, damper, frequency)
     begin = strobe_map.strobe_time(p)
     times = np.array([begin + periods * 2 * np.pi / p[FREQUENCY]])
     tolerance = strobe_map.POLISH_TOLERANCE
     _, log = traces.trace(p, state, begin, times, tolerance)
-    if len(log) > LARGEST_LOG:
-        raise ValueError(f"periods = {periods}: more than {LARGEST_LOG} contacts in this time")
     # The same integration is repeated to store the states at which contacts begin.
     states = traces.states_at(p, state, begin, np.append(log[:, 1], times), tolerance)
-    side, start, end, approach, departure = log.T
+    side, start, end, approach, _ = log.T
     load = side * [acceleration(p, y, t) for y, t in zip(states[:-1], start, strict=True)]
     whole = np.isfinite(end) & (start > begin)
-    return {
-        "load": (load / (natural_frequency(damper) * np.abs(approach)))[whole],
-        "restitution": (-departure / approach)[whole],
-    }
+    return (load / (natural_frequency(damper) * np.abs(approach)))[whole]

@@ -12,7 +12,6 @@ from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.model.families import family_of
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import describe
-from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.start_states import search_starts
 from impact_damper.orbits.branches import follow_branch
@@ -24,7 +23,7 @@ from impact_damper.theory.design_rule import peak_frequency
 HEAVY, HEAVY_SHARE = 2.0, 0.5
 
 
-def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settling=Settling()):
+def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settling):
     """Find the quiet orbit at the peak frequency Wp, and follow it in the damping h.
 
     The dataset has the variables of `orbit_branches` over the damping, from the h of the oscillator

@@ -68,25 +68,20 @@ def design_rules(
 ):
     """Find the optimum clearance of each damper and frequency of a grid, and the errors of rules.
 
-    Every combination of the increasing values of rm, e, r1 and W is computed. The criterion of the
-    optimum is the smallest max |Z1| or the smallest first harmonic of Z1. For each criterion the
-    dataset has the ratio at the optimum and by each rule (`optimum_clearance.rule_ratios`), and the
-    fraction by which max |Z1| at the ratio of a rule exceeds the smallest max |Z1|.
+    The criterion of the optimum is the smallest max |Z1| or the smallest first harmonic of Z1. For
+    each criterion the dataset has the ratio at the optimum and by each rule
+    (`optimum_clearance.rule_ratios`), and the fraction by which max |Z1| at the ratio of a rule
+    exceeds the smallest max |Z1|.
     """
     given = mass_ratios, restitutions, contact_stiffnesses, frequencies
     axes = {name: np.array(values, float) for name, values in zip(SWEPT, given, strict=True)}
-    shape = tuple(len(values) for values in axes.values())
-    cells = itertools.product(*axes.values())
-    rows = [
-        _cell(oscillator, *values)
-        for values in tqdm(
-            cells, desc=progress, total=np.prod(shape), disable=progress is None, ascii=True
-        )
-    ]
-    names = rows[0]
+    shape = tuple(map(len, axes.values()))
+    cells = list(itertools.product(*axes.values()))
+    cells = tqdm(cells, progress, disable=progress is None, ascii=True)
+    rows = [_cell(oscillator, *values) for values in cells]
     data = {
-        name: np.array([row[name] for row in rows]).reshape(*shape, *np.shape(names[name]))
-        for name in names
+        name: np.array([row[name] for row in rows]).reshape(*shape, *np.shape(first))
+        for name, first in rows[0].items()
     }
     coordinates = axes | {"criterion": list(CRITERIA), "rule": list(RULES)}
     return dataset(data, coordinates, describe(oscillator), "Rules for the optimum clearance")

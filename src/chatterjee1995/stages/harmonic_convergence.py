@@ -162,15 +162,12 @@ def ladder(highest) -> np.ndarray:
 
 
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
-    """Return symmetric motions by harmonic balance, with their stability and errors.
-
-    The stability follows from Floquet multipliers, which Hill's method computes from the Fourier
-    series of the linearised motion (`theory.hill`).
+    """Return symmetric motions by harmonic balance with odd harmonics, their stability and errors.
 
     Newton's method starts from the single-term solution, and for each further balance from the last
     one that converged; for the values of N in `cold` also directly from the single-term solution.
     """
-    harmonics = np.array(harmonics)
+    harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
     first = single_term(oscillator, damper, frequency)
     solutions = refine(balances, first)
@@ -229,14 +226,10 @@ def errors(solutions, multipliers, exact):
     balance, size = solutions[0].balance, exact.record["maximum_displacement"]
     start = exact.strobe_states[0]
     orbit = simulate(
-        balance.oscillator,
-        balance.damper,
-        balance.frequency,
+        *(balance.oscillator, balance.damper, balance.frequency),
         start if balance.damper is not None else start[:2],
-        periods=1,
-        samples=SAMPLES,
+        **{"periods": 1, "samples": SAMPLES, "tolerance": FINEST},
         start=np.pi / (2 * balance.frequency),
-        tolerance=FINEST,
     )
     # The samples begin at W T = pi/2, a quarter of a forcing cycle after T = 0, so they are shifted
     # by a quarter.

@@ -19,7 +19,6 @@ from impact_damper.kernel.single import side_of, workspace
 from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import describe
-from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.attractors import PHASES, release_set
 from impact_damper.motions.legs import HOLD, PHASE, SETTLED, STATE, hold
@@ -83,7 +82,7 @@ def release_policies(
     trials=200,
     cells=64,
     seed=1995,
-    settling=Settling(),
+    settling,
     workers=1,
     progress=None,
 ):
@@ -183,19 +182,9 @@ class Trials(NamedTuple):
         set_ = self.releases
 
         def work(part):
-            hold_many(
-                self.on,
-                set_.p,
-                starts[part],
-                draws[part],
-                limits[part],
-                rule,
-                set_.depth,
-                set_.half,
-                self.settling.tolerance,
-                held[part],
-                stop,
-            )
+            runs = starts[part], draws[part], limits[part]
+            sets = set_.depth, set_.half, self.settling.tolerance
+            hold_many(self.on, set_.p, *runs, rule, *sets, held[part], stop)
 
         work(slice(0, 0))
         ensemble.run_chunks(work, len(starts), self.workers, None, stop, size=8)

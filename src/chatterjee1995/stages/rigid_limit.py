@@ -16,7 +16,6 @@ from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import register
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import describe
-from impact_damper.model.settling import Settling
 from impact_damper.orbits.grid_following import Grid, follow_line
 from impact_damper.orbits.quiet_orbits import compliant_orbit
 
@@ -52,15 +51,7 @@ STIFF = 1e4
 
 
 def rigid_limit(
-    oscillator,
-    damper,
-    frequency,
-    frequencies,
-    stiffnesses,
-    *,
-    starts=16,
-    seed=1995,
-    settling=Settling(),
+    oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling
 ):
     """Compare rigid impacts with compliant contact at each frequency and stiffness.
 

@@ -2,9 +2,7 @@
 
 A cell is one combination of mass ratio, clearance, frequency and restitution; cells are numbered in
 the order of `AXES`, the last axis fastest. A chunk of a study is a range of these numbers. The seed
-and the number of a cell determine its random starts, so results do not depend on the chunks. After
-every few cells the runs are reduced to a few numbers per cell, so the memory of a chunk hardly
-grows with its size.
+and the number of a cell determine its random starts, so results do not depend on the chunks.
 """
 
 import math
@@ -14,17 +12,11 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag, is_settled, load, oscillator_of, save
 from impact_damper.data.variables import OUTCOME, register
 from impact_damper.data.whole_files import BrokenFileError
-from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, describe
-from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import random_states
-from impact_damper.motions.start_states import (
-    NO_STARTS,
-    describe_search,
-    warn_if_narrow,
-    wide_starts,
-)
+from impact_damper.motions.start_states import describe_search, warn_if_narrow
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
 
 register(
@@ -60,21 +52,21 @@ def study_chunk(
     *,
     contact_stiffness=2000.0,
     starts=8,
-    radius=None,
+    radius,
     seed=1995,
-    settling=Settling(),
+    settling,
     workers=1,
     progress=None,
 ):
     """Return the motions to which random starts lead, in a range of cells of a grid.
 
-    `axes` are increasing values of mass_ratio (rm), clearance (d0), frequency (W) and restitution
-    (e), and `cells` the numbers of the first cell of the chunk and of the first one after it. The
-    other arguments are those of `frequency_response`, for each cell. The dataset has for each
-    `cell` the largest displacement of all motions to which the starts lead, the displacement on
-    the quiet orbit, and the numbers of random starts that lead to this orbit and to each outcome.
+    `axes` has increasing values for each of AXES, and `cells` are the numbers of the first cell of
+    the chunk and of the first one after it. The other arguments are those of `frequency_response`.
+    The dataset has for each `cell` the largest displacement of all motions to which the starts
+    lead, the displacement on the quiet orbit, and the numbers of starts that lead to this orbit and
+    to each outcome.
     """
-    axes = {name: np.array(axes[name], float) for name in AXES}
+    axes = {name: np.asarray(axes[name], float) for name in AXES}
     shape, (first, last) = [len(values) for values in axes.values()], cells
 
     def system(place):
@@ -83,25 +75,22 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
-    def starts_of(damper, frequency, cell):
-        if radius is None:
-            return wide_starts(oscillator, damper, frequency, starts, [seed, cell], settling)[:2]
-        return random_states(starts, radius, damper, [seed, cell]), NO_STARTS
-
-    if radius is not None:
-        warn_if_narrow(oscillator, axes["frequency"], radius)
+    # The axes are sorted, so a value out of range is at an end of its axis. It is found here, not
+    # after hours of work.
+    for end in (0, -1):
+        random_states(0, radius, system([end] * len(AXES))[1], seed)
+    warn_if_narrow(oscillator, axes["frequency"], radius)
     found, stop = np.empty(last - first, CELL), np.zeros(1, bool)
 
     def work(part):
         rows, states = [], []
         for cell in range(first + part.start, first + part.stop):
             p, damper = system(np.unravel_index(cell, shape))
-            states.append(np.concatenate(starts_of(damper, p[FREQUENCY], cell)))
-            rows.append(np.tile(p, (len(states[-1]), 1)))
+            states.append(random_states(starts, radius, damper, [seed, cell]))
+            rows.append(np.tile(p, (starts, 1)))
         runs = ensemble.settle(np.concatenate(rows), np.concatenate(states), settling, stop=stop)
-        ends = np.cumsum([len(row) for row in rows])
-        for k, of_cell in enumerate(np.split(runs, ends[:-1]), part.start):
-            found[k] = _condensed(of_cell, starts)
+        for k, of_cell in enumerate(runs.reshape(-1, starts), part.start):
+            found[k] = _condensed(of_cell)
 
     # Number of cells that are run together. They have about `ensemble.CHUNK` random starts.
     together = max(1, ensemble.CHUNK // starts)
@@ -115,13 +104,13 @@ def study_chunk(
     return dataset(data, coordinates, made, "Motions from random starts over a grid")
 
 
-def _condensed(runs, starts):
-    """Return the runs in a cell as a row of `CELL`; only the first `starts` are counted."""
+def _condensed(runs):
+    """Return the runs in a cell as a row of `CELL`."""
     sizes = runs["maximum_displacement"]
     quiet = is_settled(runs) & is_symmetric_pair(runs)
     return (
-        [np.sum(runs["outcome"][:starts] == flag("outcome", name)) for name in OUTCOMES],
-        np.sum(quiet[:starts]),
+        [np.sum(runs["outcome"] == flag("outcome", name)) for name in OUTCOMES],
+        np.sum(quiet),
         np.max(sizes),
         np.min(sizes[quiet]) if quiet.any() else np.nan,
     )

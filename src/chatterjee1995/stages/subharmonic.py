@@ -14,7 +14,6 @@ from impact_damper.kernel.single import side_of
 from impact_damper.model import packed
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
-from impact_damper.model.settling import Settling
 from impact_damper.motions import strobe_map, traces
 from impact_damper.motions.following import record_at
 from impact_damper.motions.simulate import COMPONENTS
@@ -66,7 +65,7 @@ def subharmonic_suppression(
     starts=96,
     radius=None,
     seed=1995,
-    settling=Settling(),
+    settling,
     workers=1,
     progress=None,
 ):
@@ -82,16 +81,9 @@ def subharmonic_suppression(
         raise ValueError(
             "cubic = 0: must not be 0 (without the damper a linear spring has no subharmonic)"
         )
-    free = free_subharmonic(
-        oscillator,
-        frequencies[0],
-        frequencies[-1],
-        starts=starts,
-        radius=radius,
-        seed=seed,
-        settling=settling,
-        workers=workers,
-    )
+    drawn = {"starts": starts, "radius": radius, "seed": seed}
+    ends = frequencies[0], frequencies[-1]
+    free = free_subharmonic(oscillator, *ends, **drawn, settling=settling, workers=workers)
     if free.found:
         margin = BEYOND * (free.ends[1] - free.ends[0])
         frequencies = np.linspace(free.ends[0] - margin, free.ends[1] + margin, len(frequencies))
@@ -99,18 +91,11 @@ def subharmonic_suppression(
     systems = [(damper, value) for value in frequencies]
     search = search_starts(oscillator, systems, starts, radius, seed, settling)
     size = _switch_half(oscillator, parameters, free, search.random, seed)
-    data = sweep(
-        parameters,
-        FREQUENCY,
-        "frequency",
-        search,
-        settling,
-        workers=workers,
-        progress=progress,
-    )
+    run = {"workers": workers, "progress": progress}
+    data = sweep(parameters, FREQUENCY, "frequency", search, settling, **run)
     data |= _subharmonic_table(data, size)
     data["switched_share"] = _shares(data, np.isfinite(size), starts // 2)
-    made = describe(oscillator, damper, settling) | describe_search(starts, radius, seed)
+    made = describe(oscillator, damper, settling) | describe_search(**drawn)
     coordinates = {
         "frequency": frequencies,
         "component": list(COMPONENTS),
@@ -236,10 +221,9 @@ def branch_ends(data, branch, grid, rows):
 
 
 class FreeSubharmonic(NamedTuple):
-    """The free one-third subharmonic.
+    """Packed parameters and states at the strobe of the free subharmonic, where it was found.
 
-    `parameters` (n, packed.COUNT) and `states` (n, 4) at the strobe belong to the frequencies at
-    which the motion was found. `ends` are its lowest and highest frequency, NaN without a motion.
+    `ends` are its lowest and highest frequency, NaN without a motion.
     """
 
     parameters: np.ndarray
@@ -260,25 +244,17 @@ class FreeSubharmonic(NamedTuple):
 
 
 def free_subharmonic(
-    oscillator, first, last, *, starts=96, radius=None, seed=1995, settling=Settling(), workers=1
+    oscillator, first, last, *, starts=96, radius=None, seed=1995, settling, workers=1
 ) -> FreeSubharmonic:
     """Find the free symmetric motion of period 3 between two frequencies.
 
-    Of several branches it is the one that was found at the largest number of frequencies. The other
-    arguments are those of `frequency_response`.
+    Of several branches it is the one that was found at the largest number of frequencies.
     """
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     systems = [(None, value) for value in frequencies]
     search = search_starts(oscillator, systems, starts, radius, seed, settling)
-    data = sweep(
-        parameters,
-        FREQUENCY,
-        "frequency",
-        search,
-        settling,
-        workers=workers,
-    )
+    data = sweep(parameters, FREQUENCY, "frequency", search, settling, workers=workers)
     chosen = is_subharmonic(data) & (data["period"][1] == 3) & (data["asymmetry"][1] < SAME)
     branches, counts = np.unique(data["branch"][1][chosen], return_counts=True)
     if len(branches) == 0:

@@ -86,8 +86,6 @@ def test_a_ball_yields_from_1_6_times_the_yield_strength(loose, wall, share, exp
     ("given", "told"),
     [
         ((1, -1, 0.3), "youngs_modulus = -1 Pa: must be greater than 0 Pa"),
-        ((1, 1e9, 0.6), "poissons_ratio = 0.6: must be at least 0 and at most 0.5"),
-        ((1, 1e9, 0.3, 0), "yield_strength = 0 Pa: must be greater than 0 Pa"),
         ((0, 1e9, 0.3), "radius = 0 m: must be greater than 0 m"),
         ((1, 1e9, 0.3, None, 1e9), "wall_poissons_ratio: must be given with wall_youngs"),
     ],

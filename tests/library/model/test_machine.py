@@ -101,7 +101,6 @@ def test_damping_is_a_ratio_or_a_coefficient():
         ),
         ({"damping_ratio": None}, "damping: must be given, or damping_ratio"),
         ({"force": None}, "excitation = none of them: must be one of force, base_displ"),
-        ({"unbalance": 1}, "excitation = force and unbalance: must be one of"),
         ({"linear_stiffness": 0}, "linear_stiffness = 0 N/m: must be greater than 0 N/m with"),
         (
             {"force": None, "base_acceleration": 1, "cubic_stiffness": 1},
@@ -121,11 +120,8 @@ def test_nonsense_is_refused_in_si_units(changes, told):
     ("changes", "told"),
     [
         ({"mass": 500}, "mass = 500 kg: must be at least 1.2e-5 kg and at most 120 kg"),
-        ({"gap": None}, "gap: must be given, the full play, or clearance_each_side"),
         ({"clearance_each_side": 1}, "gap: must be given, the full play, or clearance_each_side"),
         ({"gap": "0.1 µm"}, "gap = 1e-7 m: must be greater than 1.90476e-7 m (static play"),
-        ({"contact_stiffness": None}, "contact_stiffness = None: must be a number in N/m"),
-        ({"contact_stiffness": -2e7}, "contact_stiffness = -2e7 N/m: must be greater than 0"),
     ],
 )
 def test_a_damper_is_refused_in_si_units(changes, told):

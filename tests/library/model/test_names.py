@@ -1,6 +1,5 @@
 """A misspelt argument, name or parameter is answered with the nearest known one."""
 
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import pytest
@@ -16,23 +15,15 @@ MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=
     ("call", "meant"),
     [
         (lambda: idm.Oscillator(dampng=0.2), "damping"),
-        (lambda: idm.Damper(0.12, clearence=2), "clearance"),
-        (lambda: idm.Settling(tolerence=1e-9), "tolerance"),
         (lambda: idm.Machine(mass=1, linear_stifness=2), "linear_stiffness"),
         (lambda: MACHINE.damper(mass=1, gap=0.1, restituton=1), "restitution"),
         (lambda: idm.simulate(OSCILLATOR, None, 2.0, period=3), "periods"),
-        (lambda: idm.frequency_response(OSCILLATOR, None, [2.0], start=3), "starts"),
         (lambda: idm.design_damper(MACHINE, mas=1), "mass"),
     ],
 )
 def test_a_misspelt_argument_is_answered(call, meant):
     with pytest.raises(TypeError, match=f"has no argument .*; did you mean {meant}\\?"):
         call()
-
-
-def test_an_argument_that_needs_its_name_is_told():
-    with pytest.raises(TypeError, match="Machine.. too many positional .*; known: mass, linear_"):
-        idm.Machine(12, 2e5)
 
 
 def test_a_misspelt_parameter_of_a_branch_is_answered():
@@ -46,10 +37,6 @@ def test_a_misspelt_parameter_of_a_branch_is_answered():
 def test_the_version_is_stated_alike_everywhere():
     assert f'version = "{idm.__version__}"' in (ROOT / "pyproject.toml").read_text()
     assert f"version: {idm.__version__}" in (ROOT / "CITATION.cff").read_text()
-    try:
-        assert version("impact-damper") == idm.__version__
-    except PackageNotFoundError:
-        pass
 
 
 def test_the_help_begins_with_the_public_names():

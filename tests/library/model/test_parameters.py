@@ -17,9 +17,6 @@ from impact_damper.model.parameters import Damper, Oscillator
     "make, key, value, allowed",
     [
         (Oscillator, "damping", 0.0, "at least 1e-9 and at most 10 (motions must settle)"),
-        (Oscillator, "damping", 11.0, "at most 10"),
-        (Oscillator, "damping", math.nan, "finite"),
-        (partial(Damper, clearance=2.0), "mass_ratio", 0.0, "at least 1e-6"),
         (partial(Damper, 0.12), "clearance", math.inf, "finite"),
         (partial(Damper, 0.12, 2.0), "restitution", 0.0, "at least 0.05 and at most 1"),
         (partial(pack, Oscillator(0.2), None), "frequency", 0.0, "at least 0.01"),
@@ -38,21 +35,9 @@ def test_only_a_linear_spring_is_on_a_shaker():
         Oscillator(0.2, 1.0, shaker=0.5)
 
 
-@pytest.mark.parametrize("value", ["0.1", None, True, 1j, [0.1]])
-def test_values_that_are_no_numbers(value):
-    with pytest.raises(TypeError, match="damping = .*: must be a number"):
-        Oscillator(value)
-    with pytest.raises(TypeError, match="count = .*: must be a whole number"):
-        check_count("count", value)
-
-
 def test_checks_return_plain_numbers():
     assert type(check_number("x", np.float32(2.0), above=1)) is float
     assert type(check_count("x", np.int64(2))) is int
-    with pytest.raises(ValueError, match="count = 0: must be from 1 to"):
-        check_count("count", 0)
-    with pytest.raises(TypeError, match="count = 2.0"):
-        check_count("count", 2.0)
 
 
 @pytest.mark.parametrize("mass_ratio", [0.01, 0.25, 10.0])
@@ -66,15 +51,6 @@ def test_damping_of_the_contact_gives_the_restitution(mass_ratio, restitution):
     inverse = 1 + 1 / mass_ratio
     natural = math.sqrt(damper.contact_stiffness * inverse)
     assert_allclose(damper.dashpot * inverse, 2 * z * natural, atol=1e-14)
-
-
-def test_pack_refuses_what_is_out_of_range_or_of_another_type():
-    with pytest.raises(ValueError, match="frequency = -1"):
-        pack(Oscillator(0.1), None, -1.0)
-    with pytest.raises(TypeError, match="oscillator = 0.1: must be an Oscillator"):
-        pack(0.1, None, 1.0)
-    with pytest.raises(TypeError, match="damper = 0.2: must be a Damper"):
-        pack(Oscillator(0.1), 0.2, 1.0)
 
 
 def test_packed_parameters_stand_in_their_named_places():

@@ -21,26 +21,22 @@ HARD = idm.Machine(
 DAMPER = HARD.damper(
     mass=0.12 * MASS, clearance_each_side=2 * LENGTH, contact_stiffness=2000 * STIFFNESS
 )
-SOFTENING = {
-    "mass": MASS,
-    "linear_stiffness": STIFFNESS,
-    "cubic_stiffness": -STIFFNESS / LENGTH**2,
-    "damping": 0.05 * MASS / TIME,
-}
-LINEAR = idm.Machine(mass=MASS, linear_stiffness=STIFFNESS, damping_ratio=0.01, force=FORCE)
+SOFTENING = idm.Machine(
+    mass=MASS,
+    linear_stiffness=STIFFNESS,
+    cubic_stiffness=-STIFFNESS / LENGTH**2,
+    damping=0.05 * MASS / TIME,
+    force="8 N",
+)
 # The dimensionless 1 in each unit of the datasets of the machine.
 UNITS = {
     "mm": 1e3 * LENGTH,
     "s": TIME,
     "Hz": 1 / (2 * math.pi * TIME),
-    "1/s": 1 / TIME,
+    "m/s": LENGTH / TIME,
     "1": 1.0,
     "radian": 1.0,
 }
-
-
-def hertz(frequency):
-    return frequency * UNITS["Hz"]
 
 
 def assert_scaled(found, by_hand, names, **tolerances):
@@ -53,7 +49,7 @@ def assert_scaled(found, by_hand, names, **tolerances):
 def test_migration_of_a_machine():
     """The damper is on for 3 cycles only, so that chaos does not magnify rounding errors."""
     given = {"seed": 1, "longest_hold": 3}
-    found = idm.migrate(HARD, DAMPER, hertz(1.95), **given)
+    found = idm.migrate(HARD, DAMPER, 1.95 * UNITS["Hz"], **given)
     by_hand = idm.migrate(PAPER, PAPER_DAMPER, 1.95, **given)
     names = ("on_time", "off_time", "destination", "switchings")
     assert [found[name].attrs.get("units") for name in names[:3]] == ["s", "s", "1"]
@@ -64,27 +60,21 @@ def test_migration_of_a_machine():
     )
 
 
-def assert_same_basins(found, by_hand):
-    np.testing.assert_array_equal(found["basin_label"], by_hand["basin_label"])
-    names = ("basin_displacement", "attractor_displacement", "frequency", "attractor_share")
-    assert [found[name].attrs["units"] for name in names] == ["mm", "mm", "Hz", "1"]
-    assert_scaled(found, by_hand, (*names, "attractor_phase"), rtol=1e-6)
-    assert found["basin_velocity"].attrs["units"] == "m/s"
-    np.testing.assert_allclose(found["basin_velocity"], by_hand["basin_velocity"] * LENGTH / TIME)
-
-
 def test_basins_of_a_machine_with_a_damper():
     """The loose mass has one state, near a motion in which no chaos magnifies rounding errors."""
     kept = {"restitution": 0.75, "contact_stiffness": 2000 * STIFFNESS}
     damper = HARD.damper(mass=0.25 * MASS, clearance_each_side=LENGTH, **kept)
     window = {"displacement": 0.2 * LENGTH, "velocity": 0.3 * LENGTH / TIME, "cells": 4}
     loose = [f"{500 * LENGTH} mm", -0.5 * LENGTH / TIME]
-    found = idm.basins(HARD, damper, hertz(2.0), **window, loose=loose)
+    found = idm.basins(HARD, damper, 2.0 * UNITS["Hz"], **window, loose=loose)
     window = {"displacement": 0.2, "velocity": 0.3, "cells": 4}
     inelastic = idm.Damper(0.25, 1.0, 0.75)
     by_hand = idm.basins(PAPER, inelastic, 2.0, **window, loose=[0.5, -0.5])
     assert by_hand["attractor_share"].sum() == 1
-    assert_same_basins(found, by_hand)
+    np.testing.assert_array_equal(found["basin_label"], by_hand["basin_label"])
+    names = ("basin_displacement", "attractor_displacement", "frequency", "basin_velocity")
+    assert [found[name].attrs["units"] for name in names] == ["mm", "mm", "Hz", "m/s"]
+    assert_scaled(found, by_hand, (*names, "attractor_phase"), rtol=1e-6)
 
 
 def test_the_radius_of_a_search_is_warned_of_in_si_units():
@@ -97,49 +87,24 @@ def test_the_radius_of_a_search_is_warned_of_in_si_units():
     ("call", "told"),
     [
         (lambda d: idm.simulate(HARD, d, 0), "frequency = 0 Hz: must be at least"),
-        (lambda d: idm.simulate(HARD, d, "3 m"), "frequency = '3 m': must be a number in Hz"),
-        (lambda d: idm.simulate(HARD, d, 20, (1, 2, 3)), "state = (1, 2, 3): must be four"),
         (lambda d: idm.simulate(HARD, d, 20, ("1 kg", 0, 0, 0)), "state[0] = '1 kg': must be"),
-        (lambda d: idm.simulate(HARD, idm.Damper(0.1, 1), 20), "damper = Damper(mass_r"),
         (lambda d: idm.frequency_response(HARD, d, [20, "0 Hz"]), "frequencies[1] = '0 Hz': must"),
-        (lambda d: idm.frequency_response(HARD, d, [16, 15.5]), "frequencies = [16, 15.5]: must"),
-        (
-            lambda d: idm.frequency_response(HARD, d, [20], radius="1 s"),
-            "radius = '1 s': must be a number in m",
-        ),
-        (
-            lambda d: idm.clearance_sweep(HARD, d, 20, ["1 nm", "2 mm"]),
-            "clearances[0] = '1 nm': must be at least",
-        ),
-        (
-            lambda d: idm.basins(HARD, None, 16, displacement="-1 mm"),
-            "displacement = '-1 mm': must be greater than 0 m and at most",
-        ),
         (
             lambda d: idm.basins(HARD, d, 16, loose=["1 mm", "1 mm"]),
             "loose[1] = '1 mm': must be a number in m/s, or text",
         ),
-        (lambda d: idm.basins(HARD, d, 16, loose=0), "loose = 0: must be two numbers"),
         (
             lambda d: idm.migrate(HARD, d, 40.0),
             "frequency = 40 Hz: without the damper there must be both a non-resonance and a res",
         ),
         (
-            lambda d: rule_clearance(idm.Machine(**SOFTENING, force="8 N").oscillator(), 0.1),
+            lambda d: rule_clearance(SOFTENING.oscillator(), 0.1),
             "force = 8 N: the response has no peak, the motion goes over the barrier of the "
             "softening spring (cubic_stiffness = -7.5e9 N/m^3)",
         ),
-        (
-            lambda d: rule_clearance(idm.Machine(**SOFTENING, force=0).oscillator(), 0.1),
-            "force = 0 N, unbalance = 0 kg m: the rule for the clearance needs a forcing",
-        ),
-        (
-            lambda d: idm.orbit_branches(HARD, d, 20, (0, 0, 0, 0), span=(19, 21), parameter="gap"),
-            "parameter = 'gap': must be one of frequency, damping, cubic_stiffness",
-        ),
     ],
 )
-def test_what_makes_no_sense_is_said_in_si_units(call, told):
+def test_wrong_arguments_are_named_in_si_units(call, told):
     with pytest.raises((TypeError, ValueError)) as raised:
         call(DAMPER)
     assert str(raised.value).startswith(told)

@@ -69,13 +69,10 @@ def test_dimensions_are_those_of_the_unit(quantity):
     ("value", "error"),
     [
         ("12 m", ValueError),
-        ("", ValueError),
         ("nan kg", ValueError),
         ("1e999 kg", ValueError),
         ("12 kg; import os", ValueError),
         ("1 kg**9**9**9", ValueError),
-        ("9" * 100, ValueError),
-        (12 * REGISTRY.m, ValueError),
         ([12, 13] * REGISTRY.kg, TypeError),
         (True, TypeError),
         (None, TypeError),

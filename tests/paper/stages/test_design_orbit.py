@@ -1,9 +1,6 @@
 """The exact quiet orbit at peak frequencies, compared with simulations.
 
 Motions settle on the orbit where it is stable, and leave it where it is unstable.
-
-A start is an initial state. The quiet orbit is the small symmetric periodic motion for which a
-damper is designed.
 """
 
 import numpy as np
@@ -24,7 +21,7 @@ RULE = Damper(0.12, 1 / (0.12 * peak_frequency(LINEAR) ** 2))
 
 @pytest.fixture(scope="module")
 def linear():
-    return design_orbit(LINEAR, RULE)
+    return design_orbit(LINEAR, RULE, settling=Settling())
 
 
 def settles(damping, data):
@@ -59,6 +56,6 @@ def test_starts_do_not_settle_where_it_is_unstable(linear):
 
 def test_an_orbit_that_is_not_found_has_a_status():
     """The only start meets no wall, so there is no orbit to follow."""
-    data = design_orbit(LINEAR, Damper(0.12, 500.0), starts=1)
+    data = design_orbit(LINEAR, Damper(0.12, 500.0), starts=1, settling=Settling())
     assert data["design_orbit_status"] == flag("design_orbit_status", "no_start")
     assert data.sizes["point"] == 0

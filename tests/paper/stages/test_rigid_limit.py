@@ -1,8 +1,6 @@
 """The quiet motion between rigid walls, corrected walls (`mended`) and compliant walls.
 
 Corrected walls are rigid walls that account for the penetration at finite stiffness r1.
-
-The quiet orbit is the small symmetric periodic motion for which a damper is designed.
 """
 
 from dataclasses import replace
@@ -19,6 +17,7 @@ from chatterjee1995.tables.contact import VERDICTS
 from chatterjee1995.tables.contact import rigid_limit as table
 from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
+from impact_damper.model.settling import Settling
 from impact_damper.orbits.quiet_orbits import compliant_orbit
 
 NEAR = 0.2
@@ -45,9 +44,8 @@ def test_orders(damper, name):
 
 @pytest.fixture(scope="module")
 def limit():
-    return rigid_limit(
-        PAPER, INELASTIC, 2.0, [1.0, 1.95, 2.0], [500, 2000, 1e4, 1e5, 1e6], starts=6
-    )
+    grid = [1.0, 1.95, 2.0], [500.0, 2000.0, 1e4, 1e5, 1e6]
+    return rigid_limit(PAPER, INELASTIC, 2.0, *grid, starts=6, settling=Settling())
 
 
 def test_dataset(limit):
@@ -90,4 +88,4 @@ def test_table_and_figure(limit):
 
 def test_no_quiet_motion_is_told():
     with pytest.raises(ArithmeticError, match="frequency = 0.3: none of 2 starts leads to"):
-        rigid_limit(PAPER, DESIGN, 0.3, [0.3, 0.4], [1e3, 1e4], starts=2)
+        rigid_limit(PAPER, DESIGN, 0.3, [0.3, 0.4], [1e3, 1e4], starts=2, settling=Settling())

@@ -1,9 +1,6 @@
 """One-third subharmonic compared with long runs on both sides of its ends, and the energy balance.
 
 Without the damper (free) the subharmonic is a motion of period 3.
-
-W is the forcing frequency and W T the phase of the forcing. The quiet orbit is the small symmetric
-periodic motion for which a damper is designed.
 """
 
 import numpy as np
@@ -11,15 +8,17 @@ import pytest
 from numpy.testing import assert_allclose
 
 from chatterjee1995.stages.subharmonic import (
+    _suppression,
     free_subharmonic,
     subharmonic_suppression,
     switched_on,
 )
-from impact_damper.data.datasets import flag, load, save
+from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.settling import Settling
 from impact_damper.motions.response import steady_motion
-from impact_damper.motions.simulate import simulate
+from impact_damper.motions.simulate import COMPONENTS, simulate
 
 PAPER = Oscillator(0.215)
 DAMPER = Damper(0.12, 2.0)
@@ -27,35 +26,26 @@ DAMPER = Damper(0.12, 2.0)
 
 @pytest.fixture(scope="module")
 def free():
-    return free_subharmonic(PAPER, 1.6, 2.2, starts=12)
+    return free_subharmonic(PAPER, 1.6, 2.2, starts=12, settling=Settling())
 
 
 @pytest.fixture(scope="module")
 def damped():
-    return subharmonic_suppression(PAPER, DAMPER, np.linspace(1.6, 2.2, 21), starts=32)
+    return subharmonic_suppression(
+        PAPER, DAMPER, np.linspace(1.6, 2.2, 21), starts=32, settling=Settling()
+    )
 
 
 def from_strobe(state, damper, frequency, periods=1):
     """Simulate a motion from a state at W T = pi/2 over some forcing cycles."""
-    return simulate(
-        PAPER,
-        damper,
-        frequency,
-        state,
-        periods=periods,
-        samples=4000,
-        start=0.5 * np.pi / frequency,
-    )
+    given = {"periods": periods, "samples": 4000, "start": 0.5 * np.pi / frequency}
+    return simulate(PAPER, damper, frequency, state, **given)
 
 
 def settled(state, damper, frequency):
     """Return the motion to which a state at W T = pi/2 leads."""
     last = from_strobe(state, damper, frequency, 0.75).isel(time=-1)
-    start = [
-        float(last[name])
-        for name in ("displacement", "velocity", "relative_displacement", "relative_velocity")
-    ]
-    return steady_motion(PAPER, damper, frequency, start)
+    return steady_motion(PAPER, damper, frequency, [float(last[name]) for name in COMPONENTS])
 
 
 @pytest.mark.parametrize("side", [0, 1])
@@ -89,6 +79,9 @@ def assert_energy_balance(motion, frequency):
 
 @pytest.mark.thorough
 def test_damped_subharmonic_is_a_motion_of_period_3(damped):
+    """The motions after switching the damper on are all counted too."""
+    present = np.isfinite(damped.free_subharmonic)
+    assert_allclose(damped.switched_share.sum("switched_motion"), present)
     row = damped.sel(frequency=1.85, method="nearest")
     assert row.suppression == flag("suppression", "reduced")
     frequency = float(row.frequency)
@@ -114,14 +107,19 @@ def test_switching_on_keeps_the_primary_on_the_subharmonic_until_a_contact(free)
     assert len(set(away.argmin(axis=1))) == 3
 
 
-def test_no_free_subharmonic(tmp_path):
-    """With heavy damping there is no subharmonic.
+def test_suppression_by_size():
+    meanings = ["no_subharmonic_without_damper", "removed", "reduced", "unchanged", "unchanged"]
+    flags = _suppression(
+        np.array([0.5, -np.inf, 0.5, 0.99, 1.2]), np.array([np.nan, 1.0, 1.0, 1.0, 1.0])
+    )
+    assert flags.tolist() == [flag("suppression", meaning) for meaning in meanings]
 
-    The frequencies are then those given, and the dataset is complete.
-    """
+
+def test_no_free_subharmonic():
+    """With heavy damping there is no subharmonic; the frequencies are then those given."""
     frequencies = np.linspace(1.6, 2.2, 3)
-    data = subharmonic_suppression(Oscillator(1.0), DAMPER, frequencies, starts=4)
+    data = subharmonic_suppression(
+        Oscillator(1.0), DAMPER, frequencies, starts=4, settling=Settling()
+    )
     assert_allclose(data.frequency, frequencies)
     assert np.all(data.suppression == flag("suppression", "no_subharmonic_without_damper"))
-    save(data, tmp_path / "data.nc")
-    assert load(tmp_path / "data.nc").identical(data)
