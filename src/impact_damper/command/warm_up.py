@@ -29,6 +29,7 @@ def warm_up_orbits() -> None:
     strobe_map.repeats_sooner(on, np.zeros(4), 1, 1e-9)
     traces.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9)
     records.envelope(on[None], np.zeros(1), np.zeros(4), 1e-9)
+    records.follow_peaks(on[None], np.zeros((1, 4)), 1, 1e-9, np.zeros(1), np.zeros(1, bool))
 
     from impact_damper.orbits import segments
     from impact_damper.orbits.continuation import Problem
