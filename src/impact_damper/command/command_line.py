@@ -200,6 +200,56 @@ def different(sizes, alike=1e-4):
 
 
 @app.command()
+def migrate(
+    machine_file: MachineFile,
+    output: Annotated[Path, typer.Option(help="Folder for data and plot.")] = "migration",
+    workers: Workers = 2,
+    as_json: AsJson = False,
+):
+    """Find gaps with which a release of the damper leads to the small motion of the machine."""
+    import numpy as np
+
+    from impact_damper.data.datasets import save
+    from impact_damper.design.migration import migration
+    from impact_damper.design.task import Effort
+    from impact_damper.plot.migration_map import migration_map
+    from impact_damper.plot.style import save_figure
+
+    given = read(machine_file)
+    effort = {key: given[key] for key in ("candidates", "starts")}
+    values = {key: value for key, value in asked(given).items() if key != "absorber"}
+    found = migration(
+        machine(given),
+        **values,
+        share=given["share"],
+        effort=Effort(frequencies=given["band"]["points"], workers=workers, **effort),
+        progress=None if as_json else "Releases",
+    )
+    output.mkdir(parents=True, exist_ok=True)
+    save(found, output / "migration.nc")
+    save_figure(migration_map(found), output / "migration")
+    rows = [
+        {
+            "gap_mm": float(gap),
+            "sure_from_hz": float(lowest) if np.isfinite(lowest) else None,
+            "least_share": float(shares[np.isfinite(shares)].min()),
+        }
+        for gap, lowest, shares in zip(
+            found["released_gap"].values,
+            found["sure_frequency"].values,
+            found["migration_share"].values,
+            strict=True,
+        )
+    ]
+    words = ["gap, mm   releases are sure from, Hz   least share of releases that succeed"]
+    for row in rows:
+        sure = f"{row['sure_from_hz']:.4g}" if row["sure_from_hz"] else "nowhere"
+        words.append(f"{row['gap_mm']:<9.4g} {sure:<26} {100 * row['least_share']:.0f} %")
+    words.append(f"The data and the plot: {output}")
+    tell(as_json, words, {"migration": rows, "data": str(output / "migration.nc")})
+
+
+@app.command()
 def report(
     data: Annotated[
         Path, typer.Argument(exists=True, help="design.nc or evaluation.nc of this command.")

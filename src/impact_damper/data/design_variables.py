@@ -154,6 +154,24 @@ yields_by_frequency | frequency | | | whether the material yields at this pressu
   : no 0, yes 1, unknown 2
 noise_by_frequency | frequency | impulse_noise | | sum of the squared impulses of impacts, per
   time
+# migration
+released_gap | released_gap | displacement | | gap of the damper that is released, the full play
+released_frequency | released_frequency | frequency | | forcing frequency of a release
+migration_share | released_gap released_frequency | | | share of releases that lead to the small
+  motion without damper
+migration_time | released_gap released_frequency | time | | median time from switching the damper
+  on to the small motion, infinite if fewer than half of the releases lead to it
+migration_bound | released_gap released_frequency | time | | time within which the required share
+  of all releases lead to the small motion, infinite if they are not sure to do so
+migration_status | released_gap released_frequency | | | whether the required share of releases lead
+  to the small motion
+  : one_motion -1, not_sure 0, sure 1
+sure_frequency | released_gap | frequency | | lowest frequency from which releases are sure at all
+  higher ones with two motions
+migration_gap | | displacement | | gap with the lowest sure_frequency
+migration_required | | | | share of releases that is required
+migration_offer | | | | whether releases of the damper may help where it is not worth building
+  : no 0, yes 1
 # competitors
 den_hartog_stiffness | | stiffness | | stiffness of a tuned absorber by Den Hartog's closed form
 den_hartog_damping | | damping | | damping of Den Hartog's absorber by Brock's closed form

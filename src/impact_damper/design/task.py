@@ -366,6 +366,14 @@ class Task:
             )
 
     @property
+    def migration_offer(self) -> str:
+        """Whether the machine without damper has a small motion beside a large one in the band."""
+        turning = self.scales.from_si(self.grid, "frequency")
+        oscillators = [self.machine.oscillator(f) for f in self.grid]
+        sizes = map(balance_amplitudes, oscillators, turning)
+        return "yes" if any(len(each) > 1 for each in sizes) else "no"
+
+    @property
     def absorber_band(self) -> tuple[float, float]:
         """Range of frequencies over which an absorber to compare with is tuned, Hz."""
         low, high = self.resonance

@@ -16,6 +16,7 @@ from impact_damper.command import command_line
 from impact_damper.command.machine_file import read_machine_file
 from impact_damper.command.section import ConfigurationError
 from impact_damper.data.datasets import load
+from impact_damper.design.migration import migration
 from impact_damper.design.task import Task
 from impact_damper.model.machine import describe_si
 
@@ -163,6 +164,19 @@ def test_a_folder_that_cannot_be_written_is_named_first(machine_file, made_up):
     result = CliRunner().invoke(command_line.app, asked)
     assert isinstance(result.exception, OSError) and not made_up
     assert "machine.yaml" in str(result.exception) and "cannot be written" in str(result.exception)
+
+
+def test_releases_of_a_damper_are_those_of_the_library(machine_file, tmp_path):
+    hard = FILE.replace("2e5 N/m,", "2e5 N/m, cubic_stiffness: 4e9,").replace("5 %", "2 %")
+    band = hard.replace("[20 Hz, 21 Hz]", "{first: 22 Hz, last: 24 Hz, points: 3}")
+    machine_file.write_text(f"{band}candidates: 4\n")
+    told = json.loads(run("migrate", machine_file, "--output", tmp_path / "out", "--json"))
+    found, given = load(told["data"]), read_machine_file(machine_file)
+    effort = idm.Effort(frequencies=3, candidates=4, starts=73)
+    asked = {"mass": 0.6, "restitution": 0.7, "contact": 2e6, "band": (22, 24)}
+    same = migration(command_line.machine(given), **asked, effort=effort)
+    np.testing.assert_array_equal(found["migration_bound"], same["migration_bound"])
+    assert (tmp_path / "out" / "migration.png").exists()
 
 
 @pytest.mark.thorough

@@ -1,0 +1,170 @@
+"""Migration as a design: gaps and frequencies at which a release of the damper is sure to succeed.
+
+On a machine with a cubic spring a damper may be switched on and off to move the machine from its
+large free motion to its small one (`motions.migration`).
+"""
+
+import json
+
+import numpy as np
+import xarray as xr
+
+from impact_damper.data.datasets import flag
+from impact_damper.data.shares import bounding_rank
+from impact_damper.data.variables import FREE_MOTION
+from impact_damper.design.task import Effort, Task, labelled
+from impact_damper.model.bounds import PERIODS_RANGE, check_count, names_arguments
+from impact_damper.model.machine import describe_si
+from impact_damper.model.units import check_si
+from impact_damper.motions import ensemble
+from impact_damper.motions.migration import control, release_case
+
+
+@names_arguments
+def migration(
+    machine,
+    *,
+    mass,
+    band,
+    restitution,
+    contact,
+    gaps=None,
+    share=0.95,
+    longest_hold=500,
+    effort=None,
+    progress=None,
+):
+    """Find gaps and frequencies at which releasing a damper leads to the small free motion.
+
+    Each release is a run of `migrate`: during the large free motion the damper is switched on at a
+    random phase, with the loose mass at a random place, and off at a random phase after the motion
+    has settled.
+
+    Parameters
+    ----------
+    machine : Machine
+        With a cubic spring, so that it has two motions without damper.
+    mass, band, restitution, contact, share
+        As for `design_damper`; `share` is the share of releases that must succeed.
+    gaps : sequence of float or str, optional
+        Gaps of the damper, m; by default spread over those that the machine can touch.
+    longest_hold : int
+        Forcing cycles after which the damper is switched off in any case.
+    effort : Effort, optional
+        Numbers of frequencies, of gaps (`candidates`) and of releases at each (`starts`).
+    progress : str, optional
+        Title of a progress bar.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over gap and frequency the share of releases that succeed, their median time, and
+        `migration_bound`, the time within which `share` of all releases succeed, at 95 %
+        confidence, or infinity. For each gap `sure_frequency`, the lowest frequency from which
+        this time is finite at all higher ones; for the gap with the lowest one `migration_gap`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is out of range, or there is nowhere a second motion without damper.
+
+    Examples
+    --------
+    >>> import impact_damper as idm
+    >>> from impact_damper.design.migration import migration
+    >>> machine = idm.Machine(
+    ...     mass=20, linear_stiffness=1.5e5, cubic_stiffness=8e8, damping_ratio=0.02, force=60
+    ... )
+    >>> found = migration(
+    ...     machine, mass=1.2, restitution=0.8, contact=1e7, band=(15, 17)
+    ... )  # doctest: +SKIP
+    """
+    effort = Effort() if effort is None else effort
+    task = Task(
+        machine=machine,
+        mass=mass,
+        band=band,
+        restitution=restitution,
+        contact=contact,
+        tolerances={},
+        share=share,
+        effort=effort,
+    )
+    check_count("longest_hold", longest_hold, **PERIODS_RANGE)
+    if gaps is None:
+        gaps = 1e-3 * np.geomspace(*task.gap_span, effort.candidates)
+    gaps = np.array([check_si("gaps", gap, "displacement", above=0) for gap in gaps])
+    cases = [_case(task, gaps[0], f) for f in task.grid]
+    if not any(cases):
+        raise ValueError(
+            f"band = {task.band[0]:g} Hz to {task.band[1]:g} Hz: without the damper the machine "
+            "has one motion at each frequency, so there is nothing to migrate to"
+        )
+    places = [(i, j) for i in range(len(gaps)) for j, case in enumerate(cases) if case]
+    times = np.full((len(gaps), len(cases), effort.starts), np.nan)
+    stop = np.zeros(1, bool)
+
+    def work(part):
+        for k in range(part.start, part.stop):
+            (i, j), trial = places[k // effort.starts], k % effort.starts
+            case = cases[j]._replace(on=task.packed(gaps[i], task.grid[j]))
+            seed = effort.seed, i, j, trial
+            cycles = release_time(case, seed, longest_hold, effort.settling, stop)
+            times[i, j, trial] = cycles / task.grid[j]
+
+    ensemble.run_chunks(work, len(places) * effort.starts, effort.workers, progress, stop, size=8)
+    return _table(task, gaps, times, longest_hold)
+
+
+def _case(task, gap, frequency):
+    """Return the `ReleaseCase` at a frequency, Hz, or None without a second motion."""
+    oscillator, damper, turning = task.system(gap, frequency)
+    try:
+        return release_case(oscillator, damper, turning, task.effort.settling)
+    except ValueError:
+        return None
+
+
+def release_time(case, seed, longest_hold, settling, stop) -> float:
+    """Return the cycles from switching the damper on to the small motion; infinite if missed."""
+    draws = np.random.default_rng(seed).random((1, 3))
+    _, log = control(case, draws, longest_hold, settling, 0, None, stop)
+    reached = log["destination"][0] == FREE_MOTION["non_resonance"]
+    return float(log["end_time"][0] - log["on_time"][0]) if reached else np.inf
+
+
+def _table(task, gaps, times, longest_hold) -> xr.Dataset:
+    """Return the dataset from the times (s) of releases; NaN where there is one free motion."""
+    rank = bounding_rank(task.share, times.shape[-1])
+    bounds = -np.sort(-times, axis=-1)[..., rank - 1]
+    one = np.isnan(times[..., 0])
+    sure = np.isfinite(bounds)
+    # Above the last frequency with two motions the machine is on its small one anyway.
+    last = int(np.flatnonzero(~one.all(axis=0))[-1])
+    lowest = np.full(len(gaps), np.nan)
+    for i, row in enumerate(sure[:, : last + 1]):
+        first = 1 + int(np.max(np.flatnonzero(~row), initial=-1))
+        if first <= last:
+            lowest[i] = task.grid[first]
+    status = np.where(one, "one_motion", np.where(sure, "sure", "not_sure"))
+    best = np.nan
+    if np.isfinite(lowest).any():
+        tied = np.flatnonzero(lowest == np.nanmin(lowest))
+        slowest = [np.nanmax(np.where(sure[i], bounds[i], np.nan)) for i in tied]
+        best = 1e3 * gaps[tied[int(np.argmin(slowest))]]
+    values = {
+        "migration_share": np.where(one, np.nan, np.isfinite(times).mean(axis=-1)),
+        "migration_time": np.median(times, axis=-1),
+        "migration_bound": bounds,
+        "migration_status": np.vectorize(lambda name: flag("migration_status", name))(status),
+        "sure_frequency": lowest,
+        "migration_gap": best,
+        "migration_required": task.share,
+    }
+    found = labelled(values, released_gap=1e3 * gaps, released_frequency=task.grid)
+    asked = task.describe() | {"longest_hold": longest_hold}
+    return found.assign_attrs(
+        title="Migration of a machine to its small motion",
+        machine=json.dumps(describe_si(task.machine), sort_keys=True),
+        parameters=json.dumps(asked, sort_keys=True),
+    )
