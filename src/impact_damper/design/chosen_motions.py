@@ -11,7 +11,6 @@ from impact_damper.design.costs import measured_costs, pressure_costs
 from impact_damper.design.task import labelled
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.packed import FREQUENCY
-from impact_damper.model.settling import Settling
 from impact_damper.model.units import QUANTITIES
 from impact_damper.motions import traces
 from impact_damper.motions.response import frequency_response
@@ -21,6 +20,8 @@ from impact_damper.orbits.orbit_branches import orbit_branches
 # States in a forcing cycle from which a motion is measured, and number of cycles over which a
 # motion that is not periodic is measured.
 SAMPLES, WATCHED = 64, 200
+# Largest number of cycles for which an undecided motion is run further, to name it.
+FURTHER = 10_000
 # Variables of the response without the damper, with their names in the dataset of a design.
 BARE = {
     "followed_value": "bare_frequency",
@@ -51,7 +52,7 @@ def damped_response(task, choice, progress=None) -> xr.Dataset:
     # Motions that have not settled after the largest number of cycles are run further, to name
     # them. The search for the gap does not do this, to save time.
     effort = task.effort
-    settling = replace(effort.settling, further=Settling().further)
+    settling = replace(effort.settling, further=FURTHER)
     searched = {"starts": effort.starts, "seed": effort.seed, "settling": settling}
     searched |= {"workers": effort.workers, "progress": progress}
     damper, span = task.damper(1e-3 * float(choice["design_gap"])), task.band
