@@ -95,13 +95,13 @@ class Branch:
         for k in np.flatnonzero(crossing):
             step = self.points[k], self.points[k + 1]
             for start, other in (step, step[::-1]):
-                near = _at_value(start, other, value)
+                near = between(start, other, value)
                 if near is not None and near.orbit.is_same(orbit, SAME):
                     return True
         return False
 
 
-def _at_value(point, ahead, value):
+def between(point, ahead, value):
     """Return the point at a value of the parameter on the step between two points.
 
     The result is None if Newton's method fails.

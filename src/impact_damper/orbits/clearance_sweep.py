@@ -5,12 +5,12 @@ branches the one nearest to the clearance of rule (18), rm W^2 d0 = f, is taken.
 """
 
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.sweeps import runs_of_true
 from impact_damper.model.arguments import read_increasing, read_radius, read_swept_damper
 from impact_damper.model.bounds import (
     CLEARANCE_RANGE,
@@ -23,12 +23,11 @@ from impact_damper.model.bounds import (
 from impact_damper.model.packed import CLEARANCE, pack
 from impact_damper.model.parameters import describe
 from impact_damper.model.settling import check_settling
-from impact_damper.motions.following import RESOLUTION, follow_stable
-from impact_damper.motions.records import measured
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
-from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.motions.sweep import SAME, reached, sweep
+from impact_damper.orbits.branches import between, follow_branch
+from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory.design_rule import rule_clearance
 from impact_damper.theory.optimum_clearance import analytical_table, straight_flight_ratio
 
@@ -129,8 +128,17 @@ def clearance_sweep(
     data = sweep(parameters, CLEARANCE, "clearance", search, settling, **running)
     forcing = oscillator.forcing_amplitude(frequency)
     inertia = dampers[0].mass_ratio * frequency**2
-    branch = _quiet_branch(data, parameters, forcing / inertia)
-    data |= _quiet_table(branch) | minimum_table(branch) | balance
+    states, sizes, anchor = _quiet_motions(data, clearances, forcing / inertia)
+    known = "found", "absent"
+    data |= balance | {
+        "quiet_displacement": sizes,
+        "quiet_status": [flag("quiet_status", known[int(np.isnan(size))]) for size in sizes],
+    }
+    span = float(clearances[0]), float(clearances[-1])
+    part = np.empty(0), np.empty(0), None
+    if anchor is not None:
+        part = _stable_part(parameters[anchor], states[anchor], span)
+    data |= minimum_table(*part, span)
     data |= {"largest_displacement": _largest(data)}
     data |= {
         "optimum_ratio": inertia * data["optimum_clearance"] / forcing,
@@ -156,10 +164,11 @@ def _peak_rule(oscillator, mass_ratio):
         return np.nan
 
 
-def _quiet_branch(data, parameters, rule):
-    """Return the `Branch` of quiet motions nearest to the clearance `rule`.
+def _quiet_motions(data, clearances, rule):
+    """Return state and max |Z1| of the quiet motion at each clearance, NaN without one.
 
-    If there is no quiet motion, all states and displacements of the branch are NaN.
+    They lie on the branch nearest to the clearance `rule`. The third result is the row nearest to
+    it, None without a quiet motion.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -170,30 +179,39 @@ def _quiet_branch(data, parameters, rule):
         & (table["asymmetry"] < SAME)
     )
     size = np.where(quiet, table["maximum_displacement"], np.nan)
-    rows = np.flatnonzero(quiet.any(axis=1))
-    chosen = np.zeros_like(quiet)
+    rows, anchor = np.flatnonzero(quiet.any(axis=1)), None
     if len(rows):
-        anchor = rows[np.argmin(np.abs(np.log(parameters[rows, CLEARANCE] / rule)))]
-        number = table["branch"][anchor, np.nanargmin(size[anchor])]
-        chosen = quiet & (table["branch"] == number)
-    column = np.argmax(chosen, axis=1)
-    row = np.arange(len(parameters))
-    found = chosen.any(axis=1)
-    return Branch(
-        parameters,
-        np.where(found[:, None], table["state"][row, column], np.nan),
-        np.where(found, size[row, column], np.nan),
-    )
+        anchor = rows[np.argmin(np.abs(np.log(clearances[rows] / rule)))]
+        quiet &= table["branch"] == table["branch"][anchor, np.nanargmin(size[anchor])]
+    column, row = np.argmax(quiet, axis=1), np.arange(len(clearances))
+    sizes = np.where(quiet.any(axis=1), size[row, column], np.nan)
+    return table["state"][row, column], sizes, anchor
 
 
-def _quiet_table(branch):
-    found = np.isfinite(branch.displacements)
-    return {
-        "quiet_displacement": branch.displacements,
-        "quiet_status": np.where(
-            found, flag("quiet_status", "found"), flag("quiet_status", "absent")
-        ),
-    }
+def _stable_part(p, state, span):
+    """Return the stable part of the branch of a quiet motion over the clearance within a span.
+
+    The results are clearance and max |Z1| of its orbits, and max |Z1| as a function of clearance.
+    """
+
+    def family(clearance):
+        changed = p.copy()
+        changed[CLEARANCE] = clearance
+        return changed
+
+    branch = follow_branch(family, find_orbit(p, state), p[CLEARANCE], span, beyond=0)
+    stable = np.array([point.orbit.stable for point in branch.points])
+    anchor = np.argmin(np.abs(branch.values - p[CLEARANCE]))
+    stable[anchor] = True
+    first, last = next(ends for ends in runs_of_true(stable) if ends[0] <= anchor < ends[1])
+    values, points = branch.values[first:last], branch.points[first:last]
+
+    def size_at(clearance):
+        k = np.clip(np.searchsorted(values, clearance) - 1, 0, max(len(values) - 2, 0))
+        point = between(points[k], points[min(k + 1, len(values) - 1)], clearance)
+        return np.inf if point is None else float(point.orbit.record["maximum_displacement"])
+
+    return values, branch.displacements[first:last], size_at
 
 
 def _largest(data):
@@ -233,58 +251,14 @@ def _in_words(sweep) -> str:
 NEAR_MINIMUM = 1.1
 
 
-class Branch(NamedTuple):
-    """A branch of motions of period 1 along a sweep of the clearance.
+def minimum_table(values, sizes, size_at, span):
+    """Return the variables of the minimum of max |Z1| over the clearance, a dict.
 
-    parameters: Packed parameters, shape (n, packed.COUNT).
-    states: State of the motion at W T = pi/2, NaN where the motion is absent; shape (n, 4).
-    displacements: max |Z1|, NaN where the motion is absent; shape (n,).
+    The arguments are the results of `_stable_part` and the least and greatest clearance of the
+    sweep. Kinds of minimum: "smooth", "kink", "jump" (at the end of the branch), "edge" (at the end
+    of the sweep) and "not_found".
     """
-
-    parameters: np.ndarray
-    states: np.ndarray
-    displacements: np.ndarray
-
-    def follow(self, start, clearance):
-        """Follow the motion from the known point nearest to `start` to a clearance.
-
-        Return the packed parameters and the `StrobeOrbit` at the last clearance reached.
-        """
-        away = np.abs(self.parameters[:, CLEARANCE] - start)
-        k = np.nanargmin(np.where(np.isfinite(self.displacements), away, np.nan))
-        return follow_stable(self.parameters[k], self.states[k], 1, CLEARANCE, clearance)
-
-    def displacement(self, clearance):
-        """Return max |Z1| at a clearance; infinity beyond the end of the branch."""
-        p, orbit = self.follow(clearance, clearance)
-        if p[CLEARANCE] != clearance:
-            return np.inf
-        return measured(p, orbit.state, 1, POLISH_TOLERANCE)["maximum_displacement"]
-
-    def limit(self, clearance, step):
-        """Return the next clearance of the sweep in the direction `step` (-1 or 1), and "crossed".
-
-        If the branch ends before that clearance, return the end of the branch and "branch_ends". If
-        the sweep has no further clearance, return the given clearance and "sweep_ends".
-        """
-        grid = self.parameters[:, CLEARANCE]
-        beyond = grid[grid > clearance][:1] if step > 0 else grid[grid < clearance][-1:]
-        if len(beyond) == 0:
-            return clearance, "sweep_ends"
-        reached = self.follow(clearance, beyond[0])[0][CLEARANCE]
-        if reached == beyond[0]:
-            return reached, "crossed"
-        return reached - 10 * step * RESOLUTION, "branch_ends"
-
-
-def minimum_table(branch):
-    """Return the variables of the minimum of max |Z1| along a `Branch`, a dict.
-
-    They are the clearance and max |Z1| at the minimum, its kind, and the range of clearances near
-    it. Kinds: "smooth", "kink", "jump" (at the end of the branch), "edge" (at the end of the sweep)
-    and "not_found".
-    """
-    if not np.isfinite(branch.displacements).any():
+    if not len(values):
         return {
             "optimum_clearance": np.nan,
             "optimum_displacement": np.nan,
@@ -292,55 +266,51 @@ def minimum_table(branch):
             "near_clearance": np.full(2, np.nan),
             "near_status": np.full(2, flag("near_status", "not_found")),
         }
-    middle = branch.parameters[np.nanargmin(branch.displacements), CLEARANCE]
-    limits = [branch.limit(middle, step) for step in (-1, 1)]
-    bounds = [value for value, _ in limits]
-    inner = minimize_scalar(
-        branch.displacement, bounds=bounds, method="bounded", options={"xatol": 1e-9}
-    )
-    candidates = {value: branch.displacement(value) for value in bounds} | {inner.x: inner.fun}
-    best = min(candidates, key=candidates.get)
-    room = [abs(best - value) for value, event in limits if event == "branch_ends"]
-    kind = _kind(branch, best, candidates[best], min([1e-3 * best, *room]))
-    for value, event in limits:
-        if abs(best - value) < 1e-6 and event != "crossed":
-            kind = "jump" if event == "branch_ends" else "edge"
-    near = [_near(branch, best, NEAR_MINIMUM * candidates[best], step) for step in (-1, 1)]
+    k = int(np.argmin(sizes))
+    bounds = values[max(k - 1, 0)], values[min(k + 1, len(values) - 1)]
+    inner = minimize_scalar(size_at, bounds=bounds, method="bounded", options={"xatol": 1e-9})
+    best, least = min((values[k], sizes[k]), (inner.x, inner.fun), key=lambda pair: pair[1])
+    room = min(best - values[0], values[-1] - best)
+    if room < 1e-6:
+        end = values[0 if best - values[0] == room else -1]
+        kind = "edge" if end in span else "jump"
+    else:
+        kind = _kind(size_at, best, least, min(1e-3 * best, room))
+    near = [_near(values[::step], sizes[::step], size_at, best, least, span) for step in (-1, 1)]
     return {
         "optimum_clearance": best,
-        "optimum_displacement": candidates[best],
+        "optimum_displacement": least,
         "optimum_kind": flag("optimum_kind", kind),
         "near_clearance": np.array([value for value, _ in near]),
         "near_status": np.array([flag("near_status", event) for _, event in near]),
     }
 
 
-def _kind(branch, best, least, longest):
-    """Return "smooth" or "kink" for a minimum.
+def _kind(size_at, best, least, longest):
+    """Return "smooth" or "kink" for a minimum, from the rise of max |Z1| after a step away from it.
 
-    The kind follows from the rise of max |Z1| after a step away from the minimum. When the step is
-    halved, the rise falls to a quarter at a smooth minimum and to half at a kink. `longest` is the
-    longest step that stays on the branch.
+    When the step is halved, the rise falls to a quarter at a smooth minimum and to half at a kink.
+    `longest` is the longest step that stays on the branch.
     """
     rises = [
-        branch.displacement(best + step) + branch.displacement(best - step) - 2 * least
-        for step in (longest, longest / 2)
+        size_at(best + step) + size_at(best - step) - 2 * least for step in (longest, longest / 2)
     ]
     # 0.36 lies between a quarter and a half: it is close to their geometric mean.
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
 
 
-def _near(branch, best, level, step):
-    """Return the clearance where max |Z1| reaches a level on one side of the optimum.
+def _near(values, sizes, size_at, best, least, span):
+    """Return the clearance, on one side of the optimum, where max |Z1| is NEAR_MINIMUM times least.
 
-    `best` is the optimum, and `step` is -1 or 1, the side. The second result is "crossed". If the
-    branch or the sweep ends before the level is reached, its end and "branch_ends" or "sweep_ends"
-    are returned.
+    `values` run to this side. If it is not reached, return the last one. The second result is
+    "crossed", "sweep_ends" or "branch_ends".
     """
-    outside, event = best, "crossed"
-    while event == "crossed":
-        inside = outside
-        outside, event = branch.limit(inside, step)
-        if branch.displacement(outside) > level:
-            return brentq(lambda x: branch.displacement(x) - level, inside, outside), "crossed"
-    return outside, event
+    level = NEAR_MINIMUM * least
+    inside = best
+    for value, size in zip(values, sizes, strict=True):
+        if (value - best) * (values[-1] - best) <= 0:
+            continue
+        if size > level:
+            return brentq(lambda x: size_at(x) - level, inside, value), "crossed"
+        inside = value
+    return values[-1], "sweep_ends" if values[-1] in span else "branch_ends"

@@ -12,17 +12,10 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
 from impact_damper.data.datasets import flag, load, save
-from impact_damper.model import packed
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions.simulate import simulate
-from impact_damper.orbits.clearance_sweep import (
-    NEAR_MINIMUM,
-    Branch,
-    _near,
-    clearance_sweep,
-    minimum_table,
-)
+from impact_damper.orbits.clearance_sweep import NEAR_MINIMUM, clearance_sweep, minimum_table
 from impact_damper.theory.single_harmonic import contact_amplitude
 
 PAPER = Oscillator(0.215)
@@ -145,27 +138,15 @@ def test_no_quiet_motion(tmp_path):
     assert load(tmp_path / "sweep.nc").identical(sweep)
 
 
-class Line(Branch):
-    """A branch that ends at d0 = 1.3 and on which the displacement equals the clearance."""
-
-    def displacement(self, clearance):
-        return clearance if clearance >= 1.3 else np.inf
-
-    def limit(self, clearance, step):
-        if step > 0:
-            return (clearance, "sweep_ends") if clearance == 3 else (clearance // 1 + 1, "crossed")
-        return (1.3, "branch_ends") if clearance <= 2 else (2.0, "crossed")
-
-
 def test_optimum_at_the_end_of_the_branch():
-    parameters = np.zeros((3, packed.COUNT))
-    parameters[:, packed.CLEARANCE] = 1, 2, 3
-    branch = Line(parameters, np.zeros((3, 4)), np.array([np.nan, 2.0, 3.0]))
-    table = minimum_table(branch)
+    """On a branch that ends at d0 = 1.3 the displacement equals the clearance."""
+    values = np.array([1.3, 2.0, 3.0])
+    table = minimum_table(values, values, float, (1.0, 3.0))
     assert table["optimum_kind"] == flag("optimum_kind", "jump")
     assert_allclose(table["optimum_clearance"], 1.3)
     assert_allclose(table["near_clearance"], [1.3, 1.43])
-    assert _near(branch, 2.5, 4.0, 1) == (3, "sweep_ends")
+    ends = [flag("near_status", name) for name in ("branch_ends", "crossed")]
+    assert table["near_status"].tolist() == ends
 
 
 @pytest.mark.parametrize("clearances", [[2.0], [2.0, 1.0], [1.0, 1.0]])
