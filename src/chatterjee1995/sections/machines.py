@@ -5,7 +5,7 @@ from chatterjee1995.sections.system import too_many
 from impact_damper.command import machine_file
 
 # Names of the figures of a machine's page, the keys of `plot.machine_figures.figures.FIGURES`.
-PAGE = tuple("answer drawing forces transients".split())
+PAGE = tuple("answer forces transients".split())
 
 
 class Machine(machine_file.MachineEntry):

@@ -10,7 +10,6 @@ import numpy as np
 from matplotlib.ticker import NullLocator
 
 from impact_damper.data.datasets import decode, is_settled, parameters_of
-from impact_damper.plot.machine_figures.drawing import draw_drawing
 from impact_damper.plot.style import (
     BLACK,
     BLUE,
@@ -260,7 +259,7 @@ def decades(axes):
 def name_numbers(axis, low, high):
     """Label a logarithmic axis from `low` to `high` with plain numbers."""
     ratio = high / low
-    digits = "123456789" if ratio < 3 else "1235" if ratio < 15 else "125" if ratio < 100 else "1"
+    digits = "123456789" if ratio < 3 else "1235" if ratio < 15 else "125" if ratio < 300 else "1"
     axis.set_major_formatter("{x:g}")
     axis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:.0e}"[0] in digits else "")
 
@@ -269,7 +268,6 @@ def name_numbers(axis, low, high):
 # returns None if the addition that it draws failed.
 FIGURES = {
     "answer": draw_answer,
-    "drawing": draw_drawing,
     "forces": draw_forces,
     "transients": draw_transients,
 }

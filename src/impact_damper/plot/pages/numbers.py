@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from impact_damper.data.datasets import decode, named, parameters_of
+from impact_damper.data.sweeps import runs_of_true
 from impact_damper.model.text import number, percent, with_unit
 from impact_damper.plot.machine_figures.figures import ENDLESS
 
@@ -14,6 +15,8 @@ DECAY = 0.1
 # The displacement keeps the promise at another excitation if it is at most KEEPS times what the
 # promise says, in proportion to the excitation.
 KEEPS = 1.1
+# An end of the gaps that is this close to the end of the tolerance is called its end.
+NEAR = 0.01
 # Additions and quantities as the page calls them.
 ADDITIONS = {
     "response": "motions and forces at the gap",
@@ -51,7 +54,6 @@ TABLES = {
         ("impact_speed_by_frequency", "largest relative speed of an impact", "m/s", 1),
         ("impact_rate_by_frequency", "impacts", "per second", 1),
         ("impact_power_by_frequency", "mean power lost in impacts, which becomes heat", "W", 1),
-        ("noise_by_frequency", "noise: sum of the squared impulses, per time", "N² s", 1),
         ("pressure_by_frequency", "largest pressure after Hertz", "MPa", 1e-6),
     ),
 }
@@ -70,6 +72,7 @@ def numbers_of(data) -> dict:
     asked = parameters_of(data)
     gap, tolerances = float(data["design_gap"]), asked["tolerances"]
     tolerance = tolerances.get("gap", 0.0)
+    ends = gap * (1 - tolerance), gap * (1 + tolerance)
     nominal = data["promise_displacement"].values[0]
     scalars = {name: float(each) for name, each in data.items() if each.ndim == 0}
     found = TABLES | {
@@ -82,21 +85,20 @@ def numbers_of(data) -> dict:
         "gap": gap,
         "given": asked["gap"] is not None,
         "tolerance": tolerance,
-        "ends": (gap * (1 - tolerance), gap * (1 + tolerance)),
+        "ends": ends,
         "tolerances": [
             f"{QUANTITIES[key]} {percent(value)}" for key, value in tolerances.items() if value
         ],
         "nominal": float(np.nanmax(nominal)),
         "sets": len(data["promise_factor"]),
         "worst_values": _worst_values(data),
+        "untouched": _peak(data, "untouched_displacement").size,
         "linear": not asked["machine"].get("cubic_stiffness"),
-        "condition": _condition(data),
-        "condition_range": [
-            size(end) + " or beyond" * (kind == "search_ends")
-            for end, kind in zip(
-                data["keeping_gap"].values, decode(data["keeping_end"]).values, strict=True
-            )
-        ],
+        "condition": _condition(data, ends),
+        "keeping": (
+            min(ends[0], float(data["keeping_gap"][0])),
+            max(ends[1], float(data["keeping_gap"][1])),
+        ),
         "worse": _worse(data, nominal),
         "other": _other_mass(data, asked),
         "failed": [
@@ -138,13 +140,20 @@ def _worst_values(data):
     ]
 
 
-def _condition(data):
-    """Return what breaks the promise first: the nearest end of the gaps, or another excitation."""
+def _condition(data, tolerated):
+    """Return what breaks the promise first: the nearest end of the gaps, or another excitation.
+
+    The promise covers the gaps `tolerated`, also those at which the search found larger motions.
+    """
     gap, promised = float(data["design_gap"]), float(data["promised_displacement"])
     found = []
     kinds = decode(data["keeping_end"]).values
-    for end, kind, side in zip(data["keeping_gap"].values, kinds, ("above", "below"), strict=True):
+    ends = zip(data["keeping_gap"].values, kinds, tolerated, (-1, 1), strict=True)
+    for end, kind, least, sign in ends:
         if kind != "search_ends":
+            inside = sign * end <= sign * least * (1 + sign * NEAR)
+            end, kind = (least, "tolerance") if inside else (end, kind)
+            side = "above" if sign < 0 else "below"
             found.append(SimpleNamespace(kind=kind, side=side, end=end, margin=abs(end / gap - 1)))
     if "force_map_displacement" in data:
         shares = data["force_share"].values
@@ -167,11 +176,18 @@ def _worse(data, nominal):
     """Return the frequencies at which the machine moves more with the damper than without."""
     if float(data["worst_ratio"]) <= 1:
         return None
-    bare = data["promise_bare_displacement"].values
-    where = data["promise_frequency"].values[nominal > bare]
-    k = int(np.nanargmax(nominal / bare))
-    sizes = {"size": nominal[k], "bare": bare[k], "at": float(data["promise_frequency"][k])}
-    return SimpleNamespace(first=where[0], last=where[-1], count=len(where), **sizes)
+    known = ~np.isnan(nominal)
+    names = ("promise_frequency", "promise_bare_displacement")
+    frequency, bare = (data[name].values[known] for name in names)
+    ratio = nominal[known] / bare
+    k = int(np.argmax(ratio))
+    spans = [
+        size(frequency[first], "Hz", 4)
+        if after - first == 1
+        else f"{number(frequency[first], 4)} to {size(frequency[after - 1], 'Hz', 4)}"
+        for first, after in runs_of_true(ratio > 1)
+    ]
+    return SimpleNamespace(spans=spans, size=nominal[known][k], bare=bare[k], at=frequency[k])
 
 
 def _other_mass(data, asked):
