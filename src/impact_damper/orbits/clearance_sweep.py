@@ -29,7 +29,8 @@ from impact_damper.motions.sweep import SAME, reached, sweep
 from impact_damper.orbits.branches import between, follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory.design_rule import rule_clearance
-from impact_damper.theory.optimum_clearance import analytical_table, straight_flight_ratio
+from impact_damper.theory.optimum_clearance import analytical_table
+from impact_damper.theory.straight_flight import Flight, least_displacement_ratio
 
 # Parameters of the damper that are the same at all clearances.
 SWEPT_WITH = {"mass_ratio", "restitution", "contact_stiffness"}
@@ -142,8 +143,8 @@ def clearance_sweep(
     data |= {"largest_displacement": _largest(data)}
     data |= {
         "optimum_ratio": inertia * data["optimum_clearance"] / forcing,
-        "straight_flight_ratio": straight_flight_ratio(
-            dampers[0].mass_ratio, dampers[0].restitution
+        "straight_flight_ratio": least_displacement_ratio(
+            Flight(dampers[0].mass_ratio, dampers[0].restitution)
         ),
     }
     made = describe(oscillator, settling) | swept | describe_search(starts, radius, seed)

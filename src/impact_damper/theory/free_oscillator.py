@@ -113,13 +113,8 @@ def maximum_response(oscillator) -> Point:
     force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening
     static = force + unbalance * stiffness
     linear = damping * (stiffness - damping / 4) - 2 * hardening * unbalance * static
-    squares = polynomial_roots(
-        [
-            force * unbalance * damping - static**2,
-            linear,
-            hardening * (damping - hardening * unbalance**2),
-        ]
-    )
+    constant = force * unbalance * damping - static**2
+    squares = polynomial_roots([constant, linear, hardening * (damping - hardening * unbalance**2)])
     for square in squares[squares > unbalance**2]:
         middle = stiffness + hardening * square
         leading = 1 - unbalance**2 / square
@@ -170,16 +165,9 @@ def free_folds(oscillator) -> list[Point]:
     if g == 0 or force == unbalance == 0:
         return []
     fifth, fourth = 4 * g**3 * damping, 4 * g**2 * damping * stiffness
-    resultant = Polynomial(
-        [
-            force**4,
-            0,
-            2 * g * damping * force**2,
-            -4 * g**2 * force**2,
-            fourth,
-            fifth,
-        ]
-    ) + unbalance * _by_unbalance(oscillator)
+    second, third = 2 * g * damping * force**2, -4 * g**2 * force**2
+    resultant = Polynomial([force**4, 0, second, third, fourth, fifth])
+    resultant += unbalance * _by_unbalance(oscillator)
     squares = polynomial_roots(resultant.coef)
     squares = squares[squares > 0]
     root = (force**2 / squares**2 + g * damping) / (2 * g)

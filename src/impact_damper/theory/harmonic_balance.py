@@ -112,13 +112,8 @@ def harmonic_balance_response(system, damper, frequencies):
             _rigid_table(oscillator, damper, frequencies),
         ]
     data = {name: values for table in tables for name, values in table.items()}
-    return dataset(
-        data,
-        {"frequency": frequencies},
-        model.describe(),
-        "Frequency response by harmonic balance",
-        model,
-    )
+    title = "Frequency response by harmonic balance"
+    return dataset(data, {"frequency": frequencies}, model.describe(), title, model)
 
 
 def _table(columns, rows, fill=np.nan):
@@ -206,13 +201,9 @@ def _solution_branches(amplitude, relative, phase, kinds):
 
 def _rigid_table(oscillator, damper, frequencies):
     """Return the variables of the roots of (14)."""
-    rigid = [
-        single_harmonic.rigid_solutions(oscillator, damper, frequency) for frequency in frequencies
-    ]
-    walls = [
-        np.where(each.pulling, flag("rigid_wall", "pulls"), flag("rigid_wall", "pushes"))
-        for each in rigid
-    ]
+    rigid = [single_harmonic.rigid_solutions(oscillator, damper, each) for each in frequencies]
+    pulls, pushes = (flag("rigid_wall", name) for name in ("pulls", "pushes"))
+    walls = [np.where(each.pulling, pulls, pushes) for each in rigid]
     columns = branches_over(
         [
             np.hstack([_plane(each.amplitude, each.phase), _plane(damper.clearance, each.phase)])
@@ -225,10 +216,7 @@ def _rigid_table(oscillator, damper, frequencies):
     }
 
 
-# Search for an edge of the band.
-# SEARCHED: least and greatest W/Wp.
-# SEARCH_STEP: step in W/Wp.
-# EDGE_TOLERANCE: largest error of the frequency of an edge.
+# Search for an edge of the band: least and greatest W/Wp, step of W/Wp, error of the frequency.
 SEARCHED = (0.2, 2.0)
 SEARCH_STEP = 0.005
 EDGE_TOLERANCE = 1e-10
@@ -292,11 +280,7 @@ def _look(oscillator, damper, frequency):
 
 
 def _edge(inside, peak, limit):
-    """Return the last frequency inside the band, between `peak` and `limit` times `peak`, or NaN.
-
-    `inside` is a function that returns whether a frequency belongs to the band. The edge lies
-    within EDGE_TOLERANCE.
-    """
+    """Return the last frequency inside the band from `peak` to `limit` times `peak`, or NaN."""
     step = np.sign(limit - 1) * SEARCH_STEP * peak
     inner = peak
     for outer in np.arange(peak + step, limit * peak, step):

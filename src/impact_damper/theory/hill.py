@@ -8,10 +8,8 @@ are accurate (Lazarus and Thomas, C. R. Mecanique 338, 510, 2010).
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigvals, lu_solve
+from scipy.linalg import eigvals, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
-
-from impact_damper.theory.many_harmonics import factorised
 
 # With at most DENSE unknowns all eigenvalues are computed. With more unknowns only the eigenvalues
 # nearest to zero are computed: COPIES of them for each exponent.
@@ -65,7 +63,7 @@ def _near_zero(stiffness, damping, inertia):
     first-order system. To apply this inverse, only `stiffness` needs to be factorised.
     """
     size = len(stiffness)
-    factors = factorised(stiffness)
+    factors = lu_factor(stiffness, check_finite=False)
 
     def inverse(vector):
         place, rate = vector[:size], vector[size:]

@@ -4,15 +4,12 @@ The times at which contacts begin and end are located to rounding, so the contac
 aliasing error: the only error is the truncation of the Fourier series.
 """
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
-from impact_damper.model.bounds import HARMONIC_RANGE, check_count
-from impact_damper.model.packed import pack
 from impact_damper.model.parameters import SPRING_POWER
 from impact_damper.theory import fourier, single_harmonic
 from impact_damper.theory.free_oscillator import main_solutions
@@ -34,8 +31,6 @@ class Balance:
     highest: int
 
     def __post_init__(self):
-        pack(self.oscillator, self.damper, self.frequency)
-        check_count("highest", self.highest, **HARMONIC_RANGE)
         if self.highest % 2 == 0:
             raise ValueError(f"highest = {self.highest}: must be odd (the motion is symmetric)")
 
@@ -85,9 +80,8 @@ class Balance:
         if self.damper is None:
             return balance[None]
         by_value, by_conjugate = _convolution(self._contact_indicator(rows), k)
-        walls = fourier.indicator(rows[rows[:, 0] > 0], k) - fourier.indicator(
-            rows[rows[:, 0] < 0], k
-        )
+        above, below = (fourier.indicator(rows[rows[:, 0] == wall], k) for wall in (1, -1))
+        walls = above - below
         second = coefficients[1]
         force = by_value @ second + by_conjugate @ second.conj() - self.damper.clearance * walls
         force *= self.stiffness
@@ -186,7 +180,7 @@ def solve(balance, start) -> Solution:
     defect = balance.to_real(balance.residual(now, rows))
     status, taken = "iteration_limit", 0
     while taken < ITERATIONS and status == "iteration_limit":
-        factors = factorised(balance.operator(now, rows))
+        factors = lu_factor(balance.operator(now, rows), check_finite=False)
         step = -lu_solve(factors, defect, check_finite=False)
         small = np.max(np.abs(step)) <= TOLERANCE * np.max(np.abs(now))
         taken += 1
@@ -206,19 +200,6 @@ def solve(balance, start) -> Solution:
     return Solution(balance, now, status, taken)
 
 
-def factorised(matrix):
-    """Return the LU factors of a matrix for `scipy.linalg.lu_solve`.
-
-    They are computed in another thread, because this takes seconds with a thousand harmonics. In
-    the main thread it would delay the reaction to Ctrl-C.
-    """
-    pool = ThreadPoolExecutor(1)
-    try:
-        return pool.submit(lu_factor, matrix, check_finite=False).result()
-    finally:
-        pool.shutdown(wait=False)
-
-
 def single_term(oscillator, damper, frequency) -> np.ndarray:
     """Return the coefficients of a single-term solution, the first guess for more harmonics.
 
@@ -227,19 +208,15 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
     on the response curve through the peak.
     """
     if damper is None:
-        solutions = main_solutions(oscillator, frequency)
-        sizes = solutions.amplitude[-1:]
-        phase = solutions.phase[-1]
-    else:
-        solutions = single_harmonic.impacting_solutions(
-            oscillator, replace(damper, restitution=1.0), frequency
-        )
-        if not len(solutions.amplitude):
-            raise ArithmeticError(f"frequency = {frequency:g}: (7) has no solution with contacts")
-        least = np.argmin(np.abs(solutions.amplitude))
-        sizes = np.array([solutions.amplitude[least], solutions.relative_amplitude[least]])
-        phase = solutions.phase[least]
-    return sizes[:, None] * np.exp(1j * phase) / 2
+        free = main_solutions(oscillator, frequency)
+        return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2
+    elastic = replace(damper, restitution=1.0)
+    found = single_harmonic.impacting_solutions(oscillator, elastic, frequency)
+    if not len(found.amplitude):
+        raise ArithmeticError(f"frequency = {frequency:g}: (7) has no solution with contacts")
+    least = np.argmin(np.abs(found.amplitude))
+    sizes = np.array([[found.amplitude[least]], [found.relative_amplitude[least]]])
+    return sizes * np.exp(1j * found.phase[least]) / 2
 
 
 def refine(balances, start) -> list:

@@ -31,14 +31,6 @@ CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
-def straight_flight_ratio(mass_ratio, restitution=1.0) -> float:
-    """Return rm W^2 d0 at which max |Z1| is smallest, for high frequency and rigid walls.
-
-    For e = 1 the result is 1.1382 + 0.1382 rm.
-    """
-    return least_displacement_ratio(Flight(mass_ratio, restitution))
-
-
 def _analytical(oscillator, damper, frequency):
     """Return the amplitude a of Z1 with its sign, and the name of its `analytical_status`.
 
@@ -57,10 +49,8 @@ def _analytical(oscillator, damper, frequency):
 
 def analytical_table(oscillator, dampers, frequency):
     """Return |a| by harmonic balance (7) over a sweep of the clearance, and where it is zero."""
-    signed, status = zip(
-        *(_analytical(oscillator, each, frequency) for each in dampers), strict=True
-    )
-    signed = np.array(signed)
+    found = [_analytical(oscillator, each, frequency) for each in dampers]
+    signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best, kind = np.nan, "not_found"
 
     def amplitude(clearance):

@@ -157,8 +157,8 @@ def flight_of(oscillator, damper, frequency) -> Flight:
 def least_displacement_ratio(flight) -> float:
     """Return rm W^2 d0 at which max |Z1| is smallest, dimensionless.
 
-    The optimum is a kink, at which |x| at the impact equals the largest |x| between impacts, or
-    with low restitution a smooth minimum of the latter.
+    The optimum is a kink, where |x| at the impact equals the largest |x| between impacts, or with
+    low restitution a smooth minimum of the latter.
     """
     impulses = np.linspace(0, flight.largest_impulse, GRID + 2)[1:-1]
     best = int(np.argmin(flight.largest_displacement(impulses)))

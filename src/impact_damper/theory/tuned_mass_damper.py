@@ -4,8 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.model.bounds import check_number
-
 
 class Tuning(NamedTuple):
     """A tuned mass damper: its frequency is divided by the natural frequency of the oscillator."""
@@ -22,8 +20,9 @@ def den_hartog(mass_ratio) -> Tuning:
     and 3.3. The damping z^2 = 3 m/(8 (1 + m)) is from Brock, "A note on the damped vibration
     absorber", J. Appl. Mech. 13, A-284, 1946.
     """
-    mass = _checked(mass_ratio)
-    return Tuning(mass, 1 / (1 + mass), np.sqrt(3 * mass / (8 * (1 + mass))))
+    return Tuning(
+        mass_ratio, 1 / (1 + mass_ratio), np.sqrt(3 * mass_ratio / (8 * (1 + mass_ratio)))
+    )
 
 
 def exact_optimum(mass_ratio) -> Tuning:
@@ -32,13 +31,9 @@ def exact_optimum(mass_ratio) -> Tuning:
     The closed form is from Nishihara and Asami, "Closed-form solutions to the exact optimizations
     of dynamic vibration absorbers", J. Vib. Acoust. 124(4), 576-582, 2002, doi 10.1115/1.1500335.
     """
-    mass = _checked(mass_ratio)
+    mass = mass_ratio
     root = np.sqrt(4 + 3 * mass)
     squared = 16 + 23 * mass + 9 * mass**2 + 2 * (2 + mass) * root
     frequency = 2 / (1 + mass) * np.sqrt(2 * squared / (3 * (64 + 80 * mass + 27 * mass**2)))
     damping = np.sqrt((8 + 9 * mass - 4 * root) / (1 + mass)) / 4
     return Tuning(mass, frequency, damping)
-
-
-def _checked(mass_ratio):
-    return check_number("mass_ratio", mass_ratio, above=0.0, most=10.0)

@@ -128,17 +128,3 @@ def test_failures_say_so(monkeypatch):
     assert lost.status in ("stalled", "iteration_limit")
     monkeypatch.setattr(many_harmonics, "ITERATIONS", 2)
     assert solve(Balance(PAPER, DESIGN, 2.0, 15), first).status == "iteration_limit"
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"highest": 4}, "highest = 4: must be odd"),
-        ({"highest": 0}, "highest = 0"),
-        ({"frequency": -1.0}, "frequency"),
-    ],
-)
-def test_wrong_arguments_are_named(change, message):
-    given = {"oscillator": PAPER, "damper": DESIGN, "frequency": 2.0, "highest": 5} | change
-    with pytest.raises(ValueError, match=message):
-        Balance(**given)
