@@ -172,45 +172,17 @@ def _walk(problem, first, span, beyond) -> Branch:
     length, tried = FIRST_STEP, None
     while not end and len(points) < MOST_POINTS:
         point = points[-1]
-        ahead, factor = next_point(point, span, length)
-        changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
-        pieces = []
-        close = ahead is None and length < CLOSE_STEP and problem.damped
-        if (changes or close) and tried is not point:
-            tried = point
-            pieces = _through_grazing(point, max(length, SHORTEST_STEP * 1e3) * REACH)
+        pieces, factor, searched = _next_pieces(point, span, length, tried is not point)
+        tried = point if searched else tried
         if not pieces:
-            if ahead is None or (changes and length > CLOSE_STEP):
-                length *= factor if ahead is None else 0.5
-                if length < SHORTEST_STEP:
-                    end = _loss(point)
-                continue
-            if length > CLEAR_STEP and folds_twice(point, ahead):
-                length /= 2
-                continue
-            along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
-            pieces = [(point, ahead, *events_between(point, ahead, along))]
-            step = pieces[0][:3]
-            unseen = passes_unseen(*step)
-            if length > CLEAR_STEP and (pieces[0][3] or unseen):
-                length /= 2
-                continue
-        for start, ahead, located, missed in pieces:
-            lost += missed
-            again = _passes(start, ahead, first) if len(points) > 2 else None
-            met = None
-            if start.orbit.deviation @ ahead.orbit.deviation < 0:
-                met = _meeting(located, start.orbit)
-            if met is not None:
-                end = "symmetry_breaking" if problem.periods % 2 else "period_doubling"
-                lost += met == len(located) and not missed
-                located = located[: met + 1]
-                located[met:] = [event._replace(kind=end) for event in located[met:]]
-            elif again is not None:
-                end = "closed"
-                located = [event for event in located if _is_between(start, event.point, again)]
-            elif ahead.value in span or np.clip(ahead.value, *span) != ahead.value:
-                end = "range_ends"
+            length *= factor
+            if length < SHORTEST_STEP:
+                end = _loss(point)
+            continue
+        for piece in pieces:
+            start, ahead, _, missed = piece
+            end, located, unmet = _ending(piece, first if len(points) > 2 else None, span)
+            lost += missed + unmet
             for event in located:
                 events.append((len(points), event))
                 if event.point is not ahead:
@@ -223,16 +195,62 @@ def _walk(problem, first, span, beyond) -> Branch:
             if end:
                 break
         if not end:
-            last, ahead = pieces[-1][:2]
             coarse = not (problem.symmetric or ahead.orbit.stable)
             size = max(ahead.problem.length(ahead.x), SMALLEST)
             longest = size * (LONGEST_UNSTABLE if coarse else LONGEST)
-            length = min(factor * ahead.problem.length(ahead.x - last.x), longest)
+            length = min(factor * ahead.problem.length(ahead.x - start.x), longest)
             if not holds_still(ahead):
                 points[-1] = recut(ahead)
             elif len(pieces) == 1:
-                points[-1] = with_bend(last, ahead)
+                points[-1] = with_bend(start, ahead)
     return Branch(problem.family, points, events, ("", end or "point_limit"), lost)
+
+
+def _next_pieces(point, span, length, search):
+    """Return the pieces (`_through_grazing`) of the next step, of about a given length.
+
+    They are empty if a shorter step must be tried. The second result is the factor for the length
+    of the following step, the third whether a grazing was searched for, as allowed by `search`.
+    """
+    ahead, factor = next_point(point, span, length)
+    changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
+    close = ahead is None and length < CLOSE_STEP and point.problem.damped
+    search = search and (changes or close)
+    if search:
+        pieces = _through_grazing(point, max(length, SHORTEST_STEP * 1e3) * REACH)
+        if pieces:
+            return pieces, factor, search
+    if ahead is None:
+        return [], factor, search
+    if changes and length > CLOSE_STEP:
+        return [], 0.5, search
+    if length > CLEAR_STEP and folds_twice(point, ahead):
+        return [], 0.5, search
+    along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
+    located, missed = events_between(point, ahead, along)
+    if length > CLEAR_STEP and (missed or passes_unseen(point, ahead, located)):
+        return [], 0.5, search
+    return [(point, ahead, located, missed)], factor, search
+
+
+def _ending(piece, first, span):
+    """Return why a branch ends on a piece, or "", the events up to there, and if the end's is lost.
+
+    `first` is the first point of the branch if it may be closed, else None.
+    """
+    start, ahead, located, missed = piece
+    met = None
+    if start.orbit.deviation @ ahead.orbit.deviation < 0:
+        met = _meeting(located, start.orbit)
+    if met is not None:
+        end = "symmetry_breaking" if start.problem.periods % 2 else "period_doubling"
+        last = [event._replace(kind=end) for event in located[met : met + 1]]
+        return end, located[:met] + last, not last and not missed
+    again = None if first is None else _passes(start, ahead, first)
+    if again is not None:
+        return "closed", [each for each in located if _is_between(start, each.point, again)], 0
+    beyond = ahead.value in span or np.clip(ahead.value, *span) != ahead.value
+    return "range_ends" if beyond else "", located, 0
 
 
 def _through_grazing(point, reach):
