@@ -95,12 +95,8 @@ def migration(
     )
     known = _settled_motions(oscillator, damper, frequency, seed, settling, workers, motions)
     data |= release_data(case, known, entries, settling)
-    coordinates = {
-        "time": times,
-        "bound": BOUNDS,
-        "damped_motion": KINDS,
-        "free_motion": DESTINATIONS,
-    }
+    coordinates = {"time": times, "bound": BOUNDS}
+    coordinates |= {"damped_motion": KINDS, "free_motion": DESTINATIONS}
     made = describe(oscillator, damper, settling) | {
         "frequency": frequency,
         "longest_hold": longest_hold,
@@ -285,13 +281,8 @@ def release_scan(
         motions = _scan_records(response.isel(frequency=i))
         rows.append(release_data(case, motions, entries, settling))
     width = max(len(row["damped_kind"]) for row in rows)
-    names = (
-        "damped_kind",
-        "damped_period",
-        "damped_displacement",
-        "damped_contacts",
-        "release_share",
-    )
+    names = [f"damped_{each}" for each in ("kind", "period", "displacement", "contacts")]
+    names.append("release_share")
     data = {name: np.array([_padded(row[name], width) for row in rows]) for name in names}
     data = {name: (("frequency", *VARIABLES[name].dims), values) for name, values in data.items()}
     made = describe(oscillator, damper, settling) | describe_search(starts, radius, seed)

@@ -24,6 +24,7 @@ def test_intervals_of_a_cosine():
     third = np.pi / 3
     expected = [[1, 5 * third, 7 * third], [-1, 2 * third, 4 * third]]
     assert found == pytest.approx(np.array(expected), abs=1e-14)
+    assert len(fourier.intervals(np.array([0.1]), ONE, 1.0)) == 0
 
 
 @pytest.mark.parametrize("excess", [1e-3, 1e-6, 1e-9])
@@ -33,10 +34,6 @@ def test_no_grazing_is_missed(excess):
     half = np.arccos(1 - excess)
     expected = [[1, 1 - half, 1 + half], [-1, 1 + np.pi - half, 1 + np.pi + half]]
     assert found == pytest.approx(np.array(expected), abs=1e-7)
-
-
-def test_a_series_within_the_walls():
-    assert len(fourier.intervals(np.array([0.1]), ONE, 1.0)) == 0
 
 
 def test_indicator_is_the_integral():

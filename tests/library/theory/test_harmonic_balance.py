@@ -75,19 +75,6 @@ def test_solutions_are_curves(response):
         assert np.nanmax(np.abs(np.diff(values, axis=0))) < 0.2
 
 
-@pytest.mark.parametrize(
-    "damper, frequencies, error, message",
-    [
-        (PAPER, [2.0, 1.0], ValueError, r"frequencies = \[2.0, 1.0\]: must be increasing"),
-        (0.12, [2.0], TypeError, "damper = 0.12: must be a Damper"),
-        (Damper(0.12, 2.0, 0.9), [2.0], ValueError, "restitution = 0.9: must be 1"),
-    ],
-)
-def test_arguments_of_the_response(damper, frequencies, error, message):
-    with pytest.raises(error, match=message):
-        harmonic_balance_response(CUBIC, damper, frequencies)
-
-
 def stable_amplitudes(frequency, oscillator=CUBIC, damper=PAPER):
     solutions = impacting_solutions(oscillator, damper, frequency)
     growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
