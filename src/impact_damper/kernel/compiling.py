@@ -61,8 +61,7 @@ CACHE_DIRECTORY = cache_directory()
 def own_cache(function):
     """Let numba cache a function that is decorated within this context in the folder of its module.
 
-    numba chooses the folder of a function when the function is decorated. At its end the context
-    restores the user's setting of the folder.
+    At its end the context restores the user's setting of the folder.
     """
     path = Path(function.__code__.co_filename)
     generated = path.is_relative_to(CACHE_DIRECTORY)
@@ -159,31 +158,25 @@ class Progress(event.Listener):
     """
 
     def __init__(self):
-        self.depth = 0
-        self.spent = 0.0
-        self.written = False
+        self.depth, self.spent, self.written = 0, 0.0, False
 
     def on_start(self, started):
-        if not _is_own(started):
-            return
-        if self.depth == 0:
-            self.begun = time.perf_counter()
-            self.collecting = gc.isenabled()
-            gc.disable()
-        self.depth += 1
-        self._write()
+        if _is_own(started):
+            if self.depth == 0:
+                self.begun, self.collecting = time.perf_counter(), gc.isenabled()
+                gc.disable()
+            self._change(1)
 
     def on_end(self, ended):
-        if not _is_own(ended):
-            return
-        self.depth -= 1
-        self._write()
-        if self.depth == 0:
-            self.spent += time.perf_counter() - self.begun
-            if self.collecting:
-                gc.enable()
+        if _is_own(ended):
+            self._change(-1)
+            if self.depth == 0:
+                self.spent += time.perf_counter() - self.begun
+                if self.collecting:
+                    gc.enable()
 
-    def _write(self):
+    def _change(self, step):
+        self.depth += step
         spent = self.spent + time.perf_counter() - self.begun
         if spent > PATIENCE and not self.written:
             self.written = True

@@ -135,8 +135,7 @@ def motion(order, phase, constants):
 def tangent(order, phase, constants):
     """Yield the lines for the series of a tangent, whose x and q solve the variational equations.
 
-    The arguments are as in `motion`. Before these lines also the coefficients u0, u1, ... of 3 k3
-    Z1^2 from `squares` must have values.
+    The arguments are as in `motion`. Before them u0, u1, ... from `squares` must have values.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -178,10 +177,7 @@ def _lower_squares(n):
 
 
 def _without_damping(k, drive):
-    """Yield the lines for c[k] = g[k] + h/k a[k-1], k > 1; `drive` is the expression for e[k].
-
-    The products with the newest coefficients are added last, because these are known last.
-    """
+    """Yield the lines for c[k] = g[k] + h/k a[k-1], k > 1; `drive` is the expression for e[k]."""
     n, odd = k // 2, k % 2
     last = k - n - 1
     if odd and last % 2 and last > 1:

@@ -108,8 +108,7 @@ def rows(flight_order, contact_order):
 class Writer:
     """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
 
-    With one lane the trajectory can have up to four tangents, which stand side by side. With
-    several lanes each trajectory has one tangent.
+    With one lane there are up to four tangents, with several lanes one for each trajectory.
     """
 
     def __init__(self, lanes, flight_order, contact_order):
@@ -166,8 +165,7 @@ class Writer:
     def _constants(self, phase, tangent):
         """Return a function of k that returns lines for coefficient k of the constant series.
 
-        With one lane the lines read the coefficients from the array. With several lanes each step
-        has other trajectories, so the lines compute the coefficients again.
+        With several lanes each step has other trajectories, so the lines compute it again.
         """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
         if self.lanes > 1:
@@ -180,8 +178,8 @@ class Writer:
             f"cosine = {self.at('COSINE')}",
             f"sine = {self.at('SINE')}",
             f"x0 = {self.at('Y0')}",
-            # Adding 0.0 keeps LLVM from loading x0 and x1 as one vector. The two were stored
-            # separately, and the load of a vector would wait until both stores are complete.
+            # Adding 0.0 keeps LLVM from loading x0 and x1 as one vector, which would wait until
+            # the stores of both are complete.
             f"x1 = {self.at('Y1')} + 0.0",
             *equation.beginning(self.at),
             *self._factors(phase),
@@ -282,9 +280,8 @@ class Source(Writer):
 
         `results` maps the row of each result to its series: "X" for the sum of the series X, "X'"
         for the derivative of the sum, "|X|" for the sum of the moduli of the terms. A sum begins at
-        the order `begin` and has at most `terms` terms; the lines `then` follow. Each sum is split
-        into four partial sums, each of every fourth term, which the processor can compute at the
-        same time. With one lane the four stand in one vector register.
+        the order `begin` and has at most `terms` terms; the lines `then` follow. The processor can
+        compute four partial sums, each of every fourth term, at the same time.
         """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
@@ -330,10 +327,9 @@ class Source(Writer):
         return f"abs({number})" if series.startswith("|") else number
 
     def _wall(self):
-        """Yield lines for the second and third derivatives ("curve", "jerk") of Z1 and penetration.
+        """Yield lines for second and third derivatives ("curve", "jerk") of Z1 and penetration.
 
-        Before these lines Z1_CURVE and Z1_JERK hold g and g'. The lines subtract the force of the
-        wall and its rate.
+        Before these lines Z1_CURVE and Z1_JERK hold g and g', without the force of the wall.
         """
         mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
         for force, depth_row, rate, derivative in (

@@ -118,10 +118,7 @@ def step(p, y, side, t, longest, tolerance, work):
 
 @kernel
 def side_of(p, y):
-    """Return the wall in contact in a state, -1 or 1, or 0 in flight.
-
-    A loose mass exactly on a wall is in contact if it moves into the wall.
-    """
+    """Return the wall that the loose mass touches or moves into, -1 or 1, or 0 in flight."""
     if y[2] > p[CLEARANCE] or (y[2] == p[CLEARANCE] and y[3] > 0.0):
         return 1
     if y[2] < -p[CLEARANCE] or (y[2] == -p[CLEARANCE] and y[3] < 0.0):

@@ -68,7 +68,7 @@ def module_file(name) -> Path:
 def kernel_digest(*paths) -> str:
     """Return the digest of numba's version and of all sources that kernels in `paths` depend on.
 
-    All kernels depend on this room, whose templates they do not import by name.
+    They include this room, whose templates no module imports by name.
     """
     digest = hashlib.sha256(version("numba").encode())
     for path in sorted(sources(*paths, *KERNEL.rglob("*.py"))):

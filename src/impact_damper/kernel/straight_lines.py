@@ -1,9 +1,8 @@
 """Compile lines of arithmetic without branches ("straight lines") without numba's type inference.
 
-All values are floats or pairs of floats, so the LLVM code can be written directly. The type
-inference of numba would take a millisecond for each operation, and the Taylor series of a step have
-thousands. The same lines are executed for each lane, which holds one of several trajectories that
-are integrated side by side. With one lane an operation on a pair takes one instruction, not two.
+The type inference of numba would take a millisecond for each of thousands of operations in the
+Taylor series of a step. The same lines are executed for each lane, which holds one of several
+trajectories. With one lane an operation on a pair takes one instruction, not two.
 """
 
 import ast
@@ -78,8 +77,7 @@ def write(function, builder, pointers):
     lines.lanes, lines.width = lanes, min(lanes, WIDTH)
     lines.arithmetic = Arithmetic(builder, lines.width)
     rounds, step = (ir.Constant(OFFSET, count) for count in (lanes // lines.width, lines.width))
-    # If one vector holds all lanes, no loop is written. LLVM would move the stores of a loop behind
-    # its end, which is slower.
+    # One vector for all lanes needs no loop, whose stores LLVM would move behind its end.
     with cgutils.for_range(builder, rounds) if lanes > WIDTH else nullcontext() as turn:
         lines.first = builder.mul(turn.index, step) if turn else None
         for statement in loop.body:

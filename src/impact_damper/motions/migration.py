@@ -38,14 +38,8 @@ ALIKE = 1e-6
 # settled. Times are in forcing cycles from the first strobe. released_*: the motion with the
 # damper; destination: flag (`FREE_MOTION`) of the free motion afterwards.
 SWITCHING = np.dtype(
-    [
-        ("on_time", "f8"),
-        ("off_time", "f8"),
-        ("end_time", "f8"),
-        ("released_period", "i2"),
-        ("released_displacement", "f8"),
-        ("destination", "i1"),
-    ]
+    [(name, "f8") for name in ("on_time", "off_time", "end_time")]
+    + [("released_period", "i2"), ("released_displacement", "f8"), ("destination", "i1")]
 )
 
 
@@ -107,8 +101,7 @@ def migrate(
     Raises
     ------
     ValueError
-        If the free oscillator lacks one of its two motions of period 1, or an argument is out of
-        range.
+        If the free oscillator lacks one of its two motions of period 1.
 
     Examples
     --------
@@ -138,14 +131,10 @@ def migrate(
     data = {"displacement": displacement}
     data |= {name: ("switching", values) for name, values in switching_data(log, case).items()}
     data |= {name: ((), value) for name, value in totals.items()}
-    made = model.describe(settling) | {
-        "longest_hold": longest_hold,
-        "periods": periods,
-        "largest_switchings": switchings,
-        "release": release,
-        "seed": int(getattr(seed, "entropy", seed)),
-        "spawn_key": list(getattr(seed, "spawn_key", ())),
-    }
+    made = model.describe(settling) | {"longest_hold": longest_hold, "periods": periods}
+    made |= {"largest_switchings": switchings, "release": release}
+    made["seed"] = int(getattr(seed, "entropy", seed))
+    made["spawn_key"] = list(getattr(seed, "spawn_key", ()))
     return dataset(data, {"time": times}, made, "Migration control, one run", model)
 
 
@@ -300,10 +289,9 @@ def run_totals(logs):
     """Return a dict of dataset variables of whole runs, in cycles from the first `on_time`."""
     first = logs["on_time"][..., 0]
     reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
+    yes, no = (flag("trial_outcome", name) for name in ("reached", "not_reached"))
     return {
-        "trial_outcome": np.where(
-            reached, flag("trial_outcome", "reached"), flag("trial_outcome", "not_reached")
-        ),
+        "trial_outcome": np.where(reached, yes, no),
         "switchings": np.sum(logs["destination"] != FREE_MOTION["none"], axis=-1),
         "damper_time": np.nansum(logs["off_time"] - logs["on_time"], axis=-1),
         "total_time": np.nanmax(logs["end_time"], axis=-1) - first,

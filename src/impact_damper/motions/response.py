@@ -114,15 +114,8 @@ def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None
             f"{named(steady, 'outcome')}: the state has led to no periodic orbit within "
             f"settling.limit = {settling.limit} forcing cycles; use simulate"
         )
-    return simulate(
-        system,
-        damper,
-        frequency,
-        steady["state"],
-        periods=int(steady["period"]),
-        samples=samples,
-        tolerance=settling.tolerance,
-    )
+    run = {"periods": int(steady["period"]), "samples": samples, "tolerance": settling.tolerance}
+    return simulate(system, damper, frequency, steady["state"], **run)
 
 
 @names_arguments
@@ -160,7 +153,6 @@ def frequency_response(
     seed : int
         Seed of the random starts.
     settling : Settling, optional
-        How long motions are run, and how accurately.
     life_runs : int
         Runs of each chaotic motion that measure how long it lasts; 0 for none.
     life_periods : int
@@ -173,18 +165,12 @@ def frequency_response(
     Returns
     -------
     xarray.Dataset
-        For each (frequency, motion) what `steady_motion` returns, the branch, `motion_starts`
-        (number of random starts that lead to it), the 95 % interval of their share, and the mean
-        life of a chaotic motion. Where a frequency has fewer motions than others, the outcome
-        `absent` fills the rest. For each (frequency, start) outcome and length of a run; for each
-        `end` the end of a branch; for each `frequency` the largest start and the largest motion
-        without the damper. `missed_share` bounds, at 95 % confidence, the share of starts that lead
-        to a motion not found.
-
-    Raises
-    ------
-    ValueError
-        If frequencies are not increasing, or a parameter is out of range.
+        For each (frequency, motion) what `steady_motion` returns (the outcome `absent` fills rows
+        with fewer motions), the branch, `motion_starts` (number of random starts that lead to it),
+        the 95 % interval of their share, and the mean life of a chaotic motion. For each
+        (frequency, start) outcome and length of a run; for each `end` the end of a branch; for each
+        `frequency` the largest start and the largest motion without the damper. `missed_share`
+        bounds, at 95 % confidence, the share of starts that lead to a motion not found.
 
     Warns
     -----

@@ -116,11 +116,7 @@ def simulate(
     if model.oscillator.softens:
         escaped = np.isnan(states[:, 0])
         data["escape_time"] = times[np.argmax(escaped)] if escaped.any() else np.nan
-    parameters = model.describe() | {
-        "state": y.tolist(),
-        "start": start,
-        "periods": float(periods),
-        "samples": int(samples),
-        "tolerance": float(tolerance),
-    }
+    parameters = model.describe() | {"state": y.tolist(), "start": start}
+    parameters |= {"periods": float(periods), "samples": int(samples)}
+    parameters["tolerance"] = float(tolerance)
     return dataset(data, {"time": times}, parameters, "Motion of the oscillator", model)

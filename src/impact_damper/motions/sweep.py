@@ -21,12 +21,9 @@ from impact_damper.motions.following import StrobeOrbit, follow_stable
 from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
-# Records of equal outcome, period and contacts per cycle are one motion if max |Z1| differs
-# relatively by less than SAME. A motion is symmetric if its asymmetry is below SAME.
-SAME = 1e-6
-# A difference of max |Z1| below ROUNDING never separates two motions: for motions near rest,
-# rounding errors exceed SAME times max |Z1|.
-ROUNDING = 1e-11
+# Records of equal outcome, period and contacts per cycle are one motion if max |Z1| differs by less
+# than SAME, relatively, or ROUNDING, near rest. With an asymmetry below SAME they are symmetric.
+SAME, ROUNDING = 1e-6, 1e-11
 # Motions of equal outcome and period that have not settled can be the same if the ratio of their
 # sizes is below SIMILAR.
 SIMILAR = 1.5
@@ -40,8 +37,7 @@ ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest
 # SAME_ORBIT  two orbits are the same if their states differ by less
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch:
-# CRITICAL  smallest modulus of a multiplier that shows a bifurcation; the last orbit before the
-#           bifurcation may have a modulus slightly below 1
+# CRITICAL  smallest modulus of a multiplier of the last orbit before a bifurcation
 # COMPLEX   a multiplier is complex if its imaginary part exceeds this
 # CLOSE     largest difference in max |Z1| between a symmetric motion and the asymmetric motion that
 #           branches off
@@ -59,21 +55,13 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
     branches.
     """
     size, starts = search.random.shape[:2]
-    runs = ensemble.settle(
-        np.repeat(parameters, starts, axis=0),
-        search.random.reshape(-1, 4),
-        settling,
-        workers=workers,
-        progress=progress,
-    ).reshape(size, starts)
+    rows, states = np.repeat(parameters, starts, axis=0), search.random.reshape(-1, 4)
+    runs = ensemble.settle(rows, states, settling, workers=workers, progress=progress)
+    runs = runs.reshape(size, starts)
     counts = [len(each) for each in search.placed]
-    placed = ensemble.settle(
-        np.repeat(parameters, counts, axis=0),
-        np.concatenate(search.placed),
-        settling,
-        workers=workers,
-        progress=progress if any(counts) else None,
-    )
+    rows, states = np.repeat(parameters, counts, axis=0), np.concatenate(search.placed)
+    title = progress if any(counts) else None
+    placed = ensemble.settle(rows, states, settling, workers=workers, progress=title)
     numbering = count()
     catalogues = [Catalogue(p, numbering) for p in parameters]
     reached = [
@@ -263,10 +251,7 @@ class Catalogue:
 
 
 def match_unsettled(first, second) -> list:
-    """Return the pairs of indices of motions at two neighbouring values that are the same motion.
-
-    Pairs with the closest sizes are matched first; each motion is in at most one pair.
-    """
+    """Return pairs of indices of equal motions at two neighbouring values, closest sizes first."""
     pairs = sorted(
         (ratio, i, j)
         for i, one in enumerate(first)

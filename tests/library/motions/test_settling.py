@@ -99,18 +99,6 @@ def test_exponent_of_a_settled_motion_is_its_multiplier(impacting_orbit):
     assert_allclose(found, expected, rtol=1e-2)
 
 
-def test_polish_comes_back_from_aside(known_orbit):
-    """From a state 1 % away Newton's method returns to the orbit, as an integration shows."""
-    p = known_orbit.parameters
-    y = known_orbit.state * 1.01
-    found, residual, multiplier = strobe_map.polish(p, y, 1, 0.2, 1e-13)
-    assert found and residual < 1e-8
-    (back,), _ = sample(p, y, known_orbit.strobe, [known_orbit.strobe + known_orbit.period])
-    assert_allclose(back, y, atol=2e-9)
-    assert abs(multiplier) < 1
-    assert_allclose(y[:2], known_orbit.state[:2], atol=1e-8)
-
-
 @pytest.mark.parametrize("start, target", [((2.35, -0.78), 2.2), ((0.03, 0.5), 1.2)])
 def test_follow_ends_at_the_folds_of_the_free_response(start, target):
     """A simulated motion stays on the branch on one side of its end and leaves it on the other."""

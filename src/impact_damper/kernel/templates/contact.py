@@ -12,10 +12,7 @@ SAG = 0.13
 
 @kernel_only
 def loose_mass(a, i, t):
-    """Return Z2 and Z2' at time t of a flight, from Z1 and its slope at t.
-
-    The loose mass moves at constant velocity, so Z2 - Z1 is a linear function of time.
-    """
+    """Return Z2 and Z2' at time t of a flight, in which Z2 - Z1 is a linear function of time."""
     drift = a[Y3 + i] - a[Y1 + i]
     return a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t, a[Z1_SLOPE + i] + drift
 
@@ -45,9 +42,8 @@ def distance_ahead(a, i, t):
 def expect_contact(a):
     """Move T from LENGTH to the expected time of a contact, in lanes that expect a contact.
 
-    The first three terms of the series decide whether a lane expects a contact. The time of the
-    contact follows from half of all terms, so that the processor need not wait for the last
-    coefficients.
+    Three terms of the series decide whether a lane expects one, and half of all terms when, so that
+    the processor need not wait for the last coefficients.
     """
     expected = 0
     for i in range(LANES):
@@ -121,9 +117,9 @@ def find_contact(a):
 
 @kernel_only
 def meet_expected(a):
-    """Do one iteration towards the contact in lanes that expect a contact at T.
+    """Do one iteration, mostly the last, towards the contact in lanes that expect one at T.
 
-    One iteration finds most of these contacts. Return the number of lanes that are still undecided.
+    Return the number of lanes that are still undecided.
     """
     flight_curve(a)
     undecided = 0
@@ -175,13 +171,11 @@ def search_contact(a):
                 upper = safe_advance(clearance - z, w, bound)
                 lower = safe_advance(clearance + z, -w, bound)
                 wall = 1.0 if upper < lower else -1.0
-                # Next to a wall that recedes, the distance stays below its rounding error for the
-                # time `shortest`, so the search may advance by this time.
+                # Next to a wall that recedes, the distance is a rounding error for `shortest`.
                 shortest = math.sqrt(8.0 * fine / (bound + TINY))
                 receding = max(shortest, ROUNDING * t) if wall * w <= 0.0 else 0.0
                 ahead = max(min(upper, lower), receding)
-                # A mass at rest on the wall either enters or leaves it, which depends on its
-                # acceleration. `closing` is false for zero speed, so a later time decides.
+                # For a mass at rest on the wall `closing` is false, so a later time decides.
                 t, mode = march_step(
                     t, clearance - wall * z, wall * w > 0.0, ahead, a[LENGTH + i], fine
                 )

@@ -21,8 +21,7 @@ NEAR = 1e-4
 def find_forcing(a):
     """Compute COSINE and SINE of the forcing's phase at the time KNOWN, times the amplitude.
 
-    Multiples of a quarter turn are subtracted from the phase, so that its modulus is at most an
-    eighth of a turn. There the series of `circular_series` converge fast.
+    Quarter turns are subtracted, because the series converge fast up to an eighth of a turn.
     """
     for i in range(LANES):
         angle = a[FREQUENCY + i] * a[KNOWN + i]
@@ -48,8 +47,7 @@ def find_forcing(a):
 def forcing(a):
     """Compute COSINE and SINE of the forcing's phase at TIME, times the amplitude.
 
-    With one lane `look_ahead` may have computed the two for the time KNOWN, which is TIME or close
-    to it.
+    With one lane `look_ahead` may have computed them for a time KNOWN close to it.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:
@@ -67,8 +65,7 @@ def forcing(a):
 def look_ahead(a):
     """With one lane, compute COSINE and SINE at T, the expected end of the step.
 
-    The processor computes them while it waits for other results of the step. With several lanes it
-    does not wait, and the function does nothing.
+    The processor would otherwise wait for other results of the step.
     """
     if LANES == 1:
         a[KNOWN] = a[TIME] + a[T]

@@ -20,9 +20,8 @@ LANES: int
 
 # Relative rounding error of an event function, 4 units in the last place.
 ROUNDING = 2.0**-50
-# The iteration for a root ends once (move / bending time)^3 is below LAST_MOVE times the tolerance.
-# The bending time is |f'/f''|, in which f' changes by its own size. The cube is the size of the
-# first term that the iteration neglects. LAST_MOVE is a margin.
+# The iteration for a root ends once (move / bending time)^3, the size of the first term that it
+# neglects, is below LAST_MOVE times the tolerance. The bending time is |f'/f''|.
 LAST_MOVE = 0.01
 MARCH, BRACKET, ENDING, MET, MISSED = 0.0, 1.0, 2.0, 3.0, 4.0
 # TINY prevents divisions by zero. FAR replaces infinity, because 0 times infinity is NaN.
@@ -32,10 +31,9 @@ FAR = 1e200
 
 @kernel_only
 def safe_advance(f, closing, bound):
-    """Return a time within which the event function f cannot vanish.
+    """Return the first root t of f - closing t - bound t^2/2, before which f cannot vanish.
 
-    It is the first root t of f - closing t - bound t^2/2, where `closing` is -f' and `bound` is an
-    upper bound on |f''|.
+    `closing` is -f', and `bound` an upper bound on |f''|.
     """
     f = max(f, 0.0)
     root = math.sqrt(closing * closing + 2.0 * bound * f)
@@ -46,11 +44,10 @@ def safe_advance(f, closing, bound):
 
 @kernel_only
 def march_step(t, f, closing, ahead, length, fine):
-    """Return the next time and mode of a search in mode MARCH.
+    """Return the next time and mode of a search in mode MARCH; f is positive until t + `ahead`.
 
-    f is the value of the event function at t, and f stays positive from t to t + `ahead`. The root
-    is at t if f decreases (`closing`) and either f is below its rounding error `fine` or `ahead` is
-    too short to change t.
+    The root is at t if f decreases (`closing`) and either f is below its rounding error `fine` or
+    `ahead` is too short to change t.
     """
     met = closing and (f <= fine or t + ahead == t)
     ends = not t + ahead < length
@@ -66,10 +63,7 @@ def chebyshev(first, bend):
 
 @kernel_only
 def is_last_move(a, i, move, rate):
-    """Return whether the terms that a move neglects are far below the tolerance (see LAST_MOVE).
-
-    `rate` is the inverse of the bending time.
-    """
+    """Return whether the terms that a move neglects are far below the tolerance (LAST_MOVE)."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -108,8 +102,7 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 def store_end(a, i, row, end, move, going):
     """Store value and slope after a move in `end` and the next row, if the search is `going` on.
 
-    They are extrapolated from the value and three derivatives in the four rows that begin with
-    `row`.
+    The four rows from `row` on hold the value and three derivatives before it.
     """
     value, slope = a[row + i], a[row + LANES + i]
     curve, jerk = a[row + 2 * LANES + i], a[row + 3 * LANES + i]

@@ -28,11 +28,7 @@ def fast_exp2(y):
 
 @kernel_only
 def time_to_zero(f, slope, natural):
-    """Return the approximate time until a harmonic oscillation with value f and this slope is zero.
-
-    The exact time is arctan(natural * move) / natural, with the Newton step move = -f / slope. A
-    rational function replaces the arctangent.
-    """
+    """Return about arctan(-natural f / slope) / natural, when a harmonic oscillation is zero."""
     u = (natural * f) ** 2
     v = slope * slope
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
@@ -40,10 +36,9 @@ def time_to_zero(f, slope, natural):
 
 @kernel_only
 def predict_separation(a):
-    """Compute the NATURAL frequency of the contact, LENGTH, and the predicted separation T.
+    """Compute the NATURAL frequency of the contact, LENGTH, and the separation T up to LENGTH.
 
-    T is LENGTH if no separation is expected before LENGTH. The prediction needs only the state, so
-    that the processor need not wait for the series.
+    The prediction needs only the state, so that the processor need not wait for the series.
     """
     for i in range(LANES):
         wall = a[SIDE + i]
@@ -57,9 +52,8 @@ def predict_separation(a):
         loss = a[DASHPOT + i] * mobility
         longest = (LONGEST_DEEPENING if w >= 0.0 else LONGEST_RETURNING) * 2.0 * math.pi / natural
         length = min(a[LONGEST + i], longest)
-        # g is the acceleration that does not come from the wall. A contact that has just begun
-        # (q = 0) lasts half a damped natural period plus a correction by the mean of g over this
-        # time. A contact that began earlier is treated as a harmonic oscillation, without g.
+        # A contact that has just begun (q = 0) lasts half a damped natural period plus a correction
+        # by the mean of the acceleration g without the wall. Later g is neglected.
         g = a[COSINE + i] - spring(a, x, i, LANES) - h * v
         slope = spring_slope(a, x, i, LANES)
         drift = -a[FREQUENCY + i] * a[SINE + i] - slope * v - h * g

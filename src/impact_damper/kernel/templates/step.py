@@ -4,11 +4,10 @@ The trajectories of a step are all in flight or all in contact. The step integra
 its next event, the beginning or end of a contact, or over the longest admitted time.
 
 The files in this folder are templates. `instances.instance` joins them into one module for a number
-of lanes (trajectories side by side) and a pair of orders of the Taylor series, in flight and in
-contact. The module begins with the constants declared below and with the functions that
-`instances.Source` writes. All numbers stand in flat arrays, `a` for trajectories and `d` for
-tangents. A name in capitals, such as Y0, is the index at which a row begins (`instances.rows`), and
-a[Y0 + i] is the number of lane i in this row. No lane reads the numbers of another lane.
+of lanes (trajectories side by side) and orders of the Taylor series in flight and in contact,
+behind the constants declared below and the functions that `instances.Source` writes. All numbers
+stand in flat arrays, `a` for trajectories and `d` for tangents. A name in capitals, such as Y0, is
+the index at which a row begins (`instances.rows`): a[Y0 + i] belongs to lane i.
 """
 
 import math
