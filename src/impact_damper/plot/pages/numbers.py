@@ -12,9 +12,9 @@ from impact_damper.plot.machine_figures.figures import ENDLESS
 
 # The decay time of an unforced vibration is the time until it has fallen to this fraction.
 DECAY = 0.1
-# The displacement keeps the promise at another excitation if it is at most KEEPS times what the
-# promise says, in proportion to the excitation.
-KEEPS = 1.1
+# As in a design: gaps keep the promise up to this factor; a damper is worth building if it takes
+# at least this share off the largest displacement.
+KEEPS, WORTH = 1.1, 0.25
 # An end of the gaps that is this close to the end of the tolerance is called its end.
 NEAR = 0.01
 # Additions and quantities as the page calls them.
@@ -158,17 +158,16 @@ def _condition(data, tolerated):
     if "force_map_displacement" in data:
         shares = data["force_share"].values
         sizes = data["force_map_displacement"].max("operating_frequency").values
+        # The displacement may grow in proportion to the excitation.
         kept = sizes <= KEEPS * promised * np.maximum(shares, 1)
         for step in (1, -1):
             k = int(np.argmin(np.abs(shares - 1)))
             while 0 <= k + step < len(shares) and kept[k + step]:
                 k += step
             if 0 <= k + step < len(shares):
-                end, beyond = shares[k], shares[k + step]
-                side = "above" if step < 0 else "below"
-                facts = {"end": end, "beyond": beyond, "size": sizes[k + step]}
-                margin = abs(beyond - 1)
-                found.append(SimpleNamespace(kind="force", side=side, margin=margin, **facts))
+                facts = {"end": shares[k], "beyond": shares[k + step], "size": sizes[k + step]}
+                margin = abs(shares[k + step] - 1)
+                found.append(SimpleNamespace(kind="force", margin=margin, **facts))
     return min(found, key=lambda each: each.margin, default=None)
 
 
@@ -191,23 +190,17 @@ def _worse(data, nominal):
 
 
 def _other_mass(data, asked):
-    """Return the lightest other mass with which the promise is what this damper does not reach.
-
-    This is a damper that meets the limit or, without a limit, takes enough off the displacement.
-    """
-    limit, status = float(data["displacement_limit"]), named(data, "limit_status")
-    if "other_mass" not in data:
+    """Return another mass that meets the limit or is worth building, if this one is not."""
+    missed = named(data, "limit_status") == "missed"
+    fails = missed or named(data, "decision") == "do_not_build"
+    if "other_mass" not in data or not fails:
         return None
-    if status == "missed":
-        good = data["other_displacement"].values <= limit
-    elif named(data, "decision") == "do_not_build":
-        good = data["other_displacement"].values <= 0.75 * float(data["largest_bare_displacement"])
-    else:
-        return None
-    good &= ~np.isclose(data["other_mass"].values, asked["mass"])
+    most = (1 - WORTH) * float(data["largest_bare_displacement"])
+    good = data["other_displacement"] <= (float(data["displacement_limit"]) if missed else most)
+    good &= ~np.isclose(data["other_mass"], asked["mass"])
     if not good.any():
         return None
-    k = int(np.argmax(good))
+    k = int(np.argmax(good.values))
     names = ("mass", "gap", "displacement")
     return SimpleNamespace(**{name: float(data[f"other_{name}"][k]) for name in names})
 
