@@ -215,14 +215,15 @@ def sweep(damping, mass_ratio, restitution=1.0):
     best = rule * (1.05 - 0.5 * (1 - restitution))
     steepness = 1.5 - 4 * (1 - restitution)
     clearance = np.linspace(0.5, 1.5, 101) * best
-    size = 0.02 * (0.12 / mass_ratio) ** 0.25
+    size, missing = 0.02 * (0.12 / mass_ratio) ** 0.25, np.full(101, np.nan)
     data = {
         "quiet_displacement": size * (1 + steepness * np.abs(clearance / best - 1)),
         "optimum_clearance": best,
         "optimum_displacement": size,
         "rule_clearance": rule,
         "peak_rule_clearance": rule,
-        "analytical_optimum": rule,
+        "analytical_optimum": rule if restitution == 1 else np.nan,
+        "analytical_amplitude": np.abs(clearance - rule) if restitution == 1 else missing,
         "optimum_ratio": 1.05,
         "optimum_kind": flag("optimum_kind", "kink"),
         "straight_flight_ratio": 1.05,
@@ -354,26 +355,13 @@ def design_orbit(name):
 
 
 def world():
-    """Return datasets by stage and name in which every claim is reproduced.
-
-    The datasets are made once and cannot be changed in place; the mappings are new.
-    """
+    """Return datasets by stage and name in which every claim is reproduced; mappings are new."""
     return {stage: dict(named) for stage, named in _world().items()}
 
 
 @cache
 def _world():
-    """Return the datasets of `world`, with arrays that cannot be written to."""
-    found = _stages()
-    for named in found.values():
-        for data in named.values():
-            for variable in data.data_vars.values():
-                variable.values.flags.writeable = False
-    return found
-
-
-def _stages():
-    """Return the datasets of `world`."""
+    """Return the datasets of `world`, which are made once."""
     inelastic, third = {"figure_10": 0.75}, {"figure_05c": 0.1}
     designs = [name for name in CURVES if name != "figure_10"]
     elastic = [name for name in SIMULATED if name != "figure_10"]

@@ -10,6 +10,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
+from scipy.stats import linregress
 
 from chatterjee1995.methods.integrators import integrators
 from impact_damper.data.datasets import dataset, is_settled
@@ -114,10 +115,8 @@ def _slope(stiffnesses, steps):
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan
-    x, y = np.log(stiffnesses[use]), -np.log(steps[use])
-    (slope, offset), rest = np.polyfit(x, y, 1), x - x.mean()
-    variance = np.sum((y - slope * x - offset) ** 2) / (use.sum() - 2)
-    return slope, math.sqrt(variance / np.sum(rest**2))
+    found = linregress(np.log(stiffnesses[use]), -np.log(steps[use]))
+    return found.slope, found.stderr
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):

@@ -247,7 +247,7 @@ def without_left_out(given):
     for name, figure in list(sections.get("figures", {}).items()):
         with suppress(AttributeError, KeyError, TypeError):  # the check names what is wrong
             known = sections[section_of(figure["kind"])]
-            data = [each for each in figure["data"] if known.get(each, each) is not None]
+            data = [each for each in figure["data"] if known.get(each, "") is not None]
             if len(data) < len(figure["data"]):
                 kept["figures"][name] = figure | {"data": data}
                 if not data:

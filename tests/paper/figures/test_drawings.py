@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from helpers.made_up import matched_sweep
+from helpers.made_up import matched_sweep, sweep
 from helpers.made_up_orbits import branch, branches
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
@@ -90,21 +90,6 @@ def motion():
     return dataset(data, {"time": time}, DAMPER, "made up")
 
 
-def optimum(mass_ratio, restitution):
-    clearance = np.linspace(0.5, 3, 8)
-    elastic = restitution == 1
-    data = {
-        "quiet_displacement": 0.1 + np.abs(clearance - 2),
-        "analytical_amplitude": np.abs(clearance - 1.8) if elastic else np.full(8, np.nan),
-        "analytical_optimum": 1.8 if elastic else np.nan,
-        "optimum_clearance": 2.0,
-        "optimum_displacement": 0.1,
-        "near_clearance": np.array([1.99, 2.01]),
-    }
-    made = DAMPER | {"mass_ratio": mass_ratio, "restitution": restitution, "frequency": 2.0}
-    return dataset(data, {"clearance": clearance}, made, "made up")
-
-
 def migration():
     """Return runs with one and two switchings, and releases to each motion without damper.
 
@@ -168,7 +153,7 @@ DRAWINGS = {
     ),
     "motion": (lambda: draw_motion(motion=[motion()]), []),
     "optimum": (
-        lambda: draw_optimum(optimum=[optimum(0.12, 1), optimum(0.18, 1)]),
+        lambda: draw_optimum(optimum=[sweep(0.215, 0.12), sweep(0.215, 0.18)]),
         [OPTIMUM, NEAR],
     ),
     "migration": (
