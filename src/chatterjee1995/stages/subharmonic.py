@@ -137,7 +137,8 @@ def switched_on(oscillator, p, state, loose, generator):
     states = traces.states_at(free, state, begin, times, tolerance)
     states[:, 2:] = loose[:, 2:]
     states[::2, 3] = 0.0
-    sample, log = np.empty((1, 4)), np.empty((0, 5))
+    # the kernel writes a row for each contact, at most one in a step
+    sample, log = np.empty((1, 4)), np.empty((traces.STEPS_AT_ONCE, 5))
     for time, y in zip(times, states, strict=True):
         end = np.array([np.ceil(time / period) * period])
         traces.trace_steps(p, y, time, side_of(p, y), 0, 0, end, tolerance, sample, log)
