@@ -4,6 +4,7 @@ A bifurcation is the zero of a test function along the step, a change of contact
 the sequence of walls touched changes.
 """
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -50,24 +51,14 @@ def _fold(point):
     return point.tangent[-1]
 
 
-def _symmetry(point):
-    """Return the product of mu + 1 over the multipliers of the root, or 1 if there is no root.
+def _reversal(point, symmetric):
+    """Return the product of mu + 1 over the multipliers mu of a cycle, or 1 for other orbits.
 
-    Only symmetric orbits have a root (`Orbit.root`), the derivative over half a period. Symmetry is
-    lost where one of its multipliers mu is -1.
+    A multiplier is -1 where a `symmetric` orbit, whose cycle is half its period, loses its
+    symmetry, and where another orbit doubles its period.
     """
     orbit = point.orbit
-    return 1.0 if orbit.root is None else _product(orbit.cycle_multipliers + 1)
-
-
-def _doubling(point):
-    """Return the product of mu + 1 over the multipliers mu, or 1 for an orbit with a root.
-
-    The period doubles where a multiplier is -1. An orbit with a root is symmetric, and a symmetric
-    orbit has no period doubling.
-    """
-    orbit = point.orbit
-    return 1.0 if orbit.root is not None else _product(orbit.cycle_multipliers + 1)
+    return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0
 
 
 def _pairs(point):
@@ -90,13 +81,12 @@ def _product(values):
 
 
 # For each kind of bifurcation the test function of a point, which is zero at the bifurcation, and
-# the tolerance of the place of the zero. A fold needs less accuracy, because the parameter changes
-# with the square of the distance from the fold. More is not possible, because Newton's method is
-# nearly singular at a fold.
+# the tolerance of the place of the zero. At a fold the parameter changes with the square of the
+# distance, and Newton's method is nearly singular.
 TESTS = {
     "fold": (_fold, 1e-7),
-    "symmetry_breaking": (_symmetry, 1e-11),
-    "period_doubling": (_doubling, 1e-11),
+    "symmetry_breaking": (partial(_reversal, symmetric=True), 1e-11),
+    "period_doubling": (partial(_reversal, symmetric=False), 1e-11),
     "neimark_sacker": (_pairs, 1e-11),
 }
 

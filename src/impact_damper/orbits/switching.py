@@ -111,9 +111,8 @@ def _at_distance(leaving, distance):
 def _at_heights(leaving):
     """Yield points of the other branch at several heights of an extremum of Z2.
 
-    Of all extrema it is the one that first reaches its wall along the other branch. At the
-    bifurcation the motion has this extremum twice, once in each cycle of the first branch. On the
-    other branch one of both rises and the other one falls.
+    Of all extrema it is the one that first reaches its wall along the other branch. The motion has
+    it in each cycle of the first branch; on the other branch one of both rises, the other falls.
     """
     problem, x, direction = leaving
     # Only the first half of the segments is searched, because the second half has the same extrema.
