@@ -5,7 +5,6 @@ dimensionless; `Model` keeps the scales, in which errors are told and results ar
 """
 
 import math
-import warnings
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -18,6 +17,7 @@ from impact_damper.model.bounds import (
     RADIUS_RANGE,
     check_number,
     shown,
+    warn,
 )
 from impact_damper.model.machine import Machine, MachineDamper
 from impact_damper.model.packed import pack
@@ -237,11 +237,10 @@ def _warn_of_compression(relative, model):
     damper, told = model.damper, model.scales.told
     rate = math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
     speed = rate * (abs(relative) - damper.clearance)
-    warnings.warn(
+    warn(
         f"{told('state[2]', relative, 'displacement')}: the loose mass is beyond its wall, which "
         f"is at {told('clearance', damper.clearance, 'clearance')}; the compressed contact throws "
         f"the mass back with up to {told('speed', speed, 'velocity')}",
-        stacklevel=4,
     )
 
 

@@ -8,6 +8,8 @@ import inspect
 import math
 import numbers
 import reprlib
+import sys
+import warnings
 from dataclasses import fields
 from functools import wraps
 
@@ -54,6 +56,7 @@ SEED_RANGE = {"least": 0, "most": 2**63 - 1}
 FARTHEST, FASTEST = 1e3, 1e6
 # Highest harmonic N of a harmonic balance, whose memory grows as N^2 and computing time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
+PACKAGE = f"{__name__.partition('.')[0]}."
 # Number of points of a grid.
 POINTS_RANGE = {"least": 2, "most": 10**5}
 # Loads (constant accelerations during a contact) for which `contact.contact_law` is evaluated.
@@ -65,6 +68,14 @@ LOAD_RANGE = {"above": 0.0, "most": 1e3}
 METHOD_TOLERANCE_RANGE = {"least": 1e-14, "most": 0.1, "why": "rounding errors exceed smaller ones"}
 STEPS_RANGE = {"least": 1, "most": 10**5}
 MOST_STEPS_RANGE = {"least": 1, "most": 10**7}
+
+
+def warn(text) -> None:
+    """Warn at the line that called the library."""
+    frame, level = sys._getframe(1), 2
+    while frame and frame.f_globals.get("__name__", "").startswith(PACKAGE):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(text, stacklevel=level)
 
 
 def unlabelled(name, value):

@@ -12,14 +12,13 @@ it the range is scaled by the free motions at the frequency, and the starts are 
 """
 
 import math
-import warnings
 from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.model.bounds import FREQUENCY_RANGE, RADIUS_RANGE, check_number
+from impact_damper.model.bounds import FREQUENCY_RANGE, RADIUS_RANGE, check_number, warn
 from impact_damper.model.families import FORCING
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.motions import ensemble, strobe_map, traces
@@ -127,13 +126,12 @@ def warn_if_narrow(oscillator, frequencies, radius) -> dict:
     most, fastest = sizes[worst], sizes[worst] * worst
     if max(most, fastest) > radius:
         told = oscillator.scales.told
-        warnings.warn(
+        warn(
             f"{told('radius', radius, 'displacement')}: smaller than the free motion at "
             f"{told('frequency', worst, 'frequency')}, with "
             f"{told('displacement', most, 'displacement')} and "
             f"{told('speed', fastest, 'velocity')} by harmonic balance; motions may be missed; "
             "without a radius the search is scaled by the free motions",
-            stacklevel=4,
         )
     return {w: (size, size * w) for w, size in sizes.items()}
 

@@ -250,6 +250,9 @@ def _in_words(sweep) -> str:
 
 # The range of clearances near the minimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
 NEAR_MINIMUM = 1.1
+# Step of the derivative at a smooth minimum, and distance within which it changes its sign, both
+# divided by the clearance.
+DIFFERENCE, WIDE = 3e-5, 1e-4
 
 
 def minimum_table(values, sizes, size_at, span):
@@ -277,6 +280,9 @@ def minimum_table(values, sizes, size_at, span):
         kind = "edge" if end in span else "jump"
     else:
         kind = _kind(size_at, best, least, min(1e-3 * best, room))
+    if kind == "smooth" and room > 2 * WIDE * best:
+        best = _stationary(size_at, best)
+        least = size_at(best)
     near = [_near(values[::step], sizes[::step], size_at, best, least, span) for step in (-1, 1)]
     return {
         "optimum_clearance": best,
@@ -285,6 +291,21 @@ def minimum_table(values, sizes, size_at, span):
         "near_clearance": np.array([value for value, _ in near]),
         "near_status": np.array([flag("near_status", event) for _, event in near]),
     }
+
+
+def _stationary(size_at, best):
+    """Return the zero of the derivative of max |Z1| by the clearance next to a smooth minimum.
+
+    The minimum itself is known to the square root of the rounding error only.
+    """
+    step, reach = DIFFERENCE * best, WIDE * best
+
+    def slope(clearance):
+        return size_at(clearance + step) - size_at(clearance - step)
+
+    if not slope(best - reach) < 0 < slope(best + reach):
+        return best
+    return brentq(slope, best - reach, best + reach, xtol=1e-11 * best)
 
 
 def _kind(size_at, best, least, longest):

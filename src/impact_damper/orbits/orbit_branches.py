@@ -1,7 +1,5 @@
 """Periodic orbits as labelled datasets: one orbit, or branches of orbits over a parameter."""
 
-import warnings
-
 import numpy as np
 import xarray as xr
 from tqdm import tqdm
@@ -21,6 +19,7 @@ from impact_damper.model.bounds import (
     check_number,
     names_arguments,
     shown,
+    warn,
 )
 from impact_damper.model.families import LINEAR, family_of, read_followed
 from impact_damper.model.packed import FREQUENCY
@@ -86,9 +85,8 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     model = read_forced(system, damper, frequency)
     state, orbit = _checked_orbit(model, state, period, phase)
     if orbit.repeats_sooner():
-        warnings.warn(
+        warn(
             f"period = {period}: the orbit found already repeats after a divisor of {period}",
-            stacklevel=2,
         )
     log = orbit.contacts
     data = orbit_variables([(model.frequency, orbit)]) | {

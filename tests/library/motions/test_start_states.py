@@ -44,8 +44,10 @@ def hardening_machine():
 def test_the_default_search_finds_the_violent_motion_that_a_ball_of_radius_2_misses():
     oscillator, damper, frequency, unit = hardening_machine()
     wide = frequency_response(oscillator, damper, [frequency])
-    with pytest.warns(UserWarning, match=r"radius = 2: smaller than the free motion at .* = 19.47"):
+    expected = r"radius = 2: smaller than the free motion at .* = 19.47"
+    with pytest.warns(UserWarning, match=expected) as told:
         narrow = frequency_response(oscillator, damper, [frequency], radius=2.0)
+    assert told[0].filename == __file__  # the caller's line, not one of the library
     largest = {
         name: unit * np.nanmax(data.maximum_displacement)
         for name, data in (("wide", wide), ("narrow", narrow))
