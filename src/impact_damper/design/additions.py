@@ -8,21 +8,20 @@ import xarray as xr
 from impact_damper.data.datasets import named
 from impact_damper.data.shares import starts_needed
 from impact_damper.design.absorbers import SHARES, absorber_responses
-from impact_damper.design.cells import Cell
+from impact_damper.design.cells import Cell, run
 from impact_damper.design.chosen_motions import response_and_costs
-from impact_damper.design.confirm import find_gap
 from impact_damper.design.costs import measured_costs
-from impact_damper.design.promise import Promise
+from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.quiet_branch import follow_quiet_orbit
+from impact_damper.design.search import search
 from impact_damper.design.task import NOMINAL, VARIED, labelled
 from impact_damper.design.transients import transients
 from impact_damper.motions.strobe_map import strobe_time
 
 # Largest number of frequencies of the map over the force.
 FREQUENCIES = 9
-# Other mass divided by the nominal one: lighter if the damper does its task, otherwise heavier. For
-# the other mass so many gaps are compared closely.
-LIGHTER, HEAVIER, GAPS = 0.5, 2.0, 8
+# Other mass divided by the nominal one.
+HEAVIER = 2.0
 # Cycles over which the contact force of a motion that is not periodic is measured.
 WATCHED = 100
 
@@ -41,35 +40,39 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 
 
 def other_masses(task, decision, progress=None) -> xr.Dataset:
-    """Return this damper, and one of another mass that is designed as this one."""
-    rows = [_row(task, decision)]
+    """Return this damper and a heavier one, if this one fails and the other is a damper at all.
+
+    The search for the gap of the other is short; its promise is from the whole grid.
+    """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"
-    mass = (HEAVIER if fails else LIGHTER) * task.mass
-    if mass <= task.machine.mass:
-        candidates = min(GAPS, task.effort.candidates)
-        effort = replace(task.effort, starts=starts_needed(task.share), candidates=candidates)
-        made = {"contact": task.contact_stiffness, "effort": effort, "gap": None}
-        other = replace(task, mass=mass, **made)
-        rows.append(_row(other, find_gap(other, progress)))
-    masses, gaps, sizes, forces = np.array(sorted(rows)).T
+    mass = HEAVIER * task.mass
+    if not fails or mass > task.machine.mass:
+        return labelled({})
+    other = replace(task, mass=mass, contact=task.contact_stiffness, gap=None)
+    gap = search(other, progress, rounds=1).choose().gap
+    given = {"count": starts_needed(task.share), "progress": progress}
+    promise = Promise(other, 1e-3 * gap, factor_sets(other, gap), ("masses", 1), **given).refined()
+    this = float(decision["design_gap"]), float(decision["promised_displacement"])
+    rows = [
+        (task.mass, *this, _force(task, this[0], float(decision["promised_frequency"]))),
+        (mass, gap, promise.size, _force(other, gap, promise.worst[1])),
+    ]
+    masses, gaps, sizes, forces = np.array(rows).T
     values = {"other_gap": gaps, "other_displacement": sizes, "other_force": forces}
     return labelled(values, other_mass=masses)
 
 
-def _row(task, decision):
-    """Return mass, gap, promised displacement and contact force (N) of a damper."""
-    gap, frequency = float(decision["design_gap"]), float(decision["branch_frequency"])
-    found = Promise(task, 1e-3 * gap, [NOMINAL], ("masses",), frequencies=[frequency])
-    k = int(np.argmax(found.motions.peaks[0]))
-    p, record = task.packed(*Cell(1e-3 * gap, frequency)), found.motions.records[0, k]
-    force = np.nan
-    if np.isfinite(found.motions.peaks[0, k]):
-        periods = int(record["period"]) or WATCHED
-        state = found.motions.states[0, k].copy()
-        costs = measured_costs(p, state, strobe_time(p), periods)
-        force = task.scales.to_si(costs["contact_force"], "force")
-    return task.mass, gap, float(decision["promised_displacement"]), force
+def _force(task, gap, frequency):
+    """Return the contact force (N) of the largest motion at a gap (mm) and frequency (Hz)."""
+    cell = Cell(1e-3 * gap, frequency)
+    motions = run(task, [cell], task.effort.starts, ("masses",))
+    k, p = int(np.argmax(motions.peaks[0])), task.packed(*cell)
+    if np.isinf(motions.peaks[0, k]):
+        return np.nan
+    periods = int(motions.records["period"][0, k]) or WATCHED
+    costs = measured_costs(p, motions.states[0, k].copy(), strobe_time(p), periods)
+    return task.scales.to_si(costs["contact_force"], "force")
 
 
 def competitors(task, decision, progress=None) -> xr.Dataset:

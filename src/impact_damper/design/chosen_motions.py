@@ -21,7 +21,7 @@ from impact_damper.orbits.orbit_branches import orbit_branches
 # motion that is not periodic is measured.
 SAMPLES, WATCHED = 64, 200
 # Largest number of cycles for which an undecided motion is run further, to name it.
-FURTHER = 10_000
+FURTHER = 1500
 # Variables of the response without the damper, with their names in the dataset of a design.
 BARE = {
     "followed_value": "bare_frequency",

@@ -1,4 +1,4 @@
-"""The quiet orbit of a design: over the gap, and its exact derivatives by all values."""
+"""The quiet orbit of a design: over the gap, and its derivatives by all values."""
 
 import numpy as np
 import xarray as xr

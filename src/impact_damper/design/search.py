@@ -169,12 +169,12 @@ def score(task, gaps, frequencies, starts, stream, progress=None) -> tuple:
     return table.max(axis=1), np.asarray(frequencies)[table.argmax(axis=1)]
 
 
-def search(task, progress=None) -> Curve:
+def search(task, progress=None, rounds=ROUNDS) -> Curve:
     """Return the curve over all gaps, refined at its jumps and where it is small."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = np.geomspace(*task.gap_span, min(GAPS, 3 * task.effort.candidates + 4))
     curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress), close=False)
-    for turn in range(ROUNDS):
+    for turn in range(rounds):
         gaps = curve.unclear()[: task.effort.candidates]
         if not len(gaps):
             break

@@ -6,7 +6,8 @@ from impact_damper.orbits.shooting import newton, shoot
 
 # Changes of an orbit for differences, as fractions of the direction.
 NUDGE = 1e-4
-# A size has a kink if its relative slopes on both sides differ by more than this.
+# A size has a kink if its relative slopes on both sides differ by more than this, or, of steep ones,
+# by more than this share.
 KINK = 0.02
 
 
@@ -23,5 +24,5 @@ def relative_slopes(orbit, direction) -> np.ndarray:
         if not near.converged:
             return np.full(2, np.nan)
     behind, here, ahead = np.log(sizes)
-    kinks = np.abs(ahead - 2 * here + behind) > KINK * NUDGE
+    kinks = np.abs(ahead - 2 * here + behind) > KINK * np.maximum(NUDGE, np.abs(ahead - behind) / 2)
     return np.where(kinks, np.nan, (ahead - behind) / (2 * NUDGE))

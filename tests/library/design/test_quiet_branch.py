@@ -50,4 +50,4 @@ def test_changes_in_per_cent_are_those_of_orbits_found_anew(excitation):
                 near = converged(p, orbit.state, orbit.phase, True)
                 sizes = near.record["maximum_displacement"], abs(near.multipliers[0])
                 logarithms += sign * weight * np.log(sizes) / STEP
-        assert changes == pytest.approx(logarithms, rel=1e-7, abs=1e-7), name
+        assert changes == pytest.approx(logarithms, rel=2e-5, abs=1e-7), name
