@@ -112,9 +112,7 @@ def conclude(task, found, curve, ranges, status) -> xr.Dataset:
     values = {
         "design_gap": found.gap,
         "decision": flag("decision", "build" if built else "do_not_build"),
-        "migration_offer": flag(
-            "migration_offer", "no" if built or not task.two_motions else "yes"
-        ),
+        "migration_offer": flag("migration_offer", "no" if built else task.migration_offer),
         "displacement_limit": limit,
         "limit_status": flag("limit_status", limit_status),
         "promised_displacement": promise.size,
