@@ -6,8 +6,8 @@ from impact_damper.orbits.shooting import newton, shoot
 
 # Changes of an orbit for differences, as fractions of the direction.
 NUDGE = 1e-4
-# A size has a kink if its relative slopes on both sides differ by more than this, or by more than this share
-# of a slope above 1.
+# A size has a kink if its relative slopes on both sides differ by more than this, or by more than
+# this share of a slope above 1.
 KINK = 0.02
 
 

@@ -146,6 +146,19 @@ def test_a_given_gap_has_the_promise_of_the_design(finished, monkeypatch):
 
 
 @pytest.mark.thorough
+def test_a_gap_that_does_nothing_is_not_to_be_built():
+    """The heavier loose mass, designed instead, takes off more than a quarter."""
+    made = MACHINE.damper(mass=0.6, gap="0.05 mm", restitution=0.6, contact_stiffness=2e7)
+    asked = {name: SMALL[name] for name in ("band", "tolerances", "share")}
+    found = idm.evaluate_damper(MACHINE, made, **asked, effort=idm.Effort(**EFFORT))
+    assert idm.decode(found["decision"]).item() == "do_not_build"
+    assert (found["addition_status"] == flag("addition_status", "computed")).all()
+    assert np.allclose(found["other_mass"], [0.6, 1.2])
+    small = 0.75 * float(found["largest_bare_displacement"])
+    assert float(found["other_displacement"][1]) < small < float(found["other_displacement"][0])
+
+
+@pytest.mark.thorough
 def test_an_addition_that_fails_is_named_and_the_design_ends(monkeypatch):
     def fails(*_, **__):
         raise ArithmeticError("144 contacts")
