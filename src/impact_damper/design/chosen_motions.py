@@ -89,9 +89,7 @@ def reached_motions(task, choice, response) -> xr.Dataset:
         case = Cell(1e-3 * float(choice["design_gap"]), frequency)
         rows.append(_measured(task, case, sizes[k, column], states[k, column], periods))
     values = {name: np.array([row[name] for row in rows]) for name in rows[0]}
-    values |= {
-        "untouched_displacement": np.where(untouched > 0, untouched, np.nan),
-    }
+    values["untouched_displacement"] = np.where(untouched > 0, untouched, np.nan)
     return labelled(values, frequency=task.grid)
 
 

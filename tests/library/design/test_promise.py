@@ -51,7 +51,7 @@ EXAMPLES = {
     ),
 }
 # New starts of the other program, cycles after which it measures, and cycles in which it does.
-NEW, SETTLING, MEASURED = 8, 200, 60
+NEW, SETTLING, MEASURED = 5, 500, 40
 
 
 @pytest.mark.parametrize("share", [0.8, 0.95, 0.99])
