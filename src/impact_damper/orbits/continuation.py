@@ -226,11 +226,7 @@ class Problem:
         return None
 
     def _solved(self, orbit, slopes, row):
-        """Return an array with two columns: a correction, and a vector along the branch.
-
-        The correction is orthogonal to `row`. If the matrix is nearly singular, very small singular
-        values count as zero.
-        """
+        """Return two columns: a correction orthogonal to `row`, and a vector along the branch."""
         matrix, right = np.vstack([self._matrix(orbit, slopes), row]), np.zeros((len(row), 2))
         right[:-1, 0], right[-1, 1] = -orbit.defects[:, : self.size].ravel(), 1.0
         most = np.array([orbit.residual, 1.0]) / SINGULAR**0.5
@@ -290,9 +286,9 @@ def point_at_distance(origin, point, ahead, distance):
 
 
 def point_at_value(point, ahead, value):
-    """Return the point of a branch at a value of the parameter between those of two points.
+    """Return the point of a branch at a value of the parameter between two points of one problem.
 
-    Both points have the same problem. The result is None if Newton's method fails.
+    The result is None if Newton's method fails.
     """
     problem, chord = point.problem, ahead.x - point.x
 
