@@ -51,7 +51,7 @@ FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
 # LONGEST_UNSTABLE: if they are neither.
 # SMALLEST: the length of the vector counts as SMALLEST if it is shorter.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
-# Largest distance of a first guess along the tangent, in `Problem.at_value`.
+# Largest distance of the first guess of `Problem.at_value`.
 FARTHEST_GUESS = 0.08
 # ASIDE: corrections that add up to more than ASIDE times the step may have led to another branch.
 # FAILING: Newton's method is stopped if the first correction exceeds FAILING times this limit.
@@ -152,7 +152,7 @@ class Problem:
         return np.append([orbit.at(phase)[: self.size] for phase in self.phases[:-1]], value)
 
     def states(self, x):
-        """Return the states at the beginning of the segments, shape (m, 4)."""
+        """Return the states at the beginnings of the segments, shape (m, 4)."""
         if self.damped:
             return x[:-1].reshape(-1, 4)
         return np.concatenate([x[:2], x[:2] + self.loose])[None]
@@ -190,14 +190,8 @@ class Problem:
         """Return the point that Newton's method reaches from the unknowns x, or None if it fails.
 
         The corrections are orthogonal to `border`, a vector of the shape of x. The method fails if
-        the first correction is longer than `most`. It also fails if the corrections do not shrink
-        although the residual is not small, as happens when a contact appears or vanishes on the
-        way. Where branches cross, the matrix of the linear system is singular, and its smallest
-        singular value is set to zero.
-
-        After a correction below SURE the next one would be below CLOSE, because Newton's method
-        doubles the number of correct digits in each step. The derivative by the parameter, the most
-        expensive part, is computed for the first guess and once close to the orbit.
+        the first correction is longer than `most`, or if the corrections do not shrink while the
+        residual is large, for example where a contact appears or vanishes on the way.
         """
         x, size, moved, row = x.copy(), np.inf, 0.0, self.metric * border
         rate, slopes = None, None
@@ -254,9 +248,8 @@ class Problem:
     def at_value(self, point, value):
         """Return the point at a value of the parameter close to the value of a point, or None.
 
-        The first guess lies on the tangent, at a distance of at most FARTHEST_GUESS. Near a fold
-        the tangent is nearly orthogonal to the parameter. Without the limit the guess would then be
-        a large state, whose integration takes minutes.
+        The first guess lies on the tangent, at most FARTHEST_GUESS away: near a fold it would else
+        be a large state, whose integration takes minutes.
         """
         length = (value - point.x[-1]) / (point.tangent[-1] or np.inf)
         x = point.x + np.clip(length, -FARTHEST_GUESS, FARTHEST_GUESS) * point.tangent
@@ -383,8 +376,7 @@ def passes_unseen(point, ahead, located):
     """Return whether a step crosses a branch of more symmetry without a located fold.
 
     The orbits of that branch are symmetric or have half the period. Where the two branches meet,
-    the parameter has an extremum along the branch, so the events `located` on the step should
-    include a fold. Without a fold the step may have led past the meeting.
+    the parameter has an extremum along the branch, hence a fold among the events `located`.
     """
     folds = any(event.kind == "fold" for event in located)
     return not folds and point.orbit.deviation @ ahead.orbit.deviation < 0
@@ -413,9 +405,8 @@ def holds_still(point):
 def recut(point, between=()):
     """Return a point with new segments, or the same point if Newton's method fails with them.
 
-    The new unknowns are the states at the new sections. Their tangent points to the states there
-    of a motion that begins at a point displaced along the old tangent. `between` is the argument of
-    `segments.cut`.
+    The new tangent points to the states, at the new sections, of a motion that begins displaced
+    along the old tangent. `between` is the argument of `segments.cut`.
     """
     before, orbit = point.problem, point.orbit
     phases, rough = segments.cut(orbit, before.cycle, between), 1.0
