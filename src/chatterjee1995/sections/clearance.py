@@ -28,9 +28,6 @@ from impact_damper.model.bounds import MOST_RUNS
 # Axes of the grid of a study, as the stage numbers its cells.
 AXES = ("mass_ratio", "clearance", "frequency", "restitution")
 
-# Largest number of cells of a study.
-MOST_CELLS = 10**8
-
 
 class Optimum(keys_of(DAMPER, needed=NEEDED, without=["clearance", COMMON]), WithOscillator):
     """Sweeps of the clearance at one frequency, each with its optimum."""
@@ -103,14 +100,11 @@ class Study(WithOscillator):
 
     def contradictions(self, path, config):
         yield from super().contradictions(path, config)
-        if self.cells() < config.chunks:
-            reason = f"must be at most {self.cells()} (the cells of {dotted(path)})"
-            yield problem(("chunks",), config.chunks, reason)
         cells = self.cells()
-        if cells > MOST_CELLS:
-            reason = f"must be at most {MOST_CELLS} (combinations of the points of its four axes)"
-            yield f"{dotted(path)}: cells = {cells}: {reason}"
-        elif cells > config.chunks * MOST_RUNS:
+        if cells < config.chunks:
+            reason = f"must be at most {cells} (the cells of {dotted(path)})"
+            yield problem(("chunks",), config.chunks, reason)
+        if cells > config.chunks * MOST_RUNS:
             reason = f"must be at least {math.ceil(cells / MOST_RUNS)} with the {cells} cells of "
             reason += f"{dotted(path)} (a job keeps its results in memory, {MOST_RUNS} at most)"
             yield problem(("chunks",), config.chunks, reason)

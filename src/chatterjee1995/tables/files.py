@@ -14,25 +14,6 @@ DIGITS, FEW_DIGITS = 6, 4
 SHOWN = 9  # columns of a table that its page shows
 
 
-def save_table(frame, csv_path, markdown_path, document=None) -> None:
-    """Write a table as CSV and as Markdown; each file appears only when it is complete.
-
-    Numbers are rounded to six significant digits, in Markdown to four; NaN and None become empty
-    cells.
-
-    Parameters
-    ----------
-    frame : pandas.DataFrame
-    csv_path, markdown_path : str or pathlib.Path
-    document : callable, optional
-        Function from the rounded table to its Markdown text; `as_markdown` by default.
-    """
-    values = frame.map(_rounded).astype(object)
-    _write(csv_path, values.to_csv(index=False, lineterminator="\n"))
-    shown = frame.map(partial(_rounded, digits=FEW_DIGITS)).astype(object)
-    _write(markdown_path, (document or as_markdown)(shown) + "\n")
-
-
 def as_markdown(frame) -> str:
     """Return the Markdown text of a table of strings."""
 
@@ -41,6 +22,17 @@ def as_markdown(frame) -> str:
 
     text = frame.map(escaped).rename(columns=escaped)
     return text.to_markdown(index=False, disable_numparse=True)
+
+
+def save_table(frame, csv_path, markdown_path, document=as_markdown) -> None:
+    """Write a table as CSV and as Markdown; each file appears only when it is complete.
+
+    `document` makes the Markdown text of the table. NaN and None become empty cells.
+    """
+    values = frame.map(_rounded).astype(object)
+    _write(csv_path, values.to_csv(index=False, lineterminator="\n"))
+    shown = frame.map(partial(_rounded, digits=FEW_DIGITS)).astype(object)
+    _write(markdown_path, document(shown) + "\n")
 
 
 def for_people(frame, title, csv_name) -> str:
