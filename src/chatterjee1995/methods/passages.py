@@ -4,11 +4,14 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.polynomial import polyder, polyval
 
-from chatterjee1995.methods.integrators.taylor import SERIES, all_steps, turning_points
-from impact_damper.model.packed import CLEARANCE
+from impact_damper.kernel.compiling import kernel
+from impact_damper.kernel.instances import FLIGHT_ORDER
+from impact_damper.kernel.single import X, polynomial, step, workspace
+from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
+# Number of parts of a step. In each part one extremum of Z2 can be found.
+PIECES = 16
 # Tolerance of the Taylor series.
 TOLERANCE = 1e-15
 
@@ -24,6 +27,47 @@ class Passage(NamedTuple):
     time: float
     extremum: float
     curvature: float
+
+
+@kernel
+def largest_of_flight(p, y, t, end):
+    """Return the time and value of the largest |Z2| of a flight over [t, end], and |Z2''| there.
+
+    In each of PIECES parts of a step bisection finds an extremum. If |Z2| is largest at an end of
+    the flight, 0 takes the place of |Z2''|. y becomes the state at the end.
+    """
+    work = workspace()
+    flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
+    c = np.zeros(FLIGHT_ORDER + 1)
+    at, largest, bend = t, abs(y[2]), 0.0
+    while t < end:
+        offset, drift = y[2] - y[0], y[3] - y[1]
+        length, _ = step(p, y, flight, t, end - t, TOLERANCE, work)
+        # The assignment of a whole array would take 2 s longer to compile.
+        for k in range(FLIGHT_ORDER + 1):
+            c[k] = work[X + k]
+        c[0] += offset
+        c[1] += drift
+        for i in range(PIECES):
+            low, high = length * i / PIECES, length * (i + 1) / PIECES
+            left, right = polynomial(c, FLIGHT_ORDER, low)[1], polynomial(c, FLIGHT_ORDER, high)[1]
+            if left * right > 0.0:
+                continue
+            for _ in range(60):
+                middle = 0.5 * (low + high)
+                if left * polynomial(c, FLIGHT_ORDER, middle)[1] > 0.0:
+                    low = middle
+                else:
+                    high = middle
+            value = abs(polynomial(c, FLIGHT_ORDER, low)[0])
+            if value > largest:
+                at, largest, bend = t + low, value, 0.0
+                for k in range(FLIGHT_ORDER, 1, -1):
+                    bend = bend * low + k * (k - 1) * c[k]
+        t = end if length >= end - t else t + length
+    if abs(y[2]) > largest:
+        return t, abs(y[2]), 0.0
+    return at, largest, abs(bend)
 
 
 def without_walls(p):
@@ -46,16 +90,8 @@ def draw_passages(p, count, radius, deepest, seed) -> list:
         direction = random.standard_normal(4)
         size = radius * random.random() ** 0.25
         state = size * direction / np.linalg.norm(direction)
-        rows, end = all_steps(flying, state, 0.0, 1, TOLERANCE)
-        series = rows[:, SERIES:].T.copy()
-        # The loose mass flies at a constant velocity, so that Z2 - Z1 is linear in time.
-        series[0] += state[2] - state[0] + (state[3] - state[1]) * rows[:, 0]
-        series[1] += state[3] - state[1]
-        step, within = turning_points(rows, series)
-        turned = np.abs(polyval(within, series[:, step], tensor=False))
-        largest = np.max(turned, initial=0.0)
-        if largest > 2 * deepest and largest - max(abs(state[2]), abs(end[2])) > deepest:
-            k = np.argmax(turned)
-            bend = polyval(within[k], polyder(series[:, step[k]], 2))
-            passages.append(Passage(state, rows[step[k], 0] + within[k], largest, abs(bend)))
+        y = state.copy()
+        time, extremum, bend = largest_of_flight(flying, y, 0.0, 2 * math.pi / p[FREQUENCY])
+        if extremum - max(abs(state[2]), abs(y[2])) > deepest and extremum > 2 * deepest:
+            passages.append(Passage(state, time, extremum, bend))
     return passages

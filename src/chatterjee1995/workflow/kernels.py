@@ -47,7 +47,7 @@ def warm_up_paper(orders=()) -> None:
     from chatterjee1995.methods.integrators import integrators
     from chatterjee1995.methods.integrators.taylor import ORDERS, taylor
     from chatterjee1995.methods.orbit_models import rigid
-    from chatterjee1995.methods.passages import without_walls
+    from chatterjee1995.methods.passages import draw_passages, without_walls
     from chatterjee1995.stages.collisions import first_collision
     from chatterjee1995.stages.release_policies import release_policies
     from impact_damper.command.warm_up import DAMPER, FREQUENCY, OSCILLATOR
@@ -71,6 +71,7 @@ def warm_up_paper(orders=()) -> None:
         each.flight(without_walls(p), start, 1.0, 100 if each.fixed else 1e-3, 0.5)
     for each in integrators("stable_steps").values():
         each.largest_displacements(p, start, begin, 1, 100)
+    draw_passages(p, 1, 2.0, 0.1, 1995)
 
 
 if __name__ == "__main__":

@@ -32,6 +32,9 @@ SAFETY = 0.05
 # A flight is shortened only if its last terms exceed `largest_tail` by the factor EXCESS. Its
 # length is a prediction, and without this margin many flights would be computed twice.
 EXCESS = 4.0
+# A flight that cannot advance ends in a contact if its distance from the wall is below this share of
+# the clearance.
+NEAREST = 1e-9
 
 
 @kernel_only
@@ -130,7 +133,12 @@ def flight_step(a):
         find_contact(a)
     for i in range(LANES):
         t = a[T + i]
-        met = a[MODE + i] == MET
+        # Within rounding of a wall the bounds on the distance leave a step that does not advance.
+        near = 1.0 if a[Y2 + i] > 0.0 else -1.0
+        stuck = a[TIME + i] + t == a[TIME + i] and t < a[LONGEST + i] and near * a[Y3 + i] > 0.0
+        stuck = stuck and near * a[Y2 + i] > (1.0 - NEAREST) * a[CLEARANCE + i]
+        a[WALL + i] = near if stuck else a[WALL + i]
+        met = a[MODE + i] == MET or stuck
         offset = a[Y2 + i] - a[Y0 + i]
         drift = a[Y3 + i] - a[Y1 + i]
         flown = a[END_Z1 + i] + offset + drift * t
