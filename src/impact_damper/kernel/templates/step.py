@@ -32,8 +32,8 @@ SAFETY = 0.05
 # A flight is shortened only if its last terms exceed `largest_tail` by the factor EXCESS. Its
 # length is a prediction, and without this margin many flights would be computed twice.
 EXCESS = 4.0
-# A flight that cannot advance ends in a contact if its distance from the wall is below this share of
-# the clearance.
+# A flight that cannot advance ends in a contact if its distance from the wall is below this share
+# of the clearance.
 NEAREST = 1e-9
 
 
