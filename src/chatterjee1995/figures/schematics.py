@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 from matplotlib.patches import Circle, FancyBboxPatch, Polygon
 
-from impact_damper.plot.schematic_parts import (
+from chatterjee1995.figures.schematic_parts import (
     arrow,
     coordinate,
     dashpot,
