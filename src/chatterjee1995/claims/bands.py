@@ -90,11 +90,7 @@ def largest_difference(width, band):
 
 
 def amplitude_by_mass(datasets):
-    """Return the numbers of claim 17: the larger rm, the lower the amplitude in the band.
-
-    Amplitudes of the dampers of figure 5 are means over the frequencies in the bands of all three.
-    For dampers with d0 by (19) they come from the clearance sweeps of figure 6.
-    """
+    """Return the numbers of claim 17: the larger rm, the lower the amplitude in the band."""
     designs = reading.select(datasets, "harmonic_balance", reading.BY_MASS)
     edges = np.array([reading.band_edges(design) for design in designs])
     parts = [reading.within(each, edges[:, 0].max(), edges[:, 1].min()) for each in designs]

@@ -1,7 +1,4 @@
-"""A claim of the paper as `claims.yaml` states it, and its verdict from the numbers of the data.
-
-Misprints and omissions of the paper, S1 to S6, are claims that the print is correct.
-"""
+"""A claim of the paper as `claims.yaml` states it, and its verdict from the numbers of the data."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -71,26 +68,14 @@ class Bound(NamedTuple):
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper.
+    """A statement of the paper, with its number, "1" to "19" or "S1" to "S6".
 
-    Attributes
-    ----------
-    number : str
-        "1" to "19", or "S1" to "S6".
-    evidence : callable
-        Takes all datasets, keyed by stage and name, and returns the numbers of the bounds, NaN if
-        the data do not determine them, and other values for the finding. May raise `Missing`.
-    claim, source, reading : str
-        The statement, shortened; section and figure of the paper; our meaning of vague words.
-    finding : str
-        Template of the sentences that say what the data show, true for every verdict.
-    required, full_agreement : dict of str
-        Bounds without which the claim is refuted, or reproduced with a difference only, each with
-        the meaning of its number. A second bound of the same number has None.
-    figures : sequence of str
-        Names of the figures that show the claim, the most important one first.
-    verdicts : dict of str
-        Words for verdicts in place of the usual ones.
+    `evidence` takes all datasets, keyed by stage and name. It returns the numbers of the bounds,
+    NaN if the data do not determine them, and other values for the finding, or raises `Missing`.
+    `reading` is our meaning of vague words, `finding` a template of sentences that are true for
+    every verdict. `required` and `full_agreement` map each bound to the meaning of its number, the
+    second bound of a number to None. `figures` begin with the most important one. `verdicts`
+    replace the usual words.
     """
 
     number: str
@@ -111,10 +96,7 @@ class Claim:
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
-        """Return the verdict for the values of the numbers.
-
-        An unknown number leaves the claim open, unless another number refutes it.
-        """
+        """Return the verdict; an unknown number leaves the claim open unless another refutes it."""
         required, wished = (
             [Bound.read(text).holds(values) for text in bounds]
             for bounds in (self.required, self.full_agreement)

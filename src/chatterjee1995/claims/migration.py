@@ -1,7 +1,4 @@
-"""Evidence for claims 12, 13, 14 and 19, on releases and runs of migration control.
-
-A case is a dataset of the stage `migration`: one oscillator, damper and frequency.
-"""
+"""Evidence for claims 12, 13, 14 and 19; a case is a dataset of the stage `migration`."""
 
 import numpy as np
 
@@ -16,10 +13,7 @@ def any_phase(datasets):
     """Return the numbers of claim 12: all releases at W = 1.95 lead to the non-resonance branch."""
     case = reading.get(datasets, "migration", "figure_13")
     quiet, unsettled = (_release_shares(case, kind) for kind in ("quiet", "unsettled"))
-    return {
-        "quiet": min(quiet, default=np.nan),
-        "unsettled": min(unsettled, default=np.nan),
-    }
+    return {"quiet": min(quiet, default=np.nan), "unsettled": min(unsettled, default=np.nan)}
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
@@ -121,11 +115,7 @@ def early_release(datasets):
 
 
 def by_policy(datasets, case, policy):
-    """Return how runs with the damper and W of a case fare by a policy of release.
-
-    These are the share of runs that arrive at the goal within 350 cycles and their median number of
-    cycles. Both are NaN if no dataset of `release_policies` has this damper and W.
-    """
+    """Return the share of runs that arrive by a policy and their median cycles, or NaN twice."""
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"
     for data in datasets.get("release_policies", {}).values():

@@ -17,10 +17,7 @@ SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansi
 
 
 def misrounding(printed, computed):
-    """Return the distance of a printed number to a computed one in half units of its last digit.
-
-    It is at most 1 if the computed number, rounded to the printed digits, is the printed one.
-    """
+    """Return the distance of a printed to a computed number, in half units of the last digit."""
     decimals = len(f"{printed:g}".partition(".")[2])
     return abs(printed - computed) * 2 * 10**decimals
 

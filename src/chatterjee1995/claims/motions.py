@@ -73,11 +73,7 @@ def _violent(datasets, name):
 
 
 def phases(datasets):
-    """Return the numbers of claim 7: the masses move in antiphase below Wp, in phase above.
-
-    The phase of Z1 is taken relative to Z2, as in the paper, and relative to x2 = Z1 - Z2. Each
-    number is the least favourable of the dampers of figure 5.
-    """
+    """Return the numbers of claim 7: the masses move in antiphase below Wp, in phase above."""
     of = pd.DataFrame([_phases(datasets, name) for name in BY_MASS])
     turns = {key: of[key][(of[key] - 1).abs().idxmax()] for key in ("turn_balance", "turn")}
     return of.max().to_dict() | turns | {"highest": of.highest.min()}
@@ -147,9 +143,8 @@ def _duration(restitution):
 def _pull_free_error(restitution):
     """Return the relative excess of the restitution over e if the wall cannot pull.
 
-    The loose mass then leaves the wall when the force, proportional to -y'', vanishes. With the
-    damping ratio z and damped frequency wd of the contact this is at wd t = pi - 2 asin(z), while
-    the penetration y is still positive.
+    With the damping ratio z and the damped frequency wd the loose mass then leaves the wall at wd t
+    = pi - 2 asin(z), where the force vanishes.
     """
     damping = damping_ratio(restitution)
     return math.exp(2 * math.asin(damping) * damping * _duration(restitution)) - 1

@@ -36,10 +36,7 @@ def excess(datasets):
 
 
 def _sweeps(datasets, *keys, **fixed):
-    """Return clearance sweeps grouped by the values of the parameters `keys`, or raise Missing.
-
-    Only sweeps with the parameter values `fixed` are taken, and only groups of two or more sweeps.
-    """
+    """Return groups of two or more sweeps with the parameters `fixed`, by the values of `keys`."""
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
         if all(reading.parameter(sweep, key) == value for key, value in fixed.items()):
@@ -86,11 +83,7 @@ def restitution(datasets):
 
 
 def _restitution_steps(group):
-    """Return a row for each step to the next lower e in the sweeps of one mass ratio.
-
-    `clearance` and `rise` are the ratios of the optimum d0 and of the relative rise of max |Z1| off
-    it; `overall` is the ratio of d0 from the highest e to the lowest.
-    """
+    """Return ratios of d0 and of the rise at each step to a lower e, and of d0 over all steps."""
     group = sorted(group, key=lambda sweep: -reading.parameter(sweep, "restitution"))
     return [
         {

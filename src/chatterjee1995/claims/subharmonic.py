@@ -11,11 +11,9 @@ AS_LARGE = 0.95  # least share of the free amplitude of a subharmonic that count
 
 
 def _remaining(datasets, name):
-    """Return the stable orbits with the damper of a curve whose period is a multiple of 3.
+    """Return the widths in W over which stable subharmonics exist with a damper, and their sizes.
 
-    `band`, `in_band` and `between` are the widths in W of the suppression band of (7), and over
-    which such orbits exist in it and between the folds of the free subharmonic; `ratio_in_band` and
-    `ratio` are their largest max |Z1| over the free subharmonic there, NaN without orbits.
+    The sizes are the largest ratios of max |Z1| to the free subharmonic, NaN without orbits.
     """
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)

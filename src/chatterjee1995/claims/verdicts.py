@@ -55,20 +55,15 @@ PRINTED = {"omega_l": "ωl", r"\bpi\b": "π", r"\^2\b": "²", r"\bsqrt\b": "√"
 
 
 def claims(datasets) -> pd.DataFrame:
-    """Return the table of verdicts, with a row for each claim and each misprint or omission.
-
-    `datasets` are keyed by stage, then by name. A claim whose datasets are missing is not
-    decidable.
-    """
+    """Return the table of verdicts; a claim whose datasets are missing is not decidable."""
     return pd.DataFrame([claim.judge(datasets) for claim in CLAIMS])
 
 
 def document(frame, picture=None, drawn=None) -> str:
     """Return the page of the claims in Markdown: a summary, then a section for each claim.
 
-    `frame` is the table of verdicts, also as read from its file. `picture` maps the name of a
-    figure to the Markdown that shows it, by default from the folder `figures` beside the folder of
-    the page. Figures that are not in `drawn` are left out; by default all exist.
+    `picture` returns the Markdown that shows a figure. Figures that are not in `drawn` are left
+    out.
     """
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     rows = frame.to_dict("records")

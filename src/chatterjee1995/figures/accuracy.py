@@ -8,15 +8,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from chatterjee1995.methods.integrators import runs_of_accuracy
 from chatterjee1995.methods.labels import colour_of, method_in_words
 from impact_damper.data.datasets import decode, parameters_of
-from impact_damper.plot.style import (
-    BLACK,
-    GREY,
-    PALE,
-    SKY,
-    grid,
-    legend,
-    style,
-)
+from impact_damper.plot.style import BLACK, GREY, PALE, SKY, grid, legend, style
 
 # Colour, marker and line of models that solve for an orbit directly.
 MODELS = {
@@ -107,11 +99,7 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the runs of one method with a right (`good`) and a wrong (`bad`) number of contacts.
-
-    `bars` holds the standard errors of a chaotic case, otherwise None. Markers of doubtful runs are
-    open.
-    """
+    """Draw the runs of one method, open if doubtful; `bars` are standard errors or None."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     if bars is None:

@@ -112,11 +112,7 @@ def _draw_errors(axes, harmonics, measure):
 
 
 def _guide(data, at):
-    """Return harmonics and values of the line of predicted decrease: two arrays, or empty lists.
-
-    The line is three times as high as the fit of the predicted decrease to the errors, so that it
-    does not hide them.
-    """
+    """Return the line of predicted decrease, three times the fit so that it hides no errors."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():

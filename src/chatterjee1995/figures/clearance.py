@@ -55,10 +55,7 @@ def draw_optimum(*, optimum):
 
 @style()
 def draw_design_rules(*, design_rules):
-    """Draw optima and rules against each swept parameter, and the distribution of all errors.
-
-    A dataset in which exactly one parameter is swept in addition to the mass ratio gets a panel.
-    """
+    """Draw optima and rules against each swept parameter, and the distribution of all errors."""
     swept = [[name for name in SWEPT if data.sizes[name] > 1] for data in design_rules]
     sweeps = [
         (d, names[0]) for d, names in zip(design_rules, swept, strict=True) if len(names) == 1
@@ -112,10 +109,7 @@ def _draw_errors(axes, datasets):
 
 @style()
 def draw_studies(*, studies):
-    """Draw the largest displacement of a study over mass ratio and clearance.
-
-    There is a panel for each restitution (row) and frequency (column).
-    """
+    """Draw the largest displacement of a study, a panel for each restitution and frequency."""
     (data,) = studies
     pairs = list(product(data["restitution"].values, data["frequency"].values))
     rows, columns = data.sizes["restitution"], data.sizes["frequency"]

@@ -31,10 +31,7 @@ MOTIONS = (
 
 @style()
 def draw_contact_model(*, contact_model):
-    """Draw the error of the realised restitution for both exit rules, and contacts of motions.
-
-    The maps of the datasets are equal; the contacts of all are drawn.
-    """
+    """Draw the error of the restitution for both exit rules, and the contacts of all datasets."""
     drawn = figure("double", 4.0)
     panels = drawn.subplots(1, 2, sharex=True, sharey=True)
     data = contact_model[0]

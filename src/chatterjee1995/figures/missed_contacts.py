@@ -5,15 +5,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from chatterjee1995.methods.integrators import integrators
 from impact_damper.plot.maps import edges
-from impact_damper.plot.style import (
-    BLACK,
-    SKY,
-    VERMILION,
-    axis_label,
-    grid,
-    legend,
-    style,
-)
+from impact_damper.plot.style import BLACK, SKY, VERMILION, axis_label, grid, legend, style
 
 COLUMNS = 3  # panels side by side
 

@@ -106,10 +106,7 @@ def _period_3(motions):
 
 @style()
 def draw_branches(*, branches):
-    """Draw the largest displacement of the orbits against frequency, one panel for each damper.
-
-    Orbits without a damper are drawn in every panel.
-    """
+    """Draw max |Z1| of orbits against frequency, one panel with all free orbits for each damper."""
     damped = [data for data in branches if has_damper(data)]
     free = [data for data in branches if not has_damper(data)]
     drawn = figure("double", 4.6 * len(damped))

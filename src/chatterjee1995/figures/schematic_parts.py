@@ -1,18 +1,9 @@
-"""Parts of the schematics: springs, dashpots, masses, dimensions.
-
-Coordinates are in inches from the lower left corner of the sheet.
-"""
+"""Parts of the schematics; coordinates are in inches from the lower left corner of the sheet."""
 
 import numpy as np
 from matplotlib.patches import Circle, FancyArrowPatch, Rectangle
 
-from impact_damper.plot.style import (
-    BLACK,
-    BLUE,
-    PALE,
-    WHITE,
-    figure,
-)
+from impact_damper.plot.style import BLACK, BLUE, PALE, WHITE, figure
 
 STROKES = {"outline": 1.1, "detail": 0.8, "fine": 0.5}  # points
 LETTER = {"ha": "center", "va": "center", "size": 10.0}

@@ -100,10 +100,7 @@ def inelastic_model():
 
 
 def place(u, v, level):
-    """Return sheet coordinates, shape (n, 2), of points of a horizontal plane in perspective.
-
-    u points to the right and v into the page; `level` is the height of the plane.
-    """
+    """Return points (n, 2) of a plane in perspective: u to the right, v into the page."""
     u, v = np.broadcast_arrays(np.atleast_1d(u), v)
     return np.column_stack((0.25 + u + 0.5 * v, level + 0.6 * v))
 

@@ -1,8 +1,6 @@
 """Error and work of every method and model on a test case (scene), at several settings.
 
-The reference of a motion is a run in 80-bit arithmetic by an independent program. No method can
-follow a chaotic motion to its end, so averages are compared, and the reference is a longer run of
-the Taylor series at its tightest tolerance.
+References are runs in 80-bit arithmetic; averages of chaos are compared with a longer Taylor run.
 """
 
 from typing import NamedTuple
@@ -43,7 +41,7 @@ reference_average | statistic | | | average in the reference
 reference_average_error | statistic | | | standard error of the average in the reference
 meets_accuracy | run | | | whether the run meets the accuracy required by the scene
   : no 0, yes 1
-    """,
+    """
 )
 
 # Length of the reference run of a chaotic motion, divided by the length of the compared runs.
@@ -54,12 +52,11 @@ CONTACTS_OFF, SURE = 0.1, 2
 
 
 class ComparisonScene(NamedTuple):
-    """A motion on which methods are compared.
+    """A motion on which methods are compared, from its `state` at W T = pi/2.
 
-    `state` is the state at W T = pi/2 and `periods` the forcing cycles of a run. `motion` is
-    "steady" for a periodic motion of one cycle, "transient" or "chaotic". `accuracy` has a
-    "quantity", a name in `labels.ERRORS`, or in `labels.STATISTICS` for a chaotic motion, and
-    "within", the largest error that a user accepts.
+    `motion` is "steady" (periodic, of one cycle), "transient" or "chaotic". `accuracy` has a
+    "quantity" of `labels.ERRORS`, for chaos of `labels.STATISTICS`, and "within", the error
+    accepted.
     """
 
     oscillator: Oscillator
@@ -102,11 +99,10 @@ def reference_of(scene, stored):
 
 
 def accuracy(system, damper, *, name, settings, references, **given):
-    """Return a dataset with errors and work of each method on a test case (scene), for each `run`.
+    """Return a dataset with errors and work of each method on a scene, for each `run`.
 
-    `given` are the other attributes of a `ComparisonScene`, `settings` the section `comparison` of
-    the configuration. `references` are stored references of scenes, by name; a chaotic motion needs
-    none.
+    `given` are other attributes of a `ComparisonScene`, `settings` the section `comparison` of the
+    configuration, and `references` the stored references by name.
     """
     scene = ComparisonScene(oscillator=system, damper=damper, **given)
     if scene.motion == "chaotic":
@@ -122,8 +118,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 def _integrations(scene, settings, slow_periods):
     """Yield label, tolerance, `Run` and forcing cycles of each integrator at each tolerance.
 
-    Slow integrators run for `slow_periods` cycles, and only with their loosest tolerance if the
-    motion is chaotic. Once a run is given up, tighter tolerances are left out.
+    Slow integrators run for `slow_periods` cycles, on chaos only with their loosest tolerance.
     """
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
@@ -214,9 +209,8 @@ def _orbits(scene, settings):
 def _times(scene, model, reference):
     """Return the times at which contacts begin by a model, for all cycles of the reference run.
 
-    Each contact in the last cycle of the reference is matched to the nearest contact of the model,
-    and the difference of their times is added in all cycles. The times are NaN if two contacts have
-    the same match. With another number of contacts per cycle only the length has a meaning.
+    Each contact in the last cycle of the reference is matched to the nearest one of the model; two
+    with the same match give NaN. With another number of contacts only the length has a meaning.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods

@@ -1,8 +1,4 @@
-"""Averages of a chaotic motion with their standard errors, from batches of forcing cycles.
-
-The average is the mean of the means of batches of successive cycles, and its standard error follows
-from their scatter.
-"""
+"""Averages of a chaotic motion with standard errors, from means over batches of forcing cycles."""
 
 import math
 
@@ -17,11 +13,7 @@ from impact_damper.motions.strobe_map import strobe_time
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return the averages of a `Run` in each batch of forcing cycles, shape (periods // batch,).
-
-    "contact_rate": contacts per cycle. "displacement": mean over the cycles of the largest |Z1| in
-    a cycle.
-    """
+    """Return contacts per cycle and mean of the largest |Z1| in a cycle, for each batch."""
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
     contacts = np.histogram(run.contact_times, edges)[0]
@@ -36,10 +28,7 @@ def of_run(p, run, begin, periods, batch):
 
 
 def exponents(p, start, tolerance, periods, batch, restitution=None):
-    """Return the largest Lyapunov exponent per unit of T in each batch.
-
-    `start` is the state at W T = pi/2. With `restitution` the walls are rigid.
-    """
+    """Return the largest Lyapunov exponent in each batch, with `restitution` for rigid walls."""
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)
@@ -56,10 +45,7 @@ def exponents(p, start, tolerance, periods, batch, restitution=None):
 
 
 def estimates(batches):
-    """Return the mean (row 0) and standard error (row 1) of each of STATISTICS, shape (2, 3).
-
-    `batches` maps statistics to their values in the batches; a missing statistic gives NaN.
-    """
+    """Return mean and standard error of each of STATISTICS, shape (2, 3), NaN for missing ones."""
     table = np.full((2, len(STATISTICS)), np.nan)
     for k, name in enumerate(STATISTICS):
         if name in batches:

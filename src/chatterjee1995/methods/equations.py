@@ -1,8 +1,4 @@
-"""Equations (3), (4) and (20) to (24) of the paper, for integrators that evaluate the rate.
-
-The rate is the time derivative of the state, a tuple (Z1, Z1', Z2, Z2'). The contact force jumps
-where a contact begins and ends, because its dashpot acts as long as |Z2| exceeds the clearance.
-"""
+"""The rate of the state (Z1, Z1', Z2, Z2') by equations (3), (4) and (20) to (24) of the paper."""
 
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import external_force, spring
@@ -30,10 +26,7 @@ def wall_at(p, z):
 
 @kernel
 def ahead(p, side, z):
-    """Return the distance to the nearest wall in flight (`side` 0), or the penetration.
-
-    Both fall through zero, the distance when a contact begins and the penetration when it ends.
-    """
+    """Return the distance to the nearest wall in flight (`side` 0), or else the penetration."""
     return p[CLEARANCE] - abs(z) if side == 0 else side * z - p[CLEARANCE]
 
 

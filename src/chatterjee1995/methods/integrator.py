@@ -13,12 +13,10 @@ HALVINGS = 54
 
 
 class Run(NamedTuple):
-    """A motion computed by an integrator.
+    """A motion by an integrator; `status` is "ended", "failed", or "capped" after too much work.
 
-    `status` is "ended", "failed", or "capped" after too many evaluations of the rate; `operations`
-    the work in floating-point operations; `state` the state at the end; `contact_times` the times
-    at which contacts begin; `peaks` the local maxima of |Z1| and |Z1| at both ends of the run, at
-    `peak_times`; `displacement` the largest |Z1|.
+    `operations` are floating-point operations, `contact_times` the times at which contacts begin,
+    and `peaks` the local maxima of |Z1| and |Z1| at both ends of the run, at `peak_times`.
     """
 
     status: str
@@ -37,18 +35,16 @@ def stopped(status, work):
 
 
 class Integrator:
-    """The interface of an integrator.
+    """The interface of an integrator, whose methods share their arguments.
 
-    The methods share these arguments: `p`, packed parameters; `start`, state (4,) at the time
-    `begin`; `periods`, forcing cycles; `locate`, whether steps end where contacts begin and end.
-    `resolution` is a tolerance, or with fixed steps the number of steps in a cycle.
+    `p` are packed parameters, `start` the state at the time `begin`, `periods` forcing cycles; with
+    `locate` steps end where contacts begin and end. `resolution` is a tolerance, or for `fixed`
+    steps their number in a cycle.
 
-    `place` is the place among the integrators in figures and tables. `compared` are the stages that
-    compare it; each stage needs one of the methods in REQUIRED. `fixed`: it takes equal steps in
-    place of a tolerance. For the stage `accuracy`: `located`, the values of `locate` with which it
-    runs; `tolerances`, a name in `labels.TOLERANCE_KEYS`; `slow`, whether evaluations and length of
-    its runs are limited. For the stage `stable_steps`: `stability_limit`, the largest product of
-    step and frequency with which the motion of an undamped oscillator does not grow.
+    Integrators are shown in the order of `place`. Each stage in `compared` needs a method in
+    REQUIRED. For `accuracy`: `located`, the values of `locate` in its runs; `tolerances`, one of
+    `labels.TOLERANCE_KEYS`; `slow`, whether its runs are limited. For `stable_steps`:
+    `stability_limit`, the largest product of step and frequency that keeps an undamped oscillation.
     """
 
     REQUIRED: ClassVar = {
@@ -69,10 +65,7 @@ class Integrator:
         return f"{self.name}_{'located' if locate else 'kink'}"
 
     def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations):
-        """Return status and operations of a run, and times (n,) and states (n, 4) of its steps.
-
-        A slow integrator stops after `most_evaluations` of the rate.
-        """
+        """Return status, operations, times (n,) and states (n, 4) of a run."""
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
@@ -83,17 +76,11 @@ class Integrator:
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Return |Z2| at the ends of the steps of a flight over [0, end], and |Z2| at `time`.
-
-        `state` is the state at the time 0. Return None if the run fails.
-        """
+        """Return |Z2| at the ends of steps over [0, end], and at `time`; None if the run fails."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return whether each of `levels`, walls at |Z2|, is touched within a cycle from `state`.
-
-        None, the default, stands for an integrator that finds a contact if a step ends beyond it.
-        """
+        """Return whether walls at `levels` are touched; None means: if a step ends beyond."""
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
         """Return the largest |Z1| in each cycle with fixed steps, NaN from a divergence on."""
@@ -101,11 +88,7 @@ class Integrator:
 
 
 def read_off(p, work, times, ends):
-    """Return the `Run` with the times (n,) and the states (n, 4) at the ends of its steps.
-
-    Beginnings of contacts and maxima of |Z1| within a step are those of the polynomial of degree 5
-    that agrees with the states and their rates at both ends of the step.
-    """
+    """Return the `Run` of steps, from Hermite polynomials of degree 5 through their ends."""
     at, peaks = _turning_points(p, times, ends)
     began = _beginnings(p, times, ends)
     return Run("ended", work, ends[-1], began, at, peaks, float(np.max(peaks)))
@@ -136,11 +119,7 @@ def _turning_points(p, times, ends):
 
 
 def _quintics(p, times, ends, index, steps):
-    """Return Hermite polynomials, coefficients (6, m), of a component of the state in m steps.
-
-    The variable of each polynomial goes from 0 to 1 over the step. Value, first and second
-    derivative agree with the state and its rate at both ends of the step.
-    """
+    """Return Hermite polynomials over [0, 1], coefficients (6, m), of a component in m steps."""
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
         for at in (steps, steps + 1)

@@ -1,9 +1,7 @@
 """Contacts near grazing that integrators miss, counted in random passages.
 
-A passage is a flight without contact whose largest |Z2| is known. A wall nearer than this by some
-depth is touched, a wall farther away by the same depth is not. Most integrators find the contact
-only if a step ends beyond the wall. Their steps before the contact do not depend on the wall, so
-one run without walls gives the outcome for all depths.
+A wall nearer than the largest |Z2| of a passage is touched, a wall farther away is not. Steps
+before a contact do not depend on the wall, so one run without walls serves for all depths.
 """
 
 import math
@@ -38,7 +36,7 @@ motion_error | integrator method_tolerance | | | median error of the largest |Z2
 fixed_steps | method_tolerance | | | steps per cycle of the fixed-step method
 expected_unseen | method_tolerance depth | | | expected share of contacts at random times that
   begin and end within one fixed step
-    """,
+    """
 )
 
 # `unseen`: the computed motion passes the wall and returns within one step. `not_reached`: it does
@@ -51,9 +49,7 @@ def missed_contacts(
 ):
     """Return the numbers of contacts near grazing that integrators find and miss.
 
-    Each of the `passages` starts in a ball of the `radius`. Walls are nearer than the largest |Z2|,
-    or farther away, by the increasing `depths`. Integrators run with the increasing `tolerances`,
-    or with as many increasing numbers of `steps` in a cycle.
+    Integrators run with the increasing `tolerances`, or with as many numbers of `steps` in a cycle.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
@@ -84,11 +80,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return passages by depth and outcome, spurious contacts by depth, and the motion's error.
-
-    A contact is spurious if the wall is farther away than the largest |Z2|, by the depth. The error
-    is the median error of the largest |Z2|, NaN if all runs failed. `p` has no walls.
-    """
+    """Return passages by depth and outcome, spurious contacts by depth, and the median error."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
@@ -133,8 +125,7 @@ def _count_table(p, passages, depths, tolerances, steps):
 def _expected(passages, depths, steps, period):
     """Return the shares expected to be unseen, shape (steps, depth), if steps end at random times.
 
-    They are the mean of max(0, 1 - b/h) with the step h and the time b = 2 sqrt(2 depth/|Z2''|)
-    that the motion spends beyond the wall.
+    They are the mean of max(0, 1 - b/h) with the time b = 2 sqrt(2 depth/|Z2''|) beyond the wall.
     """
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])

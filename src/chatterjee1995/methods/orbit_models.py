@@ -1,7 +1,4 @@
-"""Models that compute a steady motion, a periodic motion of one forcing cycle, and their work.
-
-`docs/explanation/methods.md` says how the floating-point operations of each model are counted.
-"""
+"""Models of a steady motion of one forcing cycle, and their work (docs/explanation/methods.md)."""
 
 import math
 from dataclasses import replace
@@ -42,11 +39,7 @@ REACH = 10.0
 
 
 class Model(NamedTuple):
-    """A steady motion computed by a model.
-
-    `status` is "ended", "failed" or "not_applicable"; `state` is at W T = pi/2; `contact_phases`
-    are the phases W T in [0, 2 pi) at which contacts begin; `displacement` is max |Z1|.
-    """
+    """A steady motion: its state at W T = pi/2, phases W T where contacts begin, and max |Z1|."""
 
     status: str
     operations: float
@@ -56,11 +49,7 @@ class Model(NamedTuple):
 
 
 def rigid(p, restitution, start, t, periods, tolerance):
-    """Return the `Run` with rigid walls from the state `start` at the time t, with W t = pi/2.
-
-    Its `peaks` are the largest |Z1| in each forcing cycle, and its `peak_times` the middles of the
-    cycles.
-    """
+    """Return the `Run` with rigid walls from `start` at the time t, with one peak a cycle."""
     p = without_dashpot(p)
     y, none, work = start.copy(), np.empty((0, 4)), workspace()
     period, counts = 2 * math.pi / p[FREQUENCY], [0, 0, 0]
@@ -125,11 +114,7 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return the solution with one harmonic nearest to `state`, or None, and the work.
-
-    The solution is complex amplitudes of Z1 and Z2, shape (2, 1), or of Z1 without a damper.
-    Contacts count as elastic.
-    """
+    """Return the solution with one harmonic, (2, 1), nearest to `state` or None, and the work."""
     if damper is None:
         work = 2 * 10 * 3**3
         solutions = free_solutions(oscillator, frequency)
@@ -152,10 +137,7 @@ def nearest_term(oscillator, damper, frequency, state):
 
 
 def many_harmonics(oscillator, damper, frequency, state, highest):
-    """Return models by harmonic balance, keyed by their highest harmonic 3, 7, 15, ... `highest`.
-
-    Newton's method begins at the last solution that converged, first that with one harmonic.
-    """
+    """Return models by harmonic balance by their highest harmonic, 3, 7, 15, ... `highest`."""
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
     if coefficients is None:
@@ -182,10 +164,7 @@ def newton_work(balance):
 
 
 def rigid_impacts(oscillator, damper, frequency, start):
-    """Return the models with rigid walls, "rigid", and corrected walls, "rigid_mended", by name.
-
-    The first guess of Newton's method is the model `start`.
-    """
+    """Return the models "rigid" and "rigid_mended" (corrected walls) near the model `start`."""
     if damper is None:
         return dict.fromkeys(("rigid", "rigid_mended"), without("not_applicable"))
     system = oscillator, damper, frequency

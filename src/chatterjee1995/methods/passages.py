@@ -17,11 +17,7 @@ TOLERANCE = 1e-15
 
 
 class Passage(NamedTuple):
-    """A flight without walls over one forcing cycle from the state `state` at T = 0.
-
-    `time`, `extremum` and `curvature` are the time at which |Z2| is largest, and |Z2| and |Z2''|
-    there.
-    """
+    """A flight without walls over a cycle from `state` at T = 0, and where its |Z2| is largest."""
 
     state: np.ndarray
     time: float
@@ -31,10 +27,9 @@ class Passage(NamedTuple):
 
 @kernel
 def largest_of_flight(p, y, t, end):
-    """Return the time and value of the largest |Z2| of a flight over [t, end], and |Z2''| there.
+    """Return time and value of the largest |Z2| of a flight over [t, end], and |Z2''| there.
 
-    In each of PIECES parts of a step bisection finds an extremum. If |Z2| is largest at an end of
-    the flight, 0 takes the place of |Z2''|. y becomes the state at the end.
+    At an end of the flight 0 takes the place of |Z2''|. y becomes the state at the end.
     """
     work = workspace()
     flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
@@ -78,10 +73,9 @@ def without_walls(p):
 
 
 def draw_passages(p, count, radius, deepest, seed) -> list:
-    """Return `count` random passages over one forcing cycle.
+    """Return `count` random passages over one forcing cycle, from states uniform in a ball.
 
-    Initial states are uniform in a ball. A flight is a passage if |Z2| at both ends is at least
-    `deepest` below its largest value, so that walls nearer by this are not touched there.
+    |Z2| at both ends is at least `deepest` below its largest value: no wall is touched there.
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)

@@ -1,7 +1,5 @@
-"""The rigid-impact model: flights between rigid walls, instantaneous impacts, and its orbits.
+"""The rigid-impact model, the limit of (20) to (25) for infinite r1, and its orbits.
 
-The model is the limit of equations (20) to (25) of the paper for an infinite contact stiffness r1.
-An impact changes Z2' to -e Z2' and conserves the momentum Z1' + rm (Z1' - Z2').
 Corrected ("mended") walls imitate compliant walls (`docs/explanation/methods.md`).
 """
 
@@ -65,12 +63,9 @@ def rebound(p, restitution, y, tangents, t):
 def rigid_map(p, restitution, y, tolerance):
     """Integrate the rigid model over one forcing cycle from the state y at W T = pi/2.
 
-    The dashpot in p must be 0, and the loose mass between the walls. r1 has no effect.
-
-    Return the state after the cycle, its derivative with respect to y, the number of impacts (if it
-    is MOST_IMPACTS, the integration stopped early and the rest is invalid), the smallest |Z2'| just
-    before an impact (infinite without impacts), |Z2'| and the acceleration of Z1 towards the wall
-    just before the first impact (NaN without), and the largest |Z1|.
+    The dashpot in p must be 0. Return the state, its derivative by y, the number of impacts (with
+    MOST_IMPACTS the rest is invalid), the smallest |Z2'| before an impact, |Z2'| and the
+    acceleration of Z1 towards the wall before the first impact, and the largest |Z1|.
     """
     state = y.copy()
     tangents = np.eye(4)
@@ -103,10 +98,9 @@ def without_dashpot(p):
 class RigidOrbit(NamedTuple):
     """A symmetric orbit of the rigid model with two impacts in a forcing cycle.
 
-    `state` is the state at W T = pi/2, `multiplier` the dominant Floquet multiplier, `displacement`
-    max |Z1|, `speed` the approach speed |Z2'|, `acceleration` that of Z1 towards the wall before an
-    impact, and `maps` the number of integrations over a cycle that Newton's method took. `p` and
-    `restitution` include the walls.
+    `state` is the state at W T = pi/2, `speed` |Z2'| and `acceleration` the acceleration of Z1
+    towards the wall before an impact, and `maps` the number of cycles that Newton's method
+    integrated.
     """
 
     state: np.ndarray
@@ -120,21 +114,16 @@ class RigidOrbit(NamedTuple):
 
 
 def rigid_orbit(oscillator, damper, frequency, guess, reach):
-    """Find an orbit of the rigid model by Newton's method.
+    """Return the `RigidOrbit` within `reach` of the state `guess`, or None, and a status.
 
-    `guess` is a state near the orbit at W T = pi/2, and `reach` the largest difference of a
-    component of the orbit's state from it. Return a `RigidOrbit` or None, and a status: "found";
-    "not_followed" if Newton's method fails; "other_contacts" if the orbit does not have two
-    symmetric impacts in a cycle; "chatter" if a cycle has MOST_IMPACTS impacts.
+    The status is "found", "not_followed" if Newton's method fails, "other_contacts" without two
+    symmetric impacts in a cycle, or "chatter" after MOST_IMPACTS impacts.
     """
     return _solve(pack(oscillator, damper, frequency), damper.restitution, guess, reach)
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """Return orbit and status as `rigid_orbit`, with corrected walls, which imitate compliant ones.
-
-    `orbit` is the rigid orbit. `docs/explanation/methods.md` has the formulas of the correction.
-    """
+    """Return orbit and status as `rigid_orbit`, with walls corrected to imitate compliant ones."""
     e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
     reduced = damper.mass_ratio / (1 + damper.mass_ratio)
     z, natural = damping_ratio(e), natural_frequency(damper)

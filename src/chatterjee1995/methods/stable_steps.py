@@ -1,8 +1,6 @@
-"""The largest steps with which fixed-step methods keep the quiet motion, for each stiffness r1.
+"""The largest equal steps with which methods keep the quiet motion, for each stiffness r1.
 
-Every run starts on the exact quiet orbit and takes equal steps h, a whole number of them in each
-cycle, without locating contacts. The linear stability of a method limits h omega_c, where
-omega_c = sqrt(r1 (1 + 1/rm)) is the natural frequency of an undamped contact.
+Linear stability limits h omega_c, with the contact frequency omega_c = sqrt(r1 (1 + 1/rm)).
 """
 
 import itertools
@@ -42,7 +40,7 @@ step_slope_error | fixed_method accuracy | | | standard error of step_slope
 linear_limit | fixed_method | | | largest product of step and contact frequency by linear
   stability theory
 contact_frequency | contact_stiffness | | omega_c | natural frequency of an undamped contact
-    """,
+    """
 )
 
 # A run keeps the quiet motion with an accuracy if max |Z1| of every cycle differs relatively by at
@@ -62,10 +60,9 @@ STIFF = 1e3
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
-    """Return a quiet `CompliantOrbit` at each r1, followed from the damper's own r1.
+    """Return a quiet `CompliantOrbit` or None at each r1, followed from the damper's own r1.
 
-    None stands for an orbit that could not be followed. ArithmeticError is raised if the damper has
-    no quiet motion: none to which a primary mass at rest and a loose mass in the gap lead.
+    ArithmeticError is raised if a primary mass at rest leads to no quiet motion.
     """
     p = pack(oscillator, damper, frequency)
     start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
@@ -122,10 +119,8 @@ def _slope(stiffnesses, steps):
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
     """Return the largest steps with which fixed-step methods keep the quiet motion.
 
-    The exact orbits at the increasing `stiffnesses` are followed from the quiet motion of `damper`.
-    `scaled_steps` are increasing values of h omega_c. Runs of `periods` forcing cycles that would
-    take more than `most_steps` steps in a cycle are left out. A deviation of a cycle's max |Z1| is
-    infinite if the run diverged, and NaN if it was left out.
+    `scaled_steps` are increasing values of h omega_c. Runs of `periods` forcing cycles with more
+    than `most_steps` steps in a cycle are left out.
     """
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
@@ -173,8 +168,4 @@ def _step_data(deviations, tested, sizes, stiffnesses):
     for m, i, k in np.ndindex(shape):
         stable[m, i, k] = _largest_step(deviations[m, i] <= ACCURACIES[k], tested[i], sizes[i])
     slopes = np.array([[_slope(stiffnesses, row) for row in each.T] for each in stable])
-    return {
-        "stable_step": stable,
-        "step_slope": slopes[..., 0],
-        "step_slope_error": slopes[..., 1],
-    }
+    return {"stable_step": stable, "step_slope": slopes[..., 0], "step_slope_error": slopes[..., 1]}

@@ -28,10 +28,7 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Return the mask of the violent motions in a response; `free` are the branches without damper.
-
-    Above the end of the free resonance branch no motion is violent.
-    """
+    """Return the mask of the violent motions; above the end of the free resonance is none."""
     frequency = response.frequency
     size = xr.DataArray(orbits.resonance(free, frequency), {"frequency": frequency})
     return reading.touching(response) & (response.maximum_displacement > orbits.HALF * size)

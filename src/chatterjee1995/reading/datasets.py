@@ -1,7 +1,6 @@
 """Choose datasets, and read parameters, flags and solutions of harmonic balance from them.
 
-`datasets` maps stages to datasets, keyed by their entry of the configuration. `design` is a dataset
-of the stage `harmonic_balance`, `response` one of the stage `response`.
+`datasets` are keyed by stage, then by entry. A `design` is a dataset of `harmonic_balance`.
 """
 
 import numpy as np
@@ -104,10 +103,7 @@ def crossing(x, y, level):
 
 
 def band_edges(design):
-    """Return the edges of the suppression band by harmonic balance, or raise Missing.
-
-    Between them (7) has only one stable solution with contact, the quiet one.
-    """
+    """Return the edges of the suppression band by harmonic balance, or raise Missing."""
     lower, upper = design.edge_frequency.values
     if not upper > lower:
         raise Missing("There is no suppression band by harmonic balance")
@@ -127,10 +123,7 @@ def quiet_balance(design):
 
 
 def design_point(orbit):
-    """Return the exact quiet orbit at Wp of a dataset of `design_orbit`, or raise Missing.
-
-    The dataset follows the orbit from a larger damping down to the damping of the oscillator.
-    """
+    """Return the exact quiet orbit at Wp, the one with the least damping, or raise Missing."""
     if int(orbit.design_orbit_status) != flag("design_orbit_status", "found"):
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))

@@ -1,7 +1,6 @@
 """Branches of exact periodic orbits, cut into pieces and evaluated at any frequency.
 
-`branches` and `free` are datasets of the stage `branches` with and without the damper. An orbit is
-high (violent) if its max |Z1| exceeds half of that on the free resonance branch at the same W.
+`free` are branches without the damper. An orbit is high (violent) above half of their resonance.
 """
 
 import numpy as np
@@ -98,10 +97,7 @@ def coexisting(part, column):
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Return a row of `pieces` for each frequency and each piece that contains it.
-
-    The columns INTERPOLATED hold the values at the frequency.
-    """
+    """Return an interpolated row of `pieces` for each frequency and each piece that contains it."""
     frequency = np.atleast_1d(np.asarray(frequency, float))
     inside = frequency[:, None] >= part.lower.to_numpy()
     inside &= frequency[:, None] <= part.upper.to_numpy()
@@ -170,8 +166,7 @@ def smallest_quiet(branches, free, frequency):
 def high_counterparts(design, branches, free) -> pd.DataFrame:
     """Return `crossings` of the exact orbits nearest to the stable violent solutions of (7).
 
-    Only symmetric orbits of period 1 with two contacts count, stable or not, since one harmonic can
-    approximate no others. The nearest orbit is the one whose first harmonic differs least.
+    Only symmetric orbits of period 1 with two contacts count; one harmonic approximates no others.
     """
     part = pieces(branches)
     part = part[(part.period == 1) & (part.asymmetry < SYMMETRIC)]
@@ -185,10 +180,7 @@ def high_counterparts(design, branches, free) -> pd.DataFrame:
 
 
 def subharmonic(free):
-    """Return the pieces of the one-third subharmonic without damper, or raise Missing.
-
-    Of several branches of symmetric orbits of period 3, the one with the widest range is taken.
-    """
+    """Return the pieces of the free subharmonic, its widest branch, or raise Missing."""
     part = pieces(free)
     third = part[(part.period == 3) & (part.asymmetry < SYMMETRIC)]
     if third.empty:

@@ -54,10 +54,7 @@ class DesignRules(WithOscillator):
     """Grids of dampers and frequencies on which rules for the clearance are compared."""
 
     mass_ratios: several(
-        MASS_RATIO,
-        "rm, increasing, at most one for each distinct line style",
-        least=1,
-        most=5,
+        MASS_RATIO, "rm, increasing, at most one for each distinct line style", least=1, most=5
     )
     restitutions: several(RESTITUTION, "e, increasing", least=1)
     contact_stiffnesses: several(CONTACT_STIFFNESS, "r1, increasing", least=1)
@@ -124,10 +121,7 @@ class Study(WithOscillator):
         search = config.search.job(config, config.search.study_starts)
         return self.system(config) | grid | search | config.settling.job()
 
-    @stage(
-        "chatterjee1995.stages.studies:study_chunk",
-        "The study {name}",
-    )
+    @stage("chatterjee1995.stages.studies:study_chunk", "The study {name}")
     def studies(self, config) -> dict:
         """Return the parameters of the job that joins the chunks."""
         return {}

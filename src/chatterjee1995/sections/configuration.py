@@ -92,8 +92,7 @@ class Settling(Section):
 
     tolerance: number("local error allowed in a step of the integrator", **TOLERANCE_RANGE)
     patience: count(
-        "forcing cycles after which a motion that is certainly chaotic is stopped",
-        **PATIENCE_RANGE,
+        "forcing cycles after which a motion that is certainly chaotic is stopped", **PATIENCE_RANGE
     )
     limit: count("forcing cycles after which every other motion is stopped", **LIMIT_RANGE)
     further: count(
@@ -200,22 +199,15 @@ class Settings(Section):
 
 ENTRIES = {"oscillators": Oscillators} | SECTIONS | {"figures": Figure}
 Configuration = create_model(
-    "Configuration",
-    __base__=Settings,
-    **{name: entries(model) for name, model in ENTRIES.items()},
+    "Configuration", __base__=Settings, **{name: entries(model) for name, model in ENTRIES.items()}
 )
 
 
 def configuration(given, trusted=False):
-    """Return the configuration as an object.
+    """Return the configuration as an object; a ConfigurationError has a line for each problem.
 
     With `trusted` only types are checked, as in a job, whose Snakemake process reads again what the
     first process has checked.
-
-    Raises
-    ------
-    ConfigurationError
-        With a line for each problem: the key, its value, what is allowed and why.
     """
     try:
         found = Configuration.model_validate(without_left_out(given), context=trusted)
@@ -232,10 +224,9 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return a configuration without the entries that are set to null.
+    """Return a configuration without the entries that a second file has set to null.
 
-    A second configuration file removes an entry of the first file in this way. Figures then draw
-    their remaining entries; a figure without remaining entries is removed too.
+    Figures draw their remaining entries; a figure without remaining entries is removed too.
     """
     if not isinstance(given, dict):
         return given

@@ -1,12 +1,7 @@
 """Frequency responses: curves over frequency, and single motions."""
 
 from chatterjee1995.sections.records import Kind, Table, stage
-from chatterjee1995.sections.system import (
-    CLEARANCE_OR_RULE,
-    FREQUENCY,
-    MaybeWithDamper,
-    WithDamper,
-)
+from chatterjee1995.sections.system import CLEARANCE_OR_RULE, FREQUENCY, MaybeWithDamper, WithDamper
 from impact_damper.command.section import dotted, problem
 from impact_damper.command.values import choice, several
 
@@ -110,10 +105,7 @@ class Motion(WithDamper):
 
     frequency: FREQUENCY
 
-    @stage(
-        "impact_damper.motions.response:steady_orbit",
-        "Steady motion {name}",
-    )
+    @stage("impact_damper.motions.response:steady_orbit", "Steady motion {name}")
     def motion(self, config) -> dict:
         run = {"frequency": self.frequency, "state": START, "samples": 4000}
         return self.system(config) | run | config.settling.job()

@@ -30,14 +30,11 @@ class Migration(WithDamper):
 
     frequency: FREQUENCY
     longest_hold: count(
-        "forcing cycles after which the damper is switched off at the latest",
-        **PERIODS_RANGE,
+        "forcing cycles after which the damper is switched off at the latest", **PERIODS_RANGE
     )
 
     @stage(
-        "chatterjee1995.stages.releases:migration",
-        "Migration control, the case {name}",
-        priority=1,
+        "chatterjee1995.stages.releases:migration", "Migration control, the case {name}", priority=1
     )
     def migration(self, config) -> dict:
         run = {"frequency": self.frequency, "longest_hold": self.longest_hold, "seed": config.seed}

@@ -1,17 +1,9 @@
 """All stages, kinds of figures and tables, by name.
 
-Rules, targets, the check of the configuration and the tests take their lists from here. Every dry
-run imports this module, so it must not import modules that load slowly.
+Every dry run imports this module, so it must not import modules that load slowly.
 """
 
-from chatterjee1995.sections import (
-    balance,
-    clearance,
-    curves,
-    machines,
-    methods,
-    migration,
-)
+from chatterjee1995.sections import balance, clearance, curves, machines, methods, migration
 from chatterjee1995.sections.records import Kind, Stage, Table
 
 SCHEMATIC = Kind("schematic", "design", "schematics", (), most=1)

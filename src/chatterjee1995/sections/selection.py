@@ -40,11 +40,7 @@ def read_by(config, stage, name) -> dict:
 
 
 def figure_data(config, name) -> dict:
-    """Return the entries that a figure draws, keyed by stage.
-
-    A figure that draws branches of orbits with a damper also draws the branches of the same
-    oscillators without a damper; these curves are added for the stage `branches`.
-    """
+    """Return the entries of a figure by stage, with the branches of the same free oscillators."""
     figure = config.figures[name]
     kind, found = KINDS[figure.kind], {}
     for stage in kind.stages:
@@ -136,22 +132,16 @@ def _case(config, section, name):
 
 
 def caption(title, cases, text, remark) -> str:
-    """Return the caption of a figure as one paragraph of reStructuredText.
-
-    W and omega_l become Ω and ωl, the symbols on the axes. The bars of an absolute value are
-    escaped, since reStructuredText takes text between bars for the name of a substitution.
-    """
+    """Return the caption as one paragraph of reStructuredText, with the symbols of the axes."""
     head = f"{title}: {cases}." if cases else f"{title}."
     whole = "\n".join(part for part in (head, text.strip(), remark) if part)
     whole = re.sub(r"\bW(?=p?(²|\b))", "Ω", whole)
+    # Text between bars would be the name of a substitution.
     return whole.replace("omega_l", "ωl").replace("|", r"\|")
 
 
 def cases_in_words(cases) -> str:
-    """Return the parameters of the entries that a figure draws, as text.
-
-    Parameters with the same value in all entries come first, then each entry with its own.
-    """
+    """Return the parameters of a figure's entries as text, first those that all entries share."""
     shared = [each for each in next(iter(cases.values())) if all(each in x for x in cases.values())]
     parts = [", ".join(shared)]
     for name, case in cases.items():
@@ -161,11 +151,7 @@ def cases_in_words(cases) -> str:
 
 
 def in_words(values) -> list:
-    """Return the values of parameters as text: "h = 0.215", "W from 1 to 3", "d0 by (19)".
-
-    A value is a number, a list, a range, or "rule" for the clearance by (19). Keys that are no
-    parameters, and a linear stiffness of zero, are left out.
-    """
+    """Return the values of parameters as text: "h = 0.215", "W from 1 to 3", "d0 by (19)"."""
     return [
         f"{symbol} {_value(values[name])}"
         for name, symbol in SYMBOLS.items()

@@ -1,8 +1,4 @@
-"""Keys for the parameters of oscillator, damper and forcing, and for ranges of them.
-
-The keys are the fields of `Oscillator` and `Damper`, with their bounds and meanings. Only `shaker`
-is not a key: linear machines on a shaker are entries of `machines`.
-"""
+"""Keys for the fields of `Oscillator` (except `shaker`) and `Damper`, with bounds and meanings."""
 
 import math
 from typing import ClassVar

@@ -1,8 +1,7 @@
 """Map of the errors of single-term harmonic balance, compared with the exact motions.
 
-In each cell, of one frequency and one value of a parameter, two questions are asked. Quiet: is the
-solution of (7) with the smallest amplitude |a| stable by the slow flow, and is the quiet orbit?
-High: to which motion does the largest stable solution lead? Harmonic balance takes e = 1.
+Quiet: are the solution of (7) with the smallest |a| and the quiet orbit stable? High: to which
+motion does the largest stable solution lead? Harmonic balance takes e = 1.
 """
 
 from dataclasses import replace
@@ -90,12 +89,10 @@ HIGH = 0.5
 
 
 class Cells(NamedTuple):
-    """Solutions of harmonic balance in all cells, and start states at T = 0.
+    """Solutions of harmonic balance in all cells, and starts at T = 0; NaN without a solution.
 
-    Entries are NaN without a solution. All arrays have the shape (rows, columns), those of the
-    starts a last axis of 4. `quiet` and `high` are flags. Beyond the end of the free resonance
-    branch, `resonance` is the amplitude at this end. Without a high solution `high_start` is the
-    state on this branch, with the loose mass at rest in the middle of the gap.
+    `resonance` is the amplitude of the free resonance branch, beyond its end the one at its end.
+    Without a high solution `high_start` is on this branch, with the loose mass at rest in the gap.
     """
 
     resonance: np.ndarray
@@ -110,9 +107,8 @@ class Cells(NamedTuple):
 def balance_cells(rows) -> Cells:
     """Solve the harmonic balance (7) in all cells of a map.
 
-    The quiet limit is half the amplitude of the free resonance branch. The quiet solution is the
-    solution with the smallest |a|, if this |a| is below the limit. The high solution is the stable
-    solution with the largest |a|, if this |a| is not below the limit.
+    The quiet solution has the smallest |a|, below half of the free resonance. The high solution is
+    the stable one with the largest |a|, not below this limit.
     """
     cells = [
         [_cell(oscillator, damper, frequency) for frequency in frequencies]
@@ -159,10 +155,7 @@ def _cell(oscillator, damper, frequency):
 
 @lru_cache(4096)
 def _solutions(oscillator, damper, frequency):
-    """Return the solutions of (7) and their growth rates.
-
-    The result is cached because cells that differ only in the restitution share it.
-    """
+    """Return the solutions of (7) and their growth rates, cached for cells with another e."""
     solutions = impacting_solutions(oscillator, damper, frequency)
     return solutions, growth_rate(fixed_points(solutions), oscillator, damper, frequency)
 
@@ -194,9 +187,8 @@ class _Row(NamedTuple):
 def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers=1, progress=None):
     """Compare harmonic balance with exact motions over frequency and one parameter of the rows.
 
-    `frequency_ratios` are forcing frequencies W divided by the frequency Wp of the free resonance
-    peak of the row. `fixed` holds the other arguments of `Oscillator` and `Damper`; without
-    `clearance` each row has the clearance of rule (19), as a designer would choose.
+    `frequency_ratios` are W/Wp with the peak frequency Wp of the row, `fixed` the other arguments
+    of `Oscillator` and `Damper`. Without `clearance` each row has the clearance of rule (19).
     """
     rows = _rows(parameter, values, frequency_ratios, fixed)
     parameters = np.array(
@@ -265,10 +257,7 @@ def _run(parameters, starts, settling, workers, progress):
 
 
 def _kinds(records, resonance):
-    """Return the flag `quiet_run_motion` of each run, the kind of motion in which it ended.
-
-    `resonance` is the largest displacement of the free resonance in each cell.
-    """
+    """Return the flag `quiet_run_motion` of each run, from the free `resonance` of its cell."""
     low = records["maximum_displacement"] < HIGH * resonance
     quiet = low & is_symmetric_pair(records)
     outcome = records["outcome"]
@@ -287,11 +276,7 @@ def _kinds(records, resonance):
 
 
 def _quiet_verdict(balance, orbits):
-    """Return the flag `quiet_verdict`, which combines harmonic balance and the exact orbit.
-
-    A cell without an orbit is "absent" if the branch of orbits is known to end before the cell,
-    otherwise "unresolved".
-    """
+    """Return the flag `quiet_verdict`; "absent" are cells beyond a known end of the branch."""
     size = np.abs(orbits.multiplier)
     columns = np.arange(size.shape[1])
     ended = np.isin(orbits.end_event, ["fold", "contacts_change"])

@@ -1,7 +1,4 @@
-"""Random starts that lead to a collision.
-
-Read literally, the ball of the paper (section 3, iii) extends beyond the walls.
-"""
+"""Random starts that lead to a collision, in the ball of the paper (section 3, iii)."""
 
 import math
 
@@ -18,12 +15,7 @@ from impact_damper.motions.simulate import random_states
 def collisions(
     oscillator, damper, frequency, *, starts=2000, radius, seed=1995, periods=2000, tolerance=1e-9
 ):
-    """Count the random starts that lead to a collision, in the whole ball and within the gap.
-
-    Return a dataset with, for each `ball` (literal, within the gap), the share of `starts` that lie
-    beyond a wall, the share that collide within `periods` forcing cycles, and the longest time
-    before a first collision.
-    """
+    """Return the shares of starts beyond a wall and of those that collide, for each `ball`."""
     p = pack(oscillator, damper, frequency)
     shares = np.empty((2, 3))
     for row, within_gap in enumerate((False, True)):
@@ -44,10 +36,7 @@ def collisions(
 
 @kernel
 def first_collision(p, state, limit, tolerance):
-    """Return the forcing cycles from T = 0 to the first contact, infinite if above `limit`.
-
-    The number is 0 for a state at or beyond a wall.
-    """
+    """Return the cycles from T = 0 to the first contact, 0 at a wall, infinite above `limit`."""
     work, y, t, side = workspace(), state.copy(), 0.0, side_of(p, state)
     end = limit * 2.0 * math.pi / p[FREQUENCY]
     while side == 0 and t < end:

@@ -1,8 +1,7 @@
 """Map of the contact model over restitution and load, and the loads of simulated motions.
 
-Other forces than the contact's cause an acceleration g towards the wall, the load G = g/(wn v0)
-with the natural frequency wn of the contact and the approach speed v0. The map gives the
-restitution under load for two rules for the end of a contact (`theory.contact_law`).
+The load is G = g/(wn v0), with the acceleration g towards the wall by other forces, the natural
+frequency wn of the contact, and the approach speed v0.
 """
 
 from dataclasses import replace
@@ -35,7 +34,7 @@ size | size | | | smallest settled or largest motion to which random starts lead
 contact_used | contact | | | index along the dimension `used` of a contact
 contact_size | contact | | | index along the dimension `size` of a contact
 contact_load | contact | | | load at the beginning of a contact
-    """,
+    """
 )
 
 # The loads of the map are evenly spaced up to |G| of about LINEAR, and logarithmically above it.
@@ -62,9 +61,7 @@ def contact_model(
 ):
     """Compute the contact for each restitution and load, and the loads of simulated motions.
 
-    `used` are the restitutions of the motions: at each of them and each frequency, the contacts of
-    the smallest and of the largest motion found from `starts` random starts are recorded over
-    `periods` forcing cycles. `restitutions` and `loads` are the axes of the map.
+    `used` are the restitutions of the motions, the smallest and the largest from `starts` starts.
     """
     used, frequencies = np.array(used, float), np.array(frequencies, float)
     data = contact_map(restitutions, loads) | unloaded_table(used)
@@ -98,10 +95,7 @@ def spread_loads(largest, count):
 
 
 def contact_map(restitutions, loads):
-    """Return the variables of the map: realised restitution and verdict, by rule, load and e.
-
-    The restitution is NaN if the loose mass does not leave the wall.
-    """
+    """Return realised restitution, NaN without release, and verdict, by rule, load and e."""
     shape = len(EXIT_RULES), len(loads), len(restitutions)
     realised, verdict = np.empty(shape), np.empty(shape, np.int8)
     for i, j, k in np.ndindex(shape):
@@ -130,10 +124,7 @@ def unloaded_table(restitutions):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Return the smallest settled motion with contacts, and the largest motion with contacts.
-
-    Each is the record of a motion to which a random start within the gap leads, or None.
-    """
+    """Return the smallest settled and the largest motion with contacts from random starts."""
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
     motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)
@@ -146,10 +137,7 @@ def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
 
 
 def loads_of(oscillator, damper, frequency, state, periods):
-    """Return the loads at the beginning of contacts that begin and end within forcing cycles.
-
-    `state` is the state of the motion at W T = pi/2.
-    """
+    """Return the loads at the beginning of whole contacts, from the state at W T = pi/2 on."""
     p = pack(oscillator, damper, frequency)
     begin = strobe_map.strobe_time(p)
     times = np.array([begin + periods * 2 * np.pi / p[FREQUENCY]])

@@ -1,7 +1,6 @@
 """The exact quiet orbit at the peak frequency Wp of a damper, stable or unstable.
 
-The orbit may be unstable, so that no simulation settles on it. With heavy damping motions do settle
-on it. From there the orbit is followed by Newton's method down to the damping h of the oscillator.
+With heavy damping motions settle on it; from there it is followed by Newton's method.
 """
 
 from dataclasses import replace
@@ -24,12 +23,7 @@ HEAVY, HEAVY_SHARE = 2.0, 0.5
 
 
 def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settling):
-    """Find the quiet orbit at the peak frequency Wp, and follow it in the damping h.
-
-    The dataset has the variables of `orbit_branches` over the damping, from the h of the oscillator
-    up to the heavy damping; whether the orbit was found and followed down to the h of the
-    oscillator; and for each `design_start` the outcome of a run from this start with this h.
-    """
+    """Find the quiet orbit at Wp, follow it in the damping h, and run random starts at Wp."""
     peak = peak_frequency(oscillator)
     damping = max(HEAVY, 2 * oscillator.damping, HEAVY_SHARE * peak)
     heavy = replace(oscillator, damping=min(damping, 10.0))

@@ -1,9 +1,7 @@
 """Accuracy of each design rule: the clearance it predicts, compared with the exact optimum.
 
-The optimum is the clearance at which the quiet orbit, stable or unstable, has the smallest
-displacement. Newton's method finds the orbit, from the theory of straight flight as first guess.
-Clearances are given as the ratio rm W^2 d0/f with the forcing amplitude f, which is 1 by rule (18)
-of the paper, and displacements as W^2 Z1/f.
+At the optimum the quiet orbit, found from straight flight, is smallest. Clearances are ratios rm
+W^2 d0/f with the forcing amplitude f, 1 by rule (18), and displacements W^2 Z1/f.
 """
 
 import itertools
@@ -66,13 +64,7 @@ IMPULSES = 400
 def design_rules(
     oscillator, mass_ratios, restitutions, contact_stiffnesses, frequencies, *, progress=None
 ):
-    """Find the optimum clearance of each damper and frequency of a grid, and the errors of rules.
-
-    The criterion of the optimum is the smallest max |Z1| or the smallest first harmonic of Z1. For
-    each criterion the dataset has the ratio at the optimum and by each rule
-    (`optimum_clearance.rule_ratios`), and the fraction by which max |Z1| at the ratio of a rule
-    exceeds the smallest max |Z1|.
-    """
+    """Find the optimum clearance of each damper and frequency of a grid, and errors of rules."""
     given = mass_ratios, restitutions, contact_stiffnesses, frequencies
     axes = {name: np.array(values, float) for name, values in zip(SWEPT, given, strict=True)}
     shape = tuple(map(len, axes.values()))
@@ -110,10 +102,7 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 
 
 class QuietMotion:
-    """The quiet orbit as a function of the ratio rm W^2 d0/f.
-
-    The clearance of the damper is ignored.
-    """
+    """The quiet orbit as a function of the ratio rm W^2 d0/f, whatever the damper's clearance."""
 
     def __init__(self, oscillator, damper, frequency):
         flight = flight_of(oscillator, damper, frequency)
@@ -131,10 +120,9 @@ class QuietMotion:
         self._states /= np.array([[frequency**2, frequency] * 2]).T / self._forcing
 
     def at(self, ratio):
-        """Return max |Z1|, the first harmonic of Z1 and the dominant multiplier, as moduli.
+        """Return max |Z1| and the first harmonic, in units of f/W^2, and |multiplier|.
 
-        The first two are in units of f/W^2. If the orbit does not exist at this ratio, infinity,
-        infinity and NaN are returned.
+        Without an orbit at this ratio these are infinity, infinity and NaN.
         """
         if ratio not in self._known:
             self._known[ratio] = self._orbit(ratio)
@@ -184,10 +172,9 @@ class QuietMotion:
 
 
 def first_harmonic(p, y) -> complex:
-    """Return the complex amplitude c of Re(c exp(i W T)) in Z1.
+    """Return the complex amplitude c of Re(c exp(i W T)) in Z1, by the trapezoidal rule.
 
-    The integral over one period is computed by the trapezoidal rule. At an impact Z1 has a kink,
-    and the error is of second order in the step: below 1e-5 of the change of c by this kink.
+    The kink of Z1 at an impact makes an error below 1e-5 of its effect on c.
     """
     start = strobe_time(p)
     times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[FREQUENCY] * SAMPLES)

@@ -1,7 +1,4 @@
-"""Harmonic balance with a rising number of harmonics, compared with the exact periodic orbit.
-
-`docs/explanation/convergence.md` derives the predicted rates at which the errors decrease.
-"""
+"""Harmonic balance with a rising number of harmonics (`docs/explanation/convergence.md`)."""
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -41,7 +38,7 @@ decay_kind | | | | decrease of the errors: a power of N, or exponential
 decay_observed | error_measure | | | fitted power of 1/N, or rate per harmonic, at which an error
   decreases
 decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmonic
-    """,
+    """
 )
 
 # MEASURES   error of max |Z1|; root mean squares of the errors of the retained harmonics of Z1 and
@@ -65,11 +62,8 @@ STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 def asymptotic_harmonic(damper, frequency) -> float:
     """Return the harmonic number N above which the predicted powers can hold; 1 without a damper.
 
-    Harmonic N must resolve a contact. Its period 2 pi/(N W) equals the duration of a contact
-    without other forces, pi/(w sqrt(1 - z^2)) with w^2 = r1 (1 + 1/rm) and z = zc sqrt(1 + rm)
-    (appendix B). With a dashpot N is also at least r1/(c W), with c = 2 zc sqrt(r1 rm). Above this
-    harmonic the jump of the contact force, c Z2', contributes more to a coefficient than the jump
-    of its slope, r1 Z2'.
+    The period of harmonic N is at most the duration of a contact (appendix B). With a dashpot the
+    jump of its force, c Z2', also outweighs the jump of the slope, r1 Z2', if N is above r1/(c W).
     """
     if damper is None:
         return 1.0
@@ -91,10 +85,9 @@ def decay(damper, p, state) -> tuple:
 def singularity_distance(p, state) -> float:
     """Return the distance from the real time axis to the nearest singularity of a free motion.
 
-    The motion is integrated in the direction of imaginary time, from STARTS points of the real axis
-    in half a forcing cycle. Near a singularity T* the motion is Z1 = sqrt(-2/k3)/(T - T*), so T* is
-    estimated as T + Z1/Z1'. The next integration leads along a straight line from the real part of
-    the estimate towards the estimate.
+    The motion is integrated in the direction of imaginary time. Near a singularity T* it is Z1 =
+    sqrt(-2/k3)/(T - T*), so T* is estimated as T + Z1/Z1', and approached again along a straight
+    line.
     """
     frequency, (stiffness, cubic) = p[FREQUENCY], cubic_spring(p)
     if cubic == 0:
@@ -164,8 +157,7 @@ def ladder(highest) -> np.ndarray:
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     """Return symmetric motions by harmonic balance with odd harmonics, their stability and errors.
 
-    Newton's method starts from the single-term solution, and for each further balance from the last
-    one that converged; for the values of N in `cold` also directly from the single-term solution.
+    Newton's method starts from the last balance that converged; for N in `cold` also from one term.
     """
     harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
@@ -208,10 +200,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Solve a balance from the single-term solution; return the result as a flag `cold_status`.
-
-    `warm` is the solution of the same balance found from the balance with fewer harmonics.
-    """
+    """Return the flag `cold_status` of the balance of `warm`, solved from a single term."""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)
@@ -248,10 +237,7 @@ def errors(solutions, multipliers, exact):
 
 
 def _farthest(values, references):
-    """Return the largest distance between a value and its reference.
-
-    Values and references are paired such that the sum of distances is smallest.
-    """
+    """Return the largest distance between values and references, paired for the smallest sum."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)
@@ -259,10 +245,7 @@ def _farthest(values, references):
 
 
 def decay_table(harmonics, data, damper, p, exact):
-    """Return the variables of the rates at which errors decrease with N, observed and predicted.
-
-    The observed rates are fitted from `asymptotic_harmonic` on.
-    """
+    """Return the predicted decrease of errors and the one fitted above `asymptotic_harmonic`."""
     lowest = asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = decay(damper, p, exact.strobe_states[0])
     scale = np.log(harmonics) if kind == "algebraic" else harmonics

@@ -1,8 +1,7 @@
 """Rules that say when to switch the damper off, compared by trials of migration.
 
-A trial begins on the resonance motion and repeats holds, times with the damper on, until the free
-motion settles to the small motion, the goal. A free motion counts as settled when its state lies in
-a neighbourhood of an attractor from which all motions provably tend to the attractor.
+A trial begins on the resonance motion and repeats holds, times with the damper on, until the state
+of the free motion lies in a neighbourhood of an attractor that all motions in it provably tend to.
 """
 
 import math
@@ -43,7 +42,7 @@ policy_hold | case frequency policy | | | cycles for which the policy keeps the 
   release by state, at most
 policy_phase | case frequency policy | angle | | phase Omega T of the release that the policy
   chose
-    """,
+    """
 )
 
 POLICIES = ["settled", "hold", "phase", "state"]
@@ -59,13 +58,7 @@ HELD = np.dtype(
 
 
 class Outcome(NamedTuple):
-    """Results of n trials, arrays of shape (n,).
-
-    reached: Whether the goal was reached within the limit.
-    cycles: Forcing cycles until the free motion settles to the goal, infinite if it does not.
-    damper: Forcing cycles with the damper on.
-    impacts, releases: Numbers of contacts and of releases.
-    """
+    """Results of n trials; without success `cycles`, until the goal, are infinite."""
 
     reached: np.ndarray
     cycles: np.ndarray
@@ -89,8 +82,7 @@ def release_policies(
     """Compare rules of release for several dampers, over frequency.
 
     At all frequencies both free motions of period 1 must exist. Each rule has `trials` trials.
-    `cells` are the cells on each axis of the coarse grid of a release set; `progress` is unused,
-    jobs pass it to every stage.
+    `cells` are the cells on each axis of the coarse grid of a release set.
     """
     shape = len(dampers), len(frequencies), len(POLICIES)
     data = {
@@ -202,10 +194,8 @@ class Trials(NamedTuple):
 def hold_many(on, off, starts, draws, limits, rule, depth, half, tolerance, held, stop):
     """Switch the damper on, `hold`, and run the free motion to the next strobe, for each trial.
 
-    `on` and `off` are packed parameters, `starts` (n, 2) Z1 and Z1' at the strobe before switching
-    on, `draws` (n, 3 or more) numbers between 0 and 1 for the phase of switching on, the place of
-    the loose mass and the phase of release. `held` receives the results. Another thread may set
-    `stop` to end the run. The other arguments are those of `hold`.
+    `starts` (n, 2) are Z1 and Z1' at the strobe before switching on; `draws` give the phase of
+    switching on, the place of the loose mass and the phase of release; `held` receives the results.
     """
     none, path, work, y = np.empty((0, 4)), np.empty((0, 5)), workspace(), np.empty(4)
     period, first = 2.0 * math.pi / on[FREQUENCY], strobe_time(on)
@@ -239,11 +229,7 @@ def summary(outcome):
 
 
 def quantile(values, share):
-    """Return a quantile and the ends of its 95 % interval, shape (3,).
-
-    The number of values below the quantile has a binomial distribution, which gives the ends as
-    sorted values (order statistics).
-    """
+    """Return a quantile and its 95 % interval, shape (3,), order statistics by the binomial law."""
     ordered, count = np.sort(np.asarray(values, float)), len(values)
     spread = QUANTILE * math.sqrt(count * share * (1 - share))
     places = count * share + np.array([0.0, -spread, spread])

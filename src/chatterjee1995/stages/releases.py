@@ -1,8 +1,7 @@
 """Migration by many runs of the controller, and motions to which releases of the damper lead.
 
-The damper is switched on during the resonance motion, at a random phase and with the loose mass at
-rest at a random place in the gap. A violent transient can follow, until the motion settles. A
-release switches the damper off again (section 5 of the paper).
+The damper is switched on during the resonance motion, at a random phase, and the loose mass is then
+at rest at a random place in the gap (section 5 of the paper).
 """
 
 from dataclasses import replace
@@ -70,9 +69,8 @@ def migration(
 ):
     """Return runs of the controller, and the motions to which releases lead, as a dataset.
 
-    There are `trials` runs as by `migrate`. The displacement is stored for one of them, `example`.
-    `releases` other runs of at most `lifetime` forcing cycles are released once, during the violent
-    transient. Each settled damped motion is released as often.
+    The displacement is stored for one of the `trials` runs, `example`. `releases` other runs of at
+    most `lifetime` cycles are released once; each settled damped motion is released as often.
     """
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
@@ -144,10 +142,8 @@ def _release(case, state, wait, settling, stop=NEVER):
 def watch_runs(case, seeds, lifetime, settling, workers, progress):
     """Run with the damper on from the resonance branch, and release each run once.
 
-    Return for each of the `seeds` (SeedSequence) the record of the motion that the run settles to,
-    and the RELEASE. The strobe of the release lies between strobe LEAD, before which the run still
-    depends on its start, and the capture by an orbit, or the end at `lifetime` forcing cycles. A
-    run that is captured before strobe LEAD is not released.
+    Return the record of each motion and its RELEASE. The strobe of the release lies between strobe
+    LEAD, before which the run depends on its start, and the capture by an orbit or `lifetime`.
     """
     # The phase at which the damper is switched on, the place of the loose mass, the strobe of the
     # release, and the phase after this strobe.
@@ -174,10 +170,7 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
 
 
 def _life(p, path, record, tolerance):
-    """Return the forcing cycles after which a run stays within CAPTURE of its final orbit.
-
-    `path` is the path of the run, from `legs.run`, and `record` the motion that it settled to.
-    """
+    """Return the cycles after which the path of a run stays within CAPTURE of its final orbit."""
     begin, period = strobe_time(p), 2 * np.pi / p[FREQUENCY]
     strobes = begin + np.arange(record["period"]) * period
     orbit = states_at(p, record["state"], begin, strobes, tolerance)
@@ -188,12 +181,9 @@ def _life(p, path, record, tolerance):
 
 
 def release_data(case, motions, entries, settling):
-    """Return a dict of dataset variables of the releases from the unsettled and settled motions.
+    """Return the variables of `entries`, releases of the unsettled motion, and of settled ones.
 
-    `entries` are the releases from the unsettled motion, and `motions` the settled motions, each
-    with equally many releases, spread evenly over its period. While the loose mass flies, the
-    primary mass moves as without the damper, so all releases within one flight lead to the same
-    free motion.
+    Releases of a settled motion are spread evenly over its period.
     """
     number = len(entries)
     rows = [entries]
@@ -223,11 +213,7 @@ def release_data(case, motions, entries, settling):
 
 
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
-    """Return records of the distinct settled damped motions, by ascending max |Z1|.
-
-    They are the settled motions among the records `known`, and those to which runs lead from random
-    states with the loose mass in the gap and from solutions of harmonic balance.
-    """
+    """Return the settled motions of records, random states and (7), by ascending max |Z1|."""
     on = pack(oscillator, damper, frequency)
     # Harmonic balance is solved for elastic contact. As first states of runs these solutions also
     # serve for an inelastic damper.
@@ -265,9 +251,7 @@ def release_scan(
 ):
     """Release the damper from every damped motion, at each frequency, and return a dataset.
 
-    `lifetime` is the largest number of forcing cycles of a run that is released before it settles,
-    and `releases` the number of releases from each motion. The other arguments are as in
-    `frequency_response`. The first damped motion at a frequency has not settled.
+    The first damped motion at a frequency is released before it settles, within `lifetime` cycles.
     """
     cases = [release_case(oscillator, damper, frequency, settling) for frequency in frequencies]
     search = {"starts": starts, "radius": radius, "seed": seed, "settling": settling}
@@ -296,10 +280,7 @@ def release_scan(
 
 
 def _scan_records(response):
-    """Return the settled motions at one frequency of a response, the smallest one first.
-
-    Only the fields that `release_data` reads are set.
-    """
+    """Return the settled motions of a response at one W, the smallest first, for `release_data`."""
     keep = response["outcome"].values == flag("outcome", "settled")
     found = np.zeros(np.sum(keep), MOTION)
     for name in ("period", "maximum_displacement", "contacts", "state"):

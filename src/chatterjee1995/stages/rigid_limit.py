@@ -1,9 +1,7 @@
 """Errors of the rigid-impact model as functions of contact stiffness r1 and frequency.
 
-The quiet orbits, stable or unstable, of the rigid model (`rigid_impacts`) and of the exact system
-with compliant contacts are compared. The compliant orbit is followed through a grid of frequencies
-and r1, the rigid orbit, which does not depend on r1, in frequency. It is also computed with
-corrected walls ("mended").
+The quiet orbits with compliant walls are followed through a grid, the orbits with rigid walls, also
+with corrected ("mended") ones, in frequency.
 """
 
 from dataclasses import replace
@@ -39,7 +37,7 @@ mended_order | frequency | | | exponent n of mended_error ~ r1^-n for short cont
 own_displacement | | | max |Z1| | largest displacement with the damper's own r1
 own_error | | | | relative error of own_displacement if walls are taken as rigid
 own_mended_error | | | | relative error of own_displacement with corrected rigid walls
-    """,
+    """
 )
 
 # Relative errors of max |Z1|. The dataset says from which stiffness the error is smaller.
@@ -55,9 +53,8 @@ def rigid_limit(
 ):
     """Compare rigid impacts with compliant contact at each frequency and stiffness.
 
-    The quiet motion is searched for at `frequency`, from random starts, with the damper's own r1.
-    `frequencies` and `stiffnesses` are the axes of the grid. An ArithmeticError says that no start
-    leads to a quiet motion, or that its orbit cannot be followed into the grid.
+    The quiet motion is searched for at `frequency` with the damper's own r1. An ArithmeticError
+    says that no start leads to it, or that its orbit cannot be followed into the grid.
     """
     frequencies, stiffnesses = np.array(frequencies, float), np.array(stiffnesses, float)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
@@ -107,10 +104,7 @@ def _spread(correct, points, cell, own_point, orbit):
 
 
 def _reached(followed, key):
-    """Return the orbit at the end of the line along which it was followed.
-
-    If it was not reached, an ArithmeticError names `key`, the axis of the grid.
-    """
+    """Return the orbit at the end of a line, or raise an ArithmeticError for the axis `key`."""
     if not followed.arrived:
         raise ArithmeticError(f"{key}: the quiet motion cannot be followed into this grid")
     return followed.orbit
@@ -119,8 +113,7 @@ def _reached(followed, key):
 def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
     """Return the grids of compliant and of rigid orbits, and the rigid orbit at `frequency`.
 
-    The compliant orbits are followed from the orbit `quiet` at `frequency` and the damper's own r1.
-    The rigid orbits are followed from the one nearest to the compliant orbit with the largest r1.
+    The compliant orbits are followed from `quiet`, the rigid ones from the stiffest of these.
     """
 
     def compliant_at(point, guess):
@@ -145,10 +138,7 @@ def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
 
 
 def _errors(oscillator, damper, frequencies, stiffnesses, compliant, rigid):
-    """Return relative errors of max |Z1| with rigid and corrected walls, and verdicts.
-
-    `compliant` and `rigid` are orbits, keyed by cell.
-    """
+    """Return errors of max |Z1| with rigid and corrected walls, and verdicts, for all cells."""
     shape = len(frequencies), len(stiffnesses)
     plain, mended = np.full(shape, np.nan), np.full(shape, np.nan)
     verdict = np.full(shape, flag("rigid_verdict", "neither"))

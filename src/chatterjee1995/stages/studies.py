@@ -1,8 +1,7 @@
 """Studies: motions from random starts in each cell of a grid of dampers and frequencies.
 
-A cell is one combination of mass ratio, clearance, frequency and restitution; cells are numbered in
-the order of `AXES`, the last axis fastest. A chunk of a study is a range of these numbers. The seed
-and the number of a cell determine its random starts, so results do not depend on the chunks.
+Cells are numbered in the order of `AXES`, the last axis fastest, and a chunk is a range of numbers.
+Seed and number of a cell determine its starts, so results do not depend on the chunks.
 """
 
 import math
@@ -28,7 +27,7 @@ quiet_count | cell | | | number of random starts that lead to the quiet orbit, w
   and touches each wall once in a cycle, symmetrically
 best_clearance | mass_ratio frequency restitution | | d0 | clearance of the grid at which the
   largest motion that starts lead to is smallest
-    """,
+    """
 )
 
 AXES = ("mass_ratio", "clearance", "frequency", "restitution")
@@ -62,9 +61,6 @@ def study_chunk(
 
     `axes` has increasing values for each of AXES, and `cells` are the numbers of the first cell of
     the chunk and of the first one after it. The other arguments are those of `frequency_response`.
-    The dataset has for each `cell` the largest displacement of all motions to which the starts
-    lead, the displacement on the quiet orbit, and the numbers of starts that lead to this orbit and
-    to each outcome.
     """
     axes = {name: np.asarray(axes[name], float) for name in AXES}
     shape, (first, last) = [len(values) for values in axes.values()], cells
@@ -117,14 +113,10 @@ def _condensed(runs):
 
 
 def gather_chunks(paths, path) -> None:
-    """Write the chunks of a study, in their order, into one file.
+    """Write the chunks of a study, in their order, into one file with the axes of the grid.
 
-    The file has the variables of a chunk, with the axes of the grid as dimensions in place of
-    `cell`. It also has, for each mass ratio, frequency and restitution, the clearance of the grid
-    at which the largest displacement is smallest, and the clearance of the paper's rule (18).
-
-    A BrokenFileError names a chunk that is incomplete, does not begin where the chunk before it
-    ended, or belongs to another study.
+    It also has the clearances with the smallest displacement and by rule (18). A BrokenFileError
+    names a chunk that is incomplete, not the next one, or of another study.
     """
     chunks = [load(each) for each in paths]
     head, done = chunks[0], 0

@@ -1,7 +1,6 @@
 """The one-third subharmonic of the free oscillator, and its suppression by a damper.
 
-The free subharmonic is a symmetric motion of period 3. With the damper, every motion whose period
-is a multiple of 3 counts as a subharmonic.
+With the damper, every motion whose period is a multiple of 3 counts as a subharmonic.
 """
 
 from typing import NamedTuple
@@ -33,7 +32,7 @@ suppression | frequency | | | effect of the damper on the subharmonic, judged by
 switched_motion | switched_motion | | | kind of motion that follows when the damper is switched on
 switched_share | frequency switched_motion | | | share of starts on the free subharmonic that lead
   to each motion when the damper is switched on
-    """,
+    """
 )
 
 # Number of frequencies at which the free subharmonic is searched for.
@@ -71,11 +70,9 @@ def subharmonic_suppression(
 ):
     """Find all motions with the damper at frequencies at which the free subharmonic exists.
 
-    The free subharmonic is searched for from the first to the last of the frequencies. Damped
-    motions are searched for at the same number of frequencies, spread over the range of the free
-    subharmonic and a tenth of its width beyond each end; without one, at the given frequencies.
-    Where the free subharmonic exists, one half of the starts has the primary mass on it and
-    switches the damper on at a random time. The other arguments are those of `frequency_response`.
+    The frequencies become as many in the range of the free subharmonic, which is searched for
+    between the first and the last of them. There, half of the starts switch the damper on during
+    this motion. The other arguments are those of `frequency_response`.
     """
     if oscillator.is_linear:
         raise ValueError(
@@ -105,11 +102,7 @@ def subharmonic_suppression(
 
 
 def _switch_half(oscillator, parameters, free, states, seed):
-    """Replace half of the starts, where the free subharmonic exists, by states of `switched_on`.
-
-    `states` are the starts, shape (n, m, 4), at n frequencies. Return max |Z1| of the free
-    subharmonic, shape (n,); NaN where it does not exist.
-    """
+    """Put half of the starts (n, m, 4) on the free subharmonic, and return its max |Z1|, (n,)."""
     size = np.full(len(parameters), np.nan)
     half = states.shape[1] // 2
     for i, p in enumerate(parameters):
@@ -124,11 +117,11 @@ def _switch_half(oscillator, parameters, free, states, seed):
 
 
 def switched_on(oscillator, p, state, loose, generator):
-    """Return states at the beginning of the forcing cycle after the damper is switched on.
+    """Return the next states at W T = 0 mod 2 pi after the damper is switched on at random times.
 
-    The switching takes place at random times of the free subharmonic, whose state at the strobe is
-    `state`. Z2 and Z2' are the last two columns of `loose` (m, 4) then; in every second row Z2' is
-    0, so that the loose mass moves with the primary mass.
+    Before, the mass moves on the free subharmonic from `state`. Z2 and Z2' are the last columns of
+    `loose` (m, 4); in every second row Z2' is 0, so that the loose mass moves with the primary
+    mass.
     """
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_map.strobe_time(p)
@@ -168,11 +161,7 @@ def _suppression(damped, free):
 
 
 def _shares(data, present, count):
-    """Return the share of the first `count` starts that lead to each of SWITCHED_MOTIONS.
-
-    The shares are NaN at frequencies at which the free subharmonic does not exist (`present` is
-    False).
-    """
+    """Return the shares of the first `count` starts by motion, NaN where `present` is False."""
     settled = data["outcome"][1] == flag("outcome", "settled")
     period = data["period"][1]
     symmetric = (np.abs(data["contacts"][1] - 2) < SAME) & (data["asymmetry"][1] < SAME)
@@ -200,10 +189,7 @@ def is_subharmonic(data):
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return both ends of a branch of a `sweep` over `grid`, found at `rows`.
-
-    An end that was not located is the last point found on the branch.
-    """
+    """Return both ends of a branch of a `sweep`, or its last points where none was located."""
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):
@@ -222,10 +208,7 @@ def branch_ends(data, branch, grid, rows):
 
 
 class FreeSubharmonic(NamedTuple):
-    """Packed parameters and states at the strobe of the free subharmonic, where it was found.
-
-    `ends` are its lowest and highest frequency, NaN without a motion.
-    """
+    """Packed parameters and strobe states of the free subharmonic, and its `ends`, NaN without."""
 
     parameters: np.ndarray
     states: np.ndarray
@@ -247,10 +230,7 @@ class FreeSubharmonic(NamedTuple):
 def free_subharmonic(
     oscillator, first, last, *, starts=96, radius=None, seed=1995, settling, workers=1
 ) -> FreeSubharmonic:
-    """Find the free symmetric motion of period 3 between two frequencies.
-
-    Of several branches it is the one that was found at the largest number of frequencies.
-    """
+    """Find the branch of free symmetric motions of period 3 that has the most frequencies."""
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     systems = [(None, value) for value in frequencies]

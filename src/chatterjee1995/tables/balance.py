@@ -78,10 +78,7 @@ def _exact_orbit(orbit):
 
 
 def harmonic_convergence(datasets) -> pd.DataFrame:
-    """Return for each motion the harmonics needed, the decrease of errors, and cold starts.
-
-    In a cold start Newton's method for N harmonics begins from the solution with one harmonic.
-    """
+    """Return the harmonics needed, the decrease of errors and the cold starts of each motion."""
     return pd.DataFrame(
         {"motion": name} | _convergence(data)
         for name, data in datasets.get("harmonic_convergence", {}).items()
@@ -128,10 +125,7 @@ def _needed(highest, error, accuracy):
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Return the numbers of map cells with each verdict, with chaos, and with accurate amplitudes.
-
-    The 95 % intervals of the shares treat the cells of the grid as a random sample.
-    """
+    """Return the numbers of map cells with each verdict, chaos, and accurate amplitudes."""
     rows = []
     for name, data in datasets.get("balance_map", {}).items():
         found = []
@@ -156,7 +150,7 @@ def _answers(meaning):
 
 
 def _cells(question, balance, truth, count, total):
-    """Return the row with a count of cells, and its share with Wilson's interval."""
+    """Return a count and its share with Wilson's interval, as if cells were a random sample."""
     share, lower, upper = wilson(int(count), int(total))
     return {
         "question": question,

@@ -67,10 +67,7 @@ def _ends_of(data, branch):
 
 
 def _stable_ranges(value, stable, *, closed):
-    """Return the ranges of W of the stable parts of a branch, as text, in order of W.
-
-    A closed branch is cut open at an unstable orbit, so that the cut divides no stable part.
-    """
+    """Return the stable ranges of W as text; a closed branch is cut open at an unstable orbit."""
     if closed:
         cut = np.argmin(stable)
         value, stable = np.roll(value, -cut), np.roll(stable, -cut)

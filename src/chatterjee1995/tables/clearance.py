@@ -48,12 +48,7 @@ def optimum(datasets) -> pd.DataFrame:
 
 
 def design_rules(datasets) -> pd.DataFrame:
-    """Return how many optima each rule predicts within 1 % and 10 %.
-
-    A design is a cell of a grid or a clearance sweep. The groups of designs are each grid, the
-    sweeps, and the cells of all grids with elastic and with inelastic contact; the criterion is the
-    quantity that the optimum makes smallest.
-    """
+    """Return how many optima of grids and sweeps each rule predicts within 1 % and 10 %."""
     cells = pd.concat([*_grids(datasets), *_sweeps(datasets)], ignore_index=True)
     grids = cells[cells.group != SWEEPS]
     elastic = np.where(grids.restitution == 1, "all grids, e = 1", "all grids, e < 1")
@@ -99,10 +94,7 @@ def _sweeps(datasets):
 
 
 def _agreement(cells):
-    """Return the columns of a group of designs with one criterion and one rule.
-
-    The excess is the fraction by which max |Z1| at the rule's clearance exceeds the smallest.
-    """
+    """Return the columns of a group of designs with one criterion and one rule."""
     error = 100 * (cells.rule_ratio / cells.best_ratio - 1).abs()
     excess = 100 * cells.rule_excess
     return (

@@ -52,10 +52,7 @@ def _unloaded(data):
 
 
 def rigid_limit(datasets) -> pd.DataFrame:
-    """Return the errors of rigid walls against contact with the damper's r1, and counts of cells.
-
-    The order is the exponent n with which the error falls as r1^-n.
-    """
+    """Return the errors of rigid walls against the damper's own walls, and counts of map cells."""
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=reading.parameter(data, "frequency"), method="nearest")

@@ -25,10 +25,7 @@ def as_markdown(frame) -> str:
 
 
 def save_table(frame, csv_path, markdown_path, document=as_markdown) -> None:
-    """Write a table as CSV and as Markdown; each file appears only when it is complete.
-
-    `document` makes the Markdown text of the table. NaN and None become empty cells.
-    """
+    """Write a table as CSV and, by `document`, as Markdown; NaN and None become empty cells."""
     values = frame.map(_rounded).astype(object)
     _write(csv_path, values.to_csv(index=False, lineterminator="\n"))
     shown = frame.map(partial(_rounded, digits=FEW_DIGITS)).astype(object)
@@ -36,10 +33,7 @@ def save_table(frame, csv_path, markdown_path, document=as_markdown) -> None:
 
 
 def for_people(frame, title, csv_name) -> str:
-    """Return the Markdown page of a table of strings with its first nine columns.
-
-    `csv_name` is the name of the file with all columns.
-    """
+    """Return the Markdown page of a table of strings; `csv_name` is the file with all columns."""
     note = (
         "Numbers without a unit are dimensionless; an empty cell is a quantity that does not "
         f"exist there or was not computed. `{csv_name}` has all {frame.shape[1]} columns."
@@ -51,11 +45,7 @@ def for_people(frame, title, csv_name) -> str:
 
 
 def in_words(cell) -> str:
-    """Return the words for a cell: names of figures and of entries without underscores, and ∞.
-
-    "figure_05a" becomes "figure 5 (a)", "figure_03c_rule" "figure 3 (c), rule", "orbits_08" "orbits
-    of figure 8", "over_damping" "over damping".
-    """
+    """Return a name in words, "figure 3 (c), rule" for "figure_03c_rule", and ∞ for "inf"."""
     cell = re.sub(r"^orbits_(?=[0-9])", "orbits of figure_", str(cell))
     cell = re.sub(r"\bfigure_0*([0-9]+)([a-z])", r"figure_\1 (\2)", cell)
     cell = re.sub(r"\bfigure_0*([0-9]+)", r"figure \1", cell).replace(")_", "), ")

@@ -1,8 +1,4 @@
-"""Table of the dampers designed for machines in SI units.
-
-The gap is the full play of the loose mass. A design promises the displacement below which the
-machine stays from a share of all starts (initial states), for the worst frequency and deviations.
-"""
+"""Table of the dampers designed for machines in SI units; the gap is the full play."""
 
 import json
 

@@ -24,9 +24,8 @@ def models(datasets) -> pd.DataFrame:
     """Return a row for each method and scene.
 
     A row holds the setting that meets the required accuracy with the least work or, if none does,
-    the setting with the least error. The choice is the method with the least work; if it is a model
-    of orbits, the integrator with the least work is marked too. Taylor series of other orders than
-    the library uses are listed, but never marked.
+    the one with the least error. Taylor series of orders that the library does not use are never
+    marked.
     """
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
@@ -73,10 +72,7 @@ def cheapest(data, labels):
 
 
 def _most_accurate(data, method):
-    """Return the index of the run of a method with the least error; None if it was not run.
-
-    The error is that of max |Z1|, for a chaotic motion that of the contacts per cycle.
-    """
+    """Return the run of a method with the least error of max |Z1| or contacts a cycle, or None."""
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
         return None
@@ -109,11 +105,7 @@ def _averages(data, of):
 
 
 def missed_contacts(datasets) -> pd.DataFrame:
-    """Return the contacts that each method finds and misses near grazing, summed over all depths.
-
-    Contacts passed unseen were stepped over. Contacts not reached are missed because the computed
-    motion, by its error, turns back before the wall. Spurious contacts do not exist in truth.
-    """
+    """Return the contacts that each method finds and misses near grazing, over all depths."""
     rows = []
     for name, data in datasets.get("missed_contacts", {}).items():
         contacts = int(reading.parameter(data, "passages")) * data.sizes["depth"]
@@ -143,10 +135,7 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return the largest step h of fixed-step methods for each accuracy and stiffness r1.
-
-    With h and all smaller steps tested, the method keeps the accuracy.
-    """
+    """Return the largest step that keeps each accuracy together with all smaller steps, by r1."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         cycle = 2 * np.pi / reading.parameter(data, "frequency")

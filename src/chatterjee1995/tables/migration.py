@@ -14,10 +14,7 @@ KINDS = {number: kind for kind, number in DAMPED_MOTION.items()}
 
 
 def migration(datasets) -> pd.DataFrame:
-    """Return the shares of releases that lead to each free motion, and results of controller runs.
-
-    The table has a row for each case and each damped motion that is released.
-    """
+    """Return the shares of releases to each free motion, and the results of controller runs."""
     rows = []
     for name, case in datasets.get("migration", {}).items():
         reached = case.trial_outcome == flag("trial_outcome", "reached")
@@ -61,11 +58,7 @@ def _destination(motion):
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """Return the frequencies at which releases from each damped motion lead to each free motion.
-
-    A row lists the frequencies at which releases of a damped motion lead to each free motion of a
-    set and to no other.
-    """
+    """Return at which frequencies releases of a motion lead to each set of free motions."""
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
         ends = list(scan.free_motion.values)

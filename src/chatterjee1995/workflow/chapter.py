@@ -8,10 +8,7 @@ from impact_damper.data.whole_files import whole
 
 
 def make_table(name, given, datasets, path) -> None:
-    """Write a table as CSV and Markdown, with its caption, to `path` without suffix.
-
-    `given` is what `selection.table_values` returns, and `datasets` are keyed by stage and entry.
-    """
+    """Write a table from `selection.table_values` in both formats, and its caption, to `path`."""
     from chatterjee1995.tables import files as table_files
 
     module = import_module(given["module"])
@@ -26,10 +23,7 @@ def make_table(name, given, datasets, path) -> None:
 
 
 def draw_figure(given, datasets, path) -> None:
-    """Draw a figure as PDF and PNG, with its caption, to `path` without suffix.
-
-    `given` is what `selection.figure_values` returns, and `datasets` are keyed by stage and entry.
-    """
+    """Draw a figure from `selection.figure_values` as PDF and PNG, and its caption, to `path`."""
     from impact_damper.plot.style import save_figure
 
     drawn = given["drawn"].items()

@@ -1,8 +1,4 @@
-"""A job of the workflow: its log, its end, its timing, and its parameters as objects.
-
-Scripts import this module before all others, because it makes garbage collection rarer, which
-speeds up the other imports.
-"""
+"""A job of the workflow. Scripts import this module first, since it makes other imports faster."""
 
 import atexit
 import gc
@@ -76,10 +72,9 @@ def counts(first, last, points):
 
 
 class Job:
-    """A job, made from the variable `snakemake` of its script.
+    """A job, made from the variable `snakemake` of its script; it ends soon after Snakemake.
 
-    All output goes to the log, and the process ends soon after Snakemake. When the job ends, its
-    time and memory are written to the folder `timings`, at the same relative path as its log.
+    All output goes to the log, and time and memory to the folder `timings`.
     """
 
     def __init__(self, snakemake):
@@ -109,10 +104,7 @@ class Job:
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Return what the stage's function makes of its parameters and of the files of the job.
-
-        Of `offered`, and of the number of threads, it gets those that it has arguments for.
-        """
+        """Return the result of the stage's function, which gets what it takes of `offered`."""
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}
@@ -177,10 +169,7 @@ def _report_file_errors():
 
 
 def end_with_parent() -> None:
-    """End this process soon after its parent, here Snakemake, was killed.
-
-    Otherwise the job could overwrite results of a newer run with results of an older configuration.
-    """
+    """End this process soon after its parent, so that no old job writes into a new run."""
     parent = os.getppid()
 
     def watch():
@@ -206,11 +195,7 @@ def _write_timing(path):
 
 
 def peak_memory() -> float:
-    """Return the peak memory in MB of this process.
-
-    On Linux it is read from `/proc`, because `ru_maxrss` of a new process starts at the value of
-    its parent.
-    """
+    """Return the peak memory of this process in MB; `ru_maxrss` begins at the parent's value."""
     status = Path("/proc/self/status")
     if not status.exists():
         return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / MEGABYTE

@@ -17,10 +17,7 @@ def compiled_kernels(orders) -> str:
 
 
 def compile_all(processes, orders) -> None:
-    """Compile and cache all kernels on up to two cores.
-
-    `orders` are pairs of orders of the Taylor series that the stage `accuracy` compares.
-    """
+    """Compile all kernels; `orders` are pairs of orders of the series that `accuracy` compares."""
     from chatterjee1995.workflow.job import end_with_parent
     from impact_damper.command.warm_up import warm_up_orbits, warm_up_settling
 
@@ -38,9 +35,8 @@ def compile_all(processes, orders) -> None:
 def warm_up_paper(orders=()) -> None:
     """Call each kernel of the paper's stages and of the integrators that are compared.
 
-    A kernel loaded from the cache can give results that differ in the last digit from the results
-    of a kernel compiled in the same process, and a method that integrates through a jump of the
-    force amplifies this difference. With all kernels compiled here, every job loads them.
+    Results of a kernel from the cache can differ in the last digit from those of one compiled in
+    the same process. With all kernels compiled here, every job loads them.
     """
     import numpy as np
 

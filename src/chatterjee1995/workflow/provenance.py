@@ -11,11 +11,7 @@ from pathlib import Path
 
 
 def provenance(configuration, root) -> dict:
-    """Return digests of configuration and lock file, commit, versions and computer.
-
-    `root` is the folder of the project. Outside of a repository `commit` and `modified`, whether
-    tracked files differ from the commit, are None.
-    """
+    """Return digests, commit, versions and computer; outside of a repository `commit` is None."""
     root = Path(root)
     lock = (root / "requirements.lock").read_bytes()
     text = json.dumps(configuration, sort_keys=True)

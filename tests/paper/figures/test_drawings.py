@@ -156,14 +156,8 @@ DRAWINGS = {
         lambda: draw_optimum(optimum=[sweep(0.215, 0.12), sweep(0.215, 0.18)]),
         [OPTIMUM, NEAR],
     ),
-    "migration": (
-        lambda: draw_migration(migration=[migration()]),
-        [DAMPER_ON, *SWITCHED.values()],
-    ),
-    "release": (
-        lambda: draw_release(migration=[migration()]),
-        [*DESTINATIONS.values()],
-    ),
+    "migration": (lambda: draw_migration(migration=[migration()]), [DAMPER_ON, *SWITCHED.values()]),
+    "release": (lambda: draw_release(migration=[migration()]), [*DESTINATIONS.values()]),
 }
 
 

@@ -8,12 +8,7 @@ from helpers.known_orbits import INELASTIC, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 
 from chatterjee1995.figures.contact_model import draw_contact_model
-from chatterjee1995.stages.contact_model import (
-    contact_map,
-    contact_model,
-    loads_of,
-    spread_loads,
-)
+from chatterjee1995.stages.contact_model import contact_map, contact_model, loads_of, spread_loads
 from chatterjee1995.tables.contact import contact_model as model_table
 from impact_damper.data.datasets import flag
 from impact_damper.model.settling import Settling

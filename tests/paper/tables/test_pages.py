@@ -16,14 +16,7 @@ from chatterjee1995.workflow.chapter import make_table
 
 CONFIG = configurations.paper()
 # Tables for which the invented datasets have all variables; tests of the stages make the others.
-INVENTED = (
-    "harmonic_balance",
-    "subharmonic",
-    "optimum",
-    "migration",
-    "release_scan",
-    "machines",
-)
+INVENTED = ("harmonic_balance", "subharmonic", "optimum", "migration", "release_scan", "machines")
 
 
 @pytest.fixture(scope="module")

@@ -1,8 +1,4 @@
-"""The integrators that are compared; each module of this package declares one or several.
-
-To add an integrator, write a module with a constant INTEGRATORS, or an entry in the one of an
-existing module. Stages, figures, tables and the compilation of kernels follow the declarations.
-"""
+"""The integrators that are compared; each module declares some in its constant INTEGRATORS."""
 
 import pkgutil
 from functools import cache

@@ -1,7 +1,4 @@
-"""Methods with equal steps that step over contacts: Runge-Kutta 4, velocity Verlet, Merson.
-
-To add one, write its step, its number, its place in `one_step` and its entry in INTEGRATORS.
-"""
+"""Methods with equal steps that step over contacts: Runge-Kutta 4, velocity Verlet, Merson."""
 
 import math
 
@@ -31,10 +28,7 @@ def forcing(p, t, h):
 
 @kernel_only
 def verlet_step(p, drives, h, y):
-    """Return the state after a step of velocity Verlet, order 2.
-
-    Forces at the end of the step are computed with a speed extrapolated linearly.
-    """
+    """Return the state after a step of velocity Verlet, order 2, with extrapolated speeds."""
     k1 = rate_by_position(p, drives[0], y)
     x = y[0] + h * (y[1] + 0.5 * h * k1[1])
     z = y[2] + h * (y[3] + 0.5 * h * k1[3])
@@ -77,10 +71,7 @@ def one_step(method, p, drives, h, y):
 
 @kernel
 def run_fixed(method, p, start, t, steps, largest):
-    """Fill `largest` with the largest |Z1| of each cycle of `steps` equal steps, NaN if diverged.
-
-    `start` is the state at the time t.
-    """
+    """Fill `largest` with the largest |Z1| of each cycle from `start` at t, NaN if diverged."""
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
     largest[:] = np.nan
@@ -132,10 +123,7 @@ class FixedStep(Integrator):
         return self.seen(p, np.concatenate([[[0.0, *state]], ends]), time)
 
     def seen(self, p, ends, time):
-        """Return |Z2| at the ends of steps, rows of time and state, and |Z2| at `time`.
-
-        |Z2| at `time` is computed by an extra step that ends at this time.
-        """
+        """Return |Z2| at ends of steps, rows of time and state, and by an extra step at `time`."""
         last = ends[ends[:, 0] <= time][-1]
         there = np.empty((1, 5))
         fixed_ends(self.number, p, last[1:].copy(), last[0], time - last[0], there)

@@ -1,8 +1,4 @@
-"""Runge-Kutta-Merson with step control, the method of the paper, with or without located contacts.
-
-The estimated error, which for linear equations is the leading term of the error, stays below the
-tolerance times 1 + |y| in each component y.
-"""
+"""Runge-Kutta-Merson, the method of the paper: each error stays below tolerance times 1 + |y|."""
 
 import math
 
@@ -29,11 +25,7 @@ FIRST = 1e-3
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return the state after one step, and the ratio of its estimated error to the allowed error.
-
-    With `by_position` each evaluation of the rate determines the wall in contact from Z2, and
-    `side` is ignored.
-    """
+    """Return state and error ratio after a step; `by_position` finds walls from Z2, not `side`."""
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
     k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
@@ -53,10 +45,9 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Return the length of the step that ends at an event, the state there, and the steps tried.
+    """Return length and end of the step to the contact event within h, and the steps tried.
 
-    The event is the beginning or end of a contact within the step h. The step is halved until it
-    ends before the event. Then the Illinois variant of regula falsi finds the event.
+    The step is halved until it ends before the event, which the Illinois method then finds.
     """
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
@@ -93,10 +84,9 @@ def located(p, side, t, h, y, tolerance):
 def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
     """Integrate the state y in place from t to end, with a first step h.
 
-    `side` is the wall in contact at t, unused without `locate`. `ends`, shape (m, 5), receives time
-    and state at the ends of the first m steps. Return the wall in contact at the end, the length
-    for the next step, and the numbers of accepted steps, -1 if the run failed or diverged, and of
-    computed steps, with those rejected and the trials of `located`.
+    `ends`, shape (m, 5), receives time and state after each step. Return the wall in contact at the
+    end, the next step, and the numbers of accepted steps, -1 if the run failed, and of computed
+    steps.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, tries = 0, 0

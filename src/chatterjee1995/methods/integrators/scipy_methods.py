@@ -1,7 +1,4 @@
-"""SciPy's integrators with a compiled rate; they step over contacts or locate them as events.
-
-To add one, write its entry in INTEGRATORS.
-"""
+"""SciPy's integrators with a compiled rate; they step over contacts or locate them as events."""
 
 import math
 
@@ -46,11 +43,9 @@ def solved(method, p, y, span, side, tolerance, left, **options):
 
 
 def parts(method, p, start, t, end, tolerance, locate, left):
-    """Yield the results of `solve_ivp` for successive parts of a run.
+    """Yield the results of `solve_ivp` for parts of a run, which with `locate` end at contacts.
 
-    With `locate` a part ends where a contact begins or ends; without, the run is one part. A method
-    that begins at a wall with a large tolerance can step over the end of the contact and use up all
-    evaluations (OverflowError).
+    With a large tolerance a run can pass the end of a contact and use up all evaluations.
     """
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
@@ -67,11 +62,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods.
-
-    `operations` are its floating-point operations for each evaluation of the rate, without those of
-    the rate itself, and `factorising` those of a factorisation.
-    """
+    """One of SciPy's methods, with its `operations` beside the rate, and those of factorising."""
 
     tolerances = "scipy"
     slow = True

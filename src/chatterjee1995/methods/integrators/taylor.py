@@ -34,10 +34,9 @@ PARTS = 8
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Fill `rows` with steps of `steps_of` from the state y at t to `end`, or until no row is left.
+    """Fill `rows` with steps from y at t to `end`; return their number, the time and the wall then.
 
-    Return the number of steps, and the time and the wall in contact after them; y becomes the state
-    there. `side` is the wall in contact at t. Coefficients that do not fit into a row are omitted.
+    y becomes the state there. Coefficients that do not fit into a row are omitted.
     """
     work = aligned(steps[3])
     a, count = pointer(work), 0
@@ -61,10 +60,7 @@ def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order
 
 
 def steps_of(orders):
-    """Return the addresses of three kernels, and the size of their workspace.
-
-    They take a step in flight, take one in contact, and compute the series shared by all steps.
-    """
+    """Return addresses of both step kernels and of the shared series, and the workspace size."""
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.constant_series
     return np.array([*(compiled(each).address for each in called), module.SIZE])
@@ -101,10 +97,7 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def turning_points(rows, series):
-    """Return step and time within it of each turning point of polynomials, one for each row.
-
-    `series` are their coefficients, a column for each step.
-    """
+    """Return step and time within it of each turning point of the polynomials in `series`."""
     slopes = polyder(series)
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
     speeds = np.array([polyval(t, slopes, tensor=False) for t in edges])
@@ -129,9 +122,8 @@ def work_of_steps(counts, orders=ORDERS, tangents=False):
 def step_work(kind, orders=ORDERS, tangents=False):
     """Return the floating-point operations of a step, with or without variational equations.
 
-    These polynomials in the order n agree within 1 % with the operations in the generated source of
-    the steps, an elementary function counted as 20. They leave out the search for a contact that a
-    step did not expect, and repeated iterations of a search, since few steps need them.
+    These polynomials in the order n agree within 1 % with the generated source, except for searches
+    of contacts that a step did not expect.
     """
     n = orders[kind == CONTACT]
     if kind == CONTACT:
