@@ -21,20 +21,6 @@ from chatterjee1995.claims.verdicts import CLAIMS, EVIDENCE, claims, document, t
 each_claim = pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.number)
 
 
-@pytest.mark.parametrize(
-    ("text", "bound", "words"),
-    [
-        ("size <= 0.05", ("size", -math.inf, 0.05), "at most 0.05"),
-        ("1 <= stable", ("stable", 1, math.inf), "at least 1"),
-        ("0.95 <= turn <= 1.05", ("turn", 0.95, 1.05), "from 0.95 to 1.05"),
-    ],
-)
-def test_a_bound_is_read_and_worded(text, bound, words):
-    assert Bound.read(text) == bound and str(Bound.read(text)) == words
-    end = bound[1] if math.isfinite(bound[1]) else bound[2]
-    assert Bound.read(text).holds({bound[0]: end})
-
-
 def made_up(sharp, full):
     """Return a claim with two numbers of given values."""
     return Claim(

@@ -15,15 +15,12 @@ from helpers.made_up import (
     policies,
     quiet_size,
     subharmonic,
-    sweep,
     world,
 )
 from helpers.made_up_orbits import branch, branches
 
-from chatterjee1995.claims.bands import largest_difference
 from chatterjee1995.claims.claim import DIFFERENT, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from chatterjee1995.claims.verdicts import CLAIMS, claims
-from chatterjee1995.reading.bands import Band
 from chatterjee1995.reading.datasets import ELASTIC
 from impact_damper.data.datasets import flag
 
@@ -130,18 +127,6 @@ def test_a_fourth_component_of_the_state_is_counted(data):
     assert BY_NUMBER["S3"].judge(data)["verdict"] == "the print is incomplete"
 
 
-def test_peaks_of_exact_orbits_are_read_from_their_folds(data):
-    scale("branches", "free_h150", event_value=1.02)(data)
-    peak = BY_NUMBER["S5"].evidence(data)["peaks"][1]
-    assert peak["end"] == pytest.approx(1.02 * PEAKS[0.15])
-
-
-def test_the_width_that_agrees_least_counts():
-    band = Band(1.8, 2.0, 0.05)
-    assert largest_difference(0.2, band) == pytest.approx(1 / 3)
-    assert largest_difference(0.15, band) == pytest.approx(1 / 4)
-
-
 def damped(*parts, mass_ratio):
     """Return branches with a damper: quiet orbits at all frequencies, and `parts`."""
     frequency = np.linspace(0.5, 1.5, 201) * PEAK
@@ -163,18 +148,6 @@ def test_regions_of_contact_number_overlap(overlap, expected, data):
     values = BY_NUMBER["6"].evidence(data)
     assert values["coexisting"] == pytest.approx(overlap)
     assert BY_NUMBER["6"].verdict(values) == expected
-
-
-def test_step_that_raises_the_optimum(data):
-    """From e = 1 to 0.9 the optimum rises by 1 %, and at lower e it falls."""
-    middle = sweep(0.215, 0.18, 0.9)
-    hard = data["optimum"]["0.215_0.18_1.0"]
-    stretch = 1.01 * float(hard.optimum_clearance / middle.optimum_clearance)
-    data["optimum"]["middle"] = middle.assign_coords(clearance=stretch * middle.clearance).assign(
-        optimum_clearance=stretch * middle.optimum_clearance
-    )
-    values = BY_NUMBER["11"].evidence(data)
-    assert values["step"] == pytest.approx(1.01) and values["clearance"] < 1
 
 
 def test_subharmonic_outside_of_the_band(data):

@@ -198,15 +198,6 @@ def test_all_lies_on_the_sheet_and_the_legend_beside_the_axes(drawing):
         assert not legend.get_window_extent().overlaps(axes.get_tightbbox())
 
 
-def test_letters_stand_above_a_second_axis(drawing):
-    drawn, _ = drawing
-    for axes in drawn.axes:
-        letter = axes._left_title.get_window_extent()
-        for second in axes.child_axes:
-            for words in [second.xaxis.label, *second.get_xticklabels()]:
-                assert letter.y0 >= words.get_window_extent().y1
-
-
 def test_axes_are_labelled_and_the_drawing_is_as_wide_as_a_column(drawing):
     drawn, _ = drawing
     assert drawn.get_figwidth() in COLUMNS.values()
@@ -236,27 +227,6 @@ def test_what_differs_in_colour_differs_in_grey_too():
     found = looks(draw(), labels)
     assert set(found) == labels
     assert len(set(found.values())) == len(found)
-
-
-def test_balance_unstable_branch_reaches_both_folds():
-    drawn = draw_harmonic_balance(harmonic_balance=[balance()])
-    (line,) = (
-        line for line in drawn.axes[0].lines if line.get_label() == ROLES["free_unstable"]["label"]
-    )
-    shown = np.isfinite(line.get_ydata())
-    assert shown.sum() == len(FREQUENCY) + 2
-
-
-def test_stable_and_unstable_parts_of_a_branch_meet():
-    drawn = draw_free(branches=[FREE])
-    parts = {
-        line.get_label(): line.get_xydata()
-        for line in drawn.axes[0].lines
-        if line.get_label()
-        in (ROLES["subharmonic_free"]["label"], ROLES["subharmonic_unstable"]["label"])
-    }
-    stable, unstable = parts.values()
-    assert np.array_equal(stable[-1], unstable[0])
 
 
 def test_contacts_are_marked_where_they_are():

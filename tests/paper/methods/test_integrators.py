@@ -139,21 +139,6 @@ def test_located_contacts_agree_with_the_taylor_series(name, damper):
     assert_allclose(run.contact_times, log[:, 1], atol=1e-8)
 
 
-def test_the_kink_takes_the_order_away():
-    """With elastic contacts that are not located, a method of order 4 has only order 2."""
-    p = pack(PAPER, DESIGN, 2.0)
-    y = np.array([0.1, 0.2, 0.0, -2.4])
-    begin = strobe_map.strobe_time(p)
-    expected, _ = sample(p, y, begin, [begin + math.pi])
-    steps = np.unique(np.geomspace(2000, 40000, 24).astype(int))
-    errors = [
-        np.abs(fixed_end("runge_kutta_4", p, y, int(n), 1, begin) - expected[-1]).max()
-        for n in steps
-    ]
-    slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
-    assert -2.7 < slope < -1.3
-
-
 def test_runs_that_diverge_or_take_too_many_evaluations_have_nan():
     p = pack(PAPER, DESIGN, 2.0)
     given = p, np.array([0.0, 0.0, 5.0, 0.0]), 0.0, 3, 20

@@ -11,13 +11,11 @@ import numpy as np
 import pytest
 from helpers.known_orbits import PAPER
 from numpy.testing import assert_allclose
-from scipy.integrate import solve_ivp
 from scipy.stats import binom
 
 from chatterjee1995.figures.missed_contacts import draw_missed_contacts
 from chatterjee1995.methods import missed_contacts as missed
 from chatterjee1995.methods.integrators import integrators, merson
-from chatterjee1995.methods.integrators.scipy_methods import UNLIMITED, derivative
 from chatterjee1995.methods.passages import draw_passages, without_walls
 from chatterjee1995.tables.methods import missed_contacts
 from impact_damper.model.packed import pack
@@ -61,32 +59,6 @@ def test_the_taylor_series_misses_none_and_invents_none(passages):
     touching, spurious, _ = missed.counts(integrators()["taylor"], p, drawn, depths, 1e-14)
     assert_allclose(touching, np.array([[len(drawn), 0, 0, 0]] * len(depths)))
     assert not spurious.any()
-
-
-@pytest.mark.parametrize("method", ["DOP853", "LSODA"])
-def test_scipy_events_find_the_contacts_that_ends_of_steps_show(method, passages):
-    """SciPy's event location finds a contact exactly if a step ends beyond the wall."""
-    p, drawn = passages
-    free = without_walls(p)
-
-    def wall(level):
-        return lambda t, y, *_: abs(y[2]) - level
-
-    for passage in drawn[:10]:
-        levels = passage.extremum - DEPTHS
-        run = solve_ivp(
-            derivative,
-            (0, PERIOD),
-            passage.state,
-            method,
-            args=(free, 0, np.array([UNLIMITED])),
-            events=[wall(level) for level in levels],
-            rtol=1e-8,
-            atol=1e-8,
-        )
-        ends, _ = integrators()[method].flight(free, passage.state, PERIOD, 1e-8, passage.time)
-        seen = ends.max() > levels
-        assert_allclose([len(times) > 0 for times in run.t_events], seen)
 
 
 @pytest.mark.thorough

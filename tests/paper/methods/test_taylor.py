@@ -35,17 +35,6 @@ def test_a_run_agrees_with_the_records_of_the_motion(damper):
     assert found.displacement == found.peaks.max()
 
 
-@cases
-def test_peaks_are_turning_points(damper):
-    """A second run that ends at the time of a peak has the speed 0 at its end."""
-    p, found = run(damper)
-    begin = strobe_time(p)
-    for k in (1, len(found.peaks) // 2, -2):
-        states = traces.states_at(p, START, begin, [begin, found.peak_times[k]], 1e-11)
-        assert abs(states[-1, 0]) == pytest.approx(found.peaks[k], abs=1e-7)
-        assert abs(states[-1, 1]) < 1e-6
-
-
 def test_a_contact_at_the_start_counts_and_a_run_that_overflows_fails():
     p, found = run(DESIGN, np.array([0.1, 0.0, 2.01, 0.5]))
     assert found.contact_times[0] == strobe_time(p)

@@ -9,7 +9,6 @@ from chatterjee1995.stages.releases import migration, release_scan
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
-from impact_damper.motions.migration import migrate
 
 CUBIC = Oscillator(0.215)
 PAPER = Damper(0.12, 2.0)
@@ -36,17 +35,6 @@ def test_every_run_ends_once(runs):
     for before, after in (("on_time", "off_time"), ("off_time", "end_time")):
         assert np.all((runs[before] < runs[after]).values[made])
     assert np.all(runs.damper_time < runs.total_time)
-
-
-def test_a_single_run_repeats_the_trial(runs):
-    """`migrate` with the seed of the trial `example` gives the same switchings and displacement."""
-    example = int(runs.example)
-    seed = np.random.SeedSequence(1995).spawn(2)[0].spawn(SMALL["trials"])[example]
-    one = migrate(CUBIC, PAPER, 1.85, seed=seed, longest_hold=20)
-    count = int(one.switchings)
-    for name in ("on_time", "off_time", "end_time", "destination", "released_from"):
-        assert_array_equal(one[name], runs[name].values[example, :count])
-    assert_array_equal(one.displacement, runs.displacement)
 
 
 @pytest.mark.parametrize("row", [1, 2])

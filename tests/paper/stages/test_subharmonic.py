@@ -8,7 +8,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from chatterjee1995.stages.subharmonic import (
-    _suppression,
     free_subharmonic,
     subharmonic_suppression,
     switched_on,
@@ -105,14 +104,6 @@ def test_switching_on_keeps_the_primary_on_the_subharmonic_until_a_contact(free)
     away = np.abs(states[:, None, :2] - free_states).max(axis=2)
     assert np.all(away.min(axis=1) < 1e-9)
     assert len(set(away.argmin(axis=1))) == 3
-
-
-def test_suppression_by_size():
-    meanings = ["no_subharmonic_without_damper", "removed", "reduced", "unchanged", "unchanged"]
-    flags = _suppression(
-        np.array([0.5, -np.inf, 0.5, 0.99, 1.2]), np.array([np.nan, 1.0, 1.0, 1.0, 1.0])
-    )
-    assert flags.tolist() == [flag("suppression", meaning) for meaning in meanings]
 
 
 def test_no_free_subharmonic():

@@ -32,7 +32,3 @@ def test_the_advice_follows_the_decision():
 
 def test_a_motion_that_escapes_has_no_size():
     assert row(promised_displacement=np.inf)["promised displacement [mm]"] == "escapes"
-
-
-def test_no_machines_make_no_rows():
-    assert machines({}).empty

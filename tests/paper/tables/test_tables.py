@@ -43,12 +43,6 @@ def test_subharmonic(data):
     assert list(table[table.curve == "figure_05a"].branch) == ["all"]
 
 
-def test_free_oscillator_without_subharmonic(data):
-    free = data["branches"]["free_h215"]
-    changed = data | {"branches": {"none": free.assign(branch_period=0 * free.branch_period)}}
-    assert responses.subharmonic(changed).branch.iloc[0] == "none"
-
-
 def closed(frequency, stable):
     """Return one closed branch."""
     frequency, stable = np.append(frequency, frequency[0]), np.append(stable, stable[0])

@@ -4,17 +4,16 @@ Each fault is known from the way in which the configuration was made, not from t
 the configuration.
 """
 
-import copy
 import re
 import reprlib
 
-import pytest
 from helpers import configurations
+from helpers.configurations import changed, problems
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chatterjee1995.sections.configuration import configuration
-from impact_damper.command.section import ConfigurationError, check_file, dotted
+from impact_damper.command.section import ConfigurationError, dotted
 
 SMALL = configurations.small()
 ALLOWED = re.compile(r"(: must |: name must be |: unknown key; known: \w|: missing; needed )")
@@ -46,15 +45,6 @@ PLACES = dict(places(SMALL))
 # Sections with entries that have names.
 SECTIONS = {path for path in PLACES if len(path) == 2 and isinstance(PLACES[path], dict)}
 SECTIONS = {path[:1] for path in SECTIONS if path[0] != "captions"}
-
-
-def changed(path, value):
-    """Return the small configuration with another value at a path."""
-    config = parent = copy.copy(SMALL)
-    for key in path[:-1]:
-        parent[key] = parent = copy.copy(parent[key])
-    parent[path[-1]] = value
-    return config
 
 
 def faults():
@@ -90,22 +80,11 @@ def faults():
 FAULTS = list(faults())
 
 
-def problems(config):
-    """Return the lines with which a configuration is refused."""
-    with pytest.raises(ConfigurationError) as caught:
-        configuration(config)
-    return str(caught.value).split("\n")
-
-
-def test_the_small_configuration_is_accepted():
-    configuration(SMALL)
-
-
 @settings(max_examples=200)
 @given(st.sampled_from(FAULTS))
 def test_what_is_wrong_is_told(fault):
     path, value, told = fault
-    lines = problems(changed(path, value))
+    lines = problems(changed(SMALL, path, value))
     assert all(line.isprintable() and ALLOWED.search(line) for line in lines), lines
     assert any(line.startswith(told) for line in lines), (told, lines)
 
@@ -115,20 +94,9 @@ def test_what_is_wrong_is_told(fault):
 def test_nothing_at_any_place_is_worse_than_rejected(path, value):
     """A random value is refused, or it is accepted and has the type of the valid value."""
     try:
-        configuration(changed(path, value))
+        configuration(changed(SMALL, path, value))
     except ConfigurationError as error:
         assert all(ALLOWED.search(line) for line in str(error).split("\n"))
     else:
         types = {type(value), type(PLACES[path])}
         assert len(types) == 1 or types == {int, float}
-
-
-@settings(max_examples=200)
-@given(st.binary(max_size=200) | st.text(max_size=200).map(str.encode))
-def test_no_file_is_worse_than_rejected(tmp_path_factory, content):
-    file = tmp_path_factory.mktemp("file") / "mine.yaml"
-    file.write_bytes(content)
-    try:
-        check_file(file)
-    except ConfigurationError as error:
-        assert all(line.startswith("mine.yaml") for line in str(error).split("\n"))

@@ -3,12 +3,12 @@
 Wrong single values are tried by `test_bad_configurations`, here combinations and files.
 """
 
-import copy
 import subprocess
 import sys
 
 import pytest
 from helpers import configurations
+from helpers.configurations import problems
 from helpers.running import ROOT
 
 from chatterjee1995.sections.configuration import configuration, without_left_out
@@ -18,22 +18,9 @@ from impact_damper.command.section import ConfigurationError, check_file
 PAPER, SMALL = configurations.read(), configurations.small()
 
 
-def problems(config):
-    """Return the lines with which a configuration is refused."""
-    with pytest.raises(ConfigurationError) as caught:
-        configuration(config)
-    return str(caught.value).splitlines()
-
-
-def changed(path, value, config=PAPER):
-    """Return the paper's configuration, or another one, with one value changed."""
-    config = copy.deepcopy(config)
-    *parents, key = path.split("/")
-    place = config
-    for name in parents:
-        place = place[name]
-    place[key] = value
-    return config
+def changed(path, value):
+    """Return the paper's configuration with another value at a path such as "search/starts"."""
+    return configurations.changed(PAPER, path.split("/"), value)
 
 
 @pytest.mark.parametrize(
@@ -46,8 +33,8 @@ def changed(path, value, config=PAPER):
     ],
 )
 def test_the_paper_is_accepted_and_so_are_valid_extremes(path, value):
-    configuration(PAPER)
-    configuration(changed(path, value))
+    for config in (PAPER, SMALL, changed(path, value)):
+        configuration(config)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +75,7 @@ def test_what_contradicts_is_answered_with_what_is_allowed(path, value, told):
 def test_each_problem_has_its_line():
     config = changed("seed", -1)
     config["contact_stiffness"] = -2000
-    del config["curves"]["figure_10"]["oscillator"]
+    config = configurations.changed(config, ("curves", "figure_10", "oscillator"), 1)
     told = [line.split(" ")[0].rstrip(":") for line in problems(config)]
     assert told == ["contact_stiffness", "curves.figure_10.oscillator", "seed"]
     assert problems(None) == ["configuration = None: must be keys with values"]

@@ -1,6 +1,5 @@
 """Faults of a run that can be tried quickly; `make faults` tries all (tests/faults)."""
 
-import errno
 import os
 import subprocess
 import sys
@@ -9,7 +8,6 @@ import time
 import pytest
 from faults.project import DELETE, Project
 
-from chatterjee1995.workflow.job import _report_file_errors
 from chatterjee1995.workflow.kernels import compiled_kernels
 
 pytestmark = pytest.mark.workflow
@@ -136,27 +134,3 @@ def test_the_timing_of_a_job_is_its_own(megabytes, tmp_path):
     assert 0.5 < timing["seconds"] < 30
     assert 0 < timing["cpu_seconds"] < 10
     assert megabytes < timing["peak_memory_mb"] < megabytes + 100
-
-
-FULL = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-
-def hidden():
-    """Return the error that closing a file raises after writing to it has failed."""
-    try:
-        try:
-            raise FULL
-        finally:
-            raise AttributeError("no position")
-    except AttributeError as error:
-        return error
-
-
-@pytest.mark.parametrize("error", [FULL, hidden()])
-def test_a_full_disk_is_told_also_if_another_error_hides_it(error, capsys, monkeypatch):
-    monkeypatch.setattr(sys, "excepthook", lambda *_: print("Traceback", file=sys.stderr))
-    _report_file_errors()
-    sys.excepthook(type(error), error, None)
-    told = capsys.readouterr().err
-    assert "Error: [Errno 28] No space left on device" in told
-    assert ("Traceback" in told) == (error is not FULL)
