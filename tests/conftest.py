@@ -1,7 +1,4 @@
-"""Fixtures for tests in several rooms: known periodic orbits, and integrators by heyoka.py.
-
-Random examples of hypothesis are the same in every run, and no clock decides whether they pass.
-"""
+"""Fixtures for tests in several rooms: known periodic orbits, and integrators by heyoka.py."""
 
 import gc
 

@@ -1,7 +1,4 @@
-"""A wrong argument of a public function raises at once.
-
-The message names the argument, its value and what is allowed. hypothesis draws the wrong values.
-"""
+"""A wrong argument of a public function raises at once."""
 
 import math
 
@@ -181,10 +178,7 @@ FUNCTIONS = {
         {"values": None},
         {"values": no_numbers | st.sampled_from([1, 2.0, [1, 2], OSCILLATOR, np.arange(3)])},
     ),
-    "periodic_orbit": (
-        MOVING,
-        motion | {"state": state, "period": count, "phase": no_start},
-    ),
+    "periodic_orbit": (MOVING, motion | {"state": state, "period": count, "phase": no_start}),
     "orbit_branches": (
         MOVING | {"span": (1.9, 2.1)},
         motion

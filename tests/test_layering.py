@@ -1,8 +1,4 @@
-"""Imports in the package run one way: from a room to itself or to a lower room.
-
-A room is a subpackage of one of the two packages. All imports in its files are read with `ast`,
-also those inside a function, so that none can hide an import of a higher room or a circle.
-"""
+"""Imports in the package run one way: from a room to itself or to a lower room."""
 
 import ast
 from collections import Counter
@@ -48,11 +44,7 @@ FILES = {
 
 
 def imports_of(text, modules):
-    """Return the set of those `modules` from which a source text imports.
-
-    `from package import name` imports the module `package.name` if it exists, otherwise a name that
-    `__init__.py` of the package defines, so that the import counts as one of the package.
-    """
+    """Return the set of those `modules` from which a source text imports."""
     found = set()
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):

@@ -1,7 +1,4 @@
-"""The built documentation: links and pictures exist, and a browser finds no error.
-
-`make docs` builds the site and runs these tests; without a site they are skipped.
-"""
+"""The built documentation: links and pictures exist, and a browser finds no error."""
 
 import re
 import shutil

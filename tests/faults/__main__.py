@@ -1,8 +1,4 @@
-"""Run all trials or chosen kinds of trials, and print the outcome of each.
-
-A trial injects a fault, such as a kill or a full disk, into a run of the workflow. An undisturbed
-run has no fault.
-"""
+"""Run all trials or chosen kinds of trials, and print the outcome of each."""
 
 import argparse
 import shutil
@@ -25,11 +21,7 @@ KINDS = {trials.__name__: trials for part in (kills, files, disks) for trials in
 
 
 class Context:
-    """What all trials share: a folder, the outputs of an undisturbed run, and random generators.
-
-    `seconds` is the duration of an undisturbed run, and `moments` the number of random moments at
-    which each kind of process is killed.
-    """
+    """What all trials share: a folder, the outputs of an undisturbed run, and random generators."""
 
     def __init__(self, folder, given):
         self.folder, self.seed, self.moments = folder, given.seed, given.moments

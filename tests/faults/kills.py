@@ -1,7 +1,4 @@
-"""`kill -9` of Snakemake and of a job, and Ctrl-C, at random moments of a run.
-
-A trial is a run of the workflow with a kill, and a second run that must recover.
-"""
+"""`kill -9` of Snakemake and of a job, and Ctrl-C, at random moments of a run."""
 
 import os
 import signal
@@ -33,10 +30,7 @@ def job_of(process):
 
 
 def wait_for_end_of_orphans(folder):
-    """Wait until no job of the folder is running; raise Fault after 10 s.
-
-    A job must end soon after Snakemake was killed, even if it has not finished.
-    """
+    """Wait until no job of the folder is running; raise Fault after 10 s."""
     scripts, end = f"{folder}/.snakemake/scripts", time.monotonic() + 10
     while any(
         scripts in " ".join(process.info["cmdline"] or [])

@@ -1,7 +1,4 @@
-"""A small copy of the project, its runs, and the comparison with an undisturbed run.
-
-A trial runs the command of the README (the documented command), with a fault such as a kill.
-"""
+"""A small copy of the project, its runs, and the comparison with an undisturbed run."""
 
 import os
 import re
@@ -43,10 +40,7 @@ def end_all():
 
 
 def job_of(path):
-    """Return the name of the job that makes an output.
-
-    The figures and tables in TARGETS belong to one chapter, and one job makes them.
-    """
+    """Return the name of the job that makes an output."""
     folder = Path(path).parent.name
     return "chapter" if folder in ("figures", "tables") else str(Path(path).with_suffix(""))
 
@@ -62,16 +56,7 @@ def expect(holds, what):
 
 
 class Project:
-    """A copy of the project in another folder.
-
-    Parameters
-    ----------
-    folder : pathlib.Path
-        Folder of the copy, made if it does not exist.
-    like : Project
-        A copy of the project that is copied with its results. Without it the project itself is
-        copied, without results.
-    """
+    """A copy of the project in another folder."""
 
     def __init__(self, folder, like=None):
         self.folder = folder

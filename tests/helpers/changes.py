@@ -1,7 +1,4 @@
-"""Changes of the invented datasets of `made_up.world`, each of which makes a claim fail.
-
-A change is a function that takes the datasets, keyed by stage and name, and replaces one of them.
-"""
+"""Changes of the invented datasets of `made_up.world`, each of which makes a claim fail."""
 
 import json
 
@@ -62,11 +59,7 @@ def unstable(name, lower, upper):
 
 
 def share(name, kind, subharmonic):
-    """Return the change of the share of releases that lead to the subharmonic.
-
-    `kind` is the motion before the release, "unsettled" or "quiet". The other releases lead to the
-    non-resonance motion.
-    """
+    """Return the change of the share of releases that lead to the subharmonic."""
 
     def new(old):
         case = old.copy(deep=True)

@@ -1,8 +1,4 @@
-"""Invented datasets of every stage, from closed forms, in which every claim of the paper holds.
-
-With damper there are a small motion (quiet), and below the suppression band a large one (high). A
-function with the name of a stage returns a dataset of this stage.
-"""
+"""Invented datasets of every stage, from closed forms, in which every claim of the paper holds."""
 
 import json
 from functools import cache
@@ -101,11 +97,7 @@ def harmonic_balance(name):
 
 
 def motions(*columns):
-    """Return variables of motions over frequency.
-
-    Each motion is a mask of the frequencies at which it exists, and a dict of the variables that
-    differ from a settled motion of period 1.
-    """
+    """Return variables of motions over frequency."""
     absent = {"outcome": flag("outcome", "absent"), "period": 0, "motion_starts": 0}
     absent |= {"contacts": np.nan, "maximum_displacement": np.nan}
     usual = {"outcome": flag("outcome", "settled"), "period": 1, "motion_starts": 1}
@@ -135,10 +127,7 @@ def free_branches(damping, linear=0.0):
 
 
 def damped_branches(name, restitution=1.0, third=None):
-    """Return high orbits up to the band, quiet orbits, and orbits of period 3 of the size `third`.
-
-    The orbits that the high solutions of harmonic balance (7) approximate are unstable.
-    """
+    """Return high orbits, quiet orbits, and orbits of period 3 of the size `third`."""
     start, mass_ratio, damping, _ = CURVES[name]
     peak = PEAKS[damping]
     below, all_over = np.linspace(0.5, start, 101) * peak, np.linspace(0.5, 1.5, 201) * peak
@@ -173,10 +162,7 @@ def response(name, restitution=1.0):
 
 
 def matched_sweep():
-    """Return a response with three motions: quiet, chaotic, and one that no start reached.
-
-    Quiet and chaotic motion change places in the list from frequency to frequency.
-    """
+    """Return a response with three motions: quiet, chaotic, and one that no start reached."""
     quiet, chaos, absent = (flag("outcome", name) for name in ("settled", "chaotic", "absent"))
     starts = np.array([[5, 5, 0], [1, 9, 0], [10, 0, 0]])
     data = {
@@ -206,10 +192,7 @@ def collisions():
 
 
 def sweep(damping, mass_ratio, restitution=1.0):
-    """Return a clearance sweep with a flat optimum 5 % above the rule, smaller for smaller e.
-
-    The displacement becomes slightly smaller with larger mass ratio.
-    """
+    """Return a clearance sweep with a flat optimum 5 % above the rule, smaller for smaller e."""
     frequency = PEAKS[damping]
     rule = 1 / (mass_ratio * frequency**2)
     best = rule * (1.05 - 0.5 * (1 - restitution))
@@ -267,10 +250,7 @@ def destinations(subharmonic_share):
 
 
 def migration(frequency, subharmonic_share):
-    """Return four runs of the controller, and releases of an unsettled and of the quiet motion.
-
-    Run k (counted from 1) switches the damper k times, and the last release reaches the goal.
-    """
+    """Return four runs of the controller, and releases of an unsettled and of the quiet motion."""
     names, shares = destinations([subharmonic_share] * 2)
     kinds = list(DAMPED_MOTION)[1:]
     counts = np.zeros((len(kinds), len(names)), int)
@@ -314,10 +294,7 @@ def release_scan(frequency, subharmonic_share):
 
 
 def policies(case, frequency):
-    """Return releases by state, hold and phase, with shares of success 0.1, 0.2 and 0.3.
-
-    Cycles, time with the damper and impacts are 100 times these shares.
-    """
+    """Return releases by state, hold and phase, with shares of success 0.1, 0.2 and 0.3."""
     shares = (np.array([0.1, 0.2, 0.3])[:, None] + [0, -0.05, 0.05])[None, None]
     dims = ("case", "frequency", "policy", "bound")
     cycles = np.repeat(100 * shares[:, :, :, None], 2, axis=3)

@@ -26,9 +26,6 @@ def pointed(kernel):
 
 
 def part(module, name):
-    """Return a kernel of a module made by `instance` as a function of arrays.
-
-    Its machine code is cached with that of the package.
-    """
+    """Return a kernel of a module made by `instance` as a function of arrays."""
     call = compiled(getattr(module, name)).ctypes
     return lambda *arrays: call(*[each.ctypes.data_as(NUMBERS) for each in arrays])

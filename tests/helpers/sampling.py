@@ -22,11 +22,7 @@ def flow_map(p, y, begin, periods, half, tolerance):
 
 
 def gauss(breaks, longest=0.1, order=12):
-    """Return nodes and weights of Gauss-Legendre quadrature from the first to the last break.
-
-    Each interval between breaks is divided into panels no longer than `longest`, so the quadrature
-    converges spectrally for functions that are smooth between the breaks.
-    """
+    """Return nodes and weights of Gauss-Legendre quadrature from the first to the last break."""
     x, w = np.polynomial.legendre.leggauss(order)
     nodes, weights = [], []
     for left, right in zip(breaks[:-1], breaks[1:], strict=True):

@@ -7,19 +7,7 @@ from scipy.integrate import solve_ivp
 
 
 class SiMotion:
-    """A machine, with or without a damper, under a given force.
-
-    A state consists of displacement and velocity of the machine, and of displacement and velocity
-    of the machine relative to the loose mass. The integrated vector also has the work of the force,
-    of the machine's dashpot and of the dashpots at the walls, and the impulse of the walls.
-
-    Parameters
-    ----------
-    machine : Machine
-    damper : MachineDamper or None
-    force : callable
-        Force in N as a function of the time in s.
-    """
+    """A machine, with or without a damper, under a given force."""
 
     def __init__(self, machine, damper, force):
         self.machine, self.damper, self.force = machine, damper, force

@@ -27,11 +27,7 @@ def converged(p, state, phase, symmetric):
 
 
 def linear_orbit(oscillator, damper, frequency, ratio):
-    """Return the symmetric orbit near Masri and Caughey's motion between rigid walls.
-
-    The orbit is first found with a linear spring. Then the coefficient of the cubic spring is
-    increased in steps.
-    """
+    """Return the symmetric orbit near Masri and Caughey's motion between rigid walls."""
     linear = replace(oscillator, cubic=0.0)
     clearance, phase, state = flight_with_speed(linear, damper, frequency, ratio)
     damper = replace(damper, clearance=clearance)

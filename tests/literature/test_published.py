@@ -1,7 +1,4 @@
-"""Published numbers and closed forms against the orbits and motions computed here.
-
-`docs/explanation/literature.md` has the table of the differences.
-"""
+"""Published numbers and closed forms against the orbits and motions computed here."""
 
 from dataclasses import replace
 from itertools import product
@@ -63,10 +60,7 @@ def _symmetric(p, state, phase):
 
 @pytest.mark.parametrize("damping_share", [0.2, 0.5])
 def test_optimum_of_a_light_mass_is_met_to_first_order(damping_share):
-    """Gendelman; Gourc et al.: at resonance the smallest motion has impacts at Z1 = 0.
-
-    The first harmonics balance at the clearance 1/(2 z q + 8 rm/pi^2) of the static deflection.
-    """
+    """Gendelman; Gourc et al.: at resonance the smallest motion has impacts at Z1 = 0."""
     errors = []
     for mass in (0.004, 0.002):
         loss = 2 / np.pi * (1 - 0.5) / (1 + 0.5)

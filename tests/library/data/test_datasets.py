@@ -51,10 +51,7 @@ def test_every_dataset_survives_a_file(made, tmp_path):
 
 
 def test_registry():
-    """Every variable has units and a name.
-
-    Its flags are distinct, fit into a byte and are single words.
-    """
+    """Every variable has units and a name."""
     for name, entry in VARIABLES.items():
         assert name.isidentifier() and entry.long_name
         assert isinstance(entry.dims, tuple)

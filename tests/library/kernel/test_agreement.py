@@ -24,10 +24,7 @@ def test_there_are_ten_thousand_starts():
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 @pytest.mark.parametrize("kernel", KERNELS)
 def test_kernel_agrees_with_the_reference(kernel, tolerance, kind):
-    """Numbers of contacts agree, and states agree within 10 tolerances times the growth of errors.
-
-    Starts for which rounding decides whether a contact takes place are counted separately.
-    """
+    """Contacts agree in number, and states within 10 tolerances times the growth of errors."""
     error, differs, apart = agreement(kernel, kind, tolerance)
     wrong = ~apart & (differs | ~(error < 10))
     assert not np.any(wrong), "\n".join(

@@ -1,10 +1,4 @@
-"""The 80-bit reference program against other methods, laws of mechanics, and other tolerances.
-
-One of the other methods is the Taylor integrator heyoka.py, run with 80-bit numbers.
-
-Z2 is the displacement of the primary mass relative to the loose mass. Numbers in brackets are
-equations of the paper.
-"""
+"""The 80-bit reference program against other methods, laws of mechanics, and other tolerances."""
 
 import json
 import math
@@ -80,11 +74,7 @@ def extrapolate(p, touching, t, y, length, columns=8):
 
 
 def test_replay_by_extrapolation(case):
-    """Integrate between the logged events by another method, extrapolation.
-
-    The loose mass is then at a wall at each event, and between two events on the side of the wall
-    that the log states.
-    """
+    """Integrate between the logged events by another method, extrapolation."""
     p, state, start, times = case
     run = extended.run(p, state, start, times)
     allowed = 10 * DIGITS * run.growth

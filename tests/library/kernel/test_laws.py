@@ -1,7 +1,4 @@
-"""Laws that hold whatever the integrator: momentum, energy, volume, symmetry, restitution.
-
-Symbols are as in `system.parameters`. Numbers in brackets are equations of the paper.
-"""
+"""Laws that hold whatever the integrator: momentum, energy, volume, symmetry, restitution."""
 
 import math
 
@@ -116,19 +113,14 @@ def isolated_contact(mass_ratio, restitution, stiffness):
 @pytest.mark.parametrize("mass_ratio", [0.01, 0.12, 1.0, 10.0])
 @pytest.mark.parametrize("restitution", [0.3, 0.6, 0.75, 0.9, 1.0])
 def test_restitution_of_an_isolated_contact(mass_ratio, restitution):
-    """With the dashpot by (25) the restitution is e in the limit of an infinite stiffness r1.
-
-    In this limit the primary mass gets the velocity that the conservation of momentum requires.
-
-    Forcing and springs, which also act during a contact, cause an error in proportion to the time
-    in contact, of order r1^(-1/2).
-    """
+    """With the dashpot by (25) the restitution is e in the limit of an infinite stiffness r1."""
     stiffness = np.array([1e5, 1e7, 1e9])
     seen = [isolated_contact(mass_ratio, restitution, r1) for r1 in stiffness]
     found, velocity, duration = np.array(seen).T
     impulse = -(1 + restitution) * mass_ratio / (1 + mass_ratio)
     limit = np.array([restitution, impulse])
     errors = np.abs(np.array([found, velocity]) - limit[:, None])
+    # Forcing and springs act during a contact too: an error of order r1^(-1/2).
     assert np.all(errors[:, -1] < 3 * duration[-1])
     assert np.all(errors[:, 2] < 0.11 * errors[:, 1] + 1e-12)
     assert np.all(errors[:, 1] < 0.25 * errors[:, 0] + 1e-12)

@@ -1,8 +1,4 @@
-"""Events against exact arithmetic, steps against their order, tangents against differences.
-
-A lane holds one of several trajectories that are integrated side by side. Symbols are as in
-`system.parameters`.
-"""
+"""Events against exact arithmetic, steps against their order, tangents against differences."""
 
 import math
 from fractions import Fraction
@@ -94,10 +90,7 @@ def found(lanes, searched, series_given, length, **numbers):
 
 
 def first_contact(lanes, c, offset, drift, clearance, length, expecting=()):
-    """Return time and wall (0 for none) of the first contact, with Z2 = Z1 + offset + drift t.
-
-    c are the coefficients of Z1, lowest power first.
-    """
+    """Return time and wall (0 for none) of the first contact, with Z2 = Z1 + offset + drift t."""
 
     def series_given(bend):
         x = Polynomial([*c[:2], *(bend * np.array(c[2:]))])
@@ -135,10 +128,7 @@ def first_separation(lanes, c, side, length, stiffness, dashpot, inverse_mass):
 
 
 def check_contact(lanes, c, offset, drift, clearance, length, expecting=()):
-    """Assert that the distance to a wall is zero at the time found, and that no wall was passed.
-
-    If a contact was expected but not found, the step may end early.
-    """
+    """Assert that the distance to a wall is zero at the time found, and that no wall was passed."""
     t, side = first_contact(lanes, c, offset, drift, clearance, length, expecting)
     path = [Fraction(float(a)) for a in [*c, *[0.0] * (2 - len(c))]]
     path[0] += Fraction(offset)

@@ -59,12 +59,7 @@ def test_flights_and_contacts_against_dop853(oscillator):
         ends, ends[1:], states, states[1:], strict=False
     ):
         found = solve_ivp(
-            equation.rates(p, side),
-            (begin, finish),
-            first,
-            method="DOP853",
-            rtol=1e-12,
-            atol=1e-13,
+            equation.rates(p, side), (begin, finish), first, method="DOP853", rtol=1e-12, atol=1e-13
         )
         assert_allclose(found.y[:, -1], last, atol=2e-10)
         wall = side if side else np.sign(last[2])
@@ -122,10 +117,7 @@ def test_linear_oscillator_in_closed_form(damping, force):
 
 @pytest.mark.parametrize("cubic", [-0.2, 0.0, 0.7])
 def test_energy_without_forcing_and_damping(cubic):
-    """With the smallest damping allowed the energy is constant.
-
-    A motion with less energy than the barrier of a softening spring stays below the barrier.
-    """
+    """With the smallest damping allowed the energy is constant."""
     p = pack(Oscillator(1e-9, 1.0, cubic, 0.0), None, 1.0)
     barrier = 1 / math.sqrt(0.2)
     speed = math.sqrt(

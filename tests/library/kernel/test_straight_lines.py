@@ -1,7 +1,4 @@
-"""`straight`, which compiles lines of arithmetic, against Python, and the errors that it raises.
-
-A lane holds one of several trajectories that are integrated side by side.
-"""
+"""`straight`, which compiles lines of arithmetic, against Python, and the errors that it raises."""
 
 import numpy as np
 import pytest

@@ -1,8 +1,4 @@
-"""Each field of `Oscillator` has an effect, or is refused, everywhere that its term matters.
-
-The tests go through the fields of the dataclass, so a new field is tested in all places without a
-change of this module. A message names the file in which its term is missing.
-"""
+"""Each field of `Oscillator` has an effect, or is refused, everywhere that its term matters."""
 
 import re
 from dataclasses import replace

@@ -51,11 +51,7 @@ def test_two_equal_materials_halve_the_modulus():
 
 
 def test_pressure_is_that_over_the_circle_of_contact():
-    """The largest pressure is 3 F/(2 pi a^2), and a^3 = 3 F R/(4 E*).
-
-    F is the contact force, a the radius of the circle, R the radius of the ball, and E* the contact
-    modulus (Johnson, 1985, equations 4.22 and 4.24).
-    """
+    """The largest pressure is 3 F/(2 pi a^2), and a^3 = 3 F R/(4 E*)."""
     contact, force = HertzContact("1 cm", *STEEL), 300.0
     area = math.pi * (3 * force * 0.01 / (4 * contact.modulus)) ** (2 / 3)
     assert contact.pressure(force) == pytest.approx(1.5 * force / area, rel=1e-13)
@@ -74,10 +70,7 @@ def test_pressure_is_that_over_the_circle_of_contact():
     ],
 )
 def test_a_ball_yields_from_1_6_times_the_yield_strength(loose, wall, share, expected):
-    """Yielding begins at a largest pressure of 1.6 times the yield strength.
-
-    See section 6.1 of Johnson, 1985.
-    """
+    """Yielding begins at a largest pressure of 1.6 times the yield strength."""
     contact = HertzContact(0.01, *STEEL, loose, *STEEL, wall)
     assert contact.yields(share * 1.6 * 400e6) == expected
 

@@ -56,11 +56,7 @@ def test_numbers_are_well_scaled(name):
     assert oscillator.linear_frequency**2 + abs(oscillator.cubic) == pytest.approx(1, rel=1e-14)
 
 
-@given(
-    st.floats(1e-6, 1e6),
-    st.just(0) | st.floats(1e-9, 1e9),
-    st.just(0) | st.floats(1e-9, 1e15),
-)
+@given(st.floats(1e-6, 1e6), st.just(0) | st.floats(1e-9, 1e9), st.just(0) | st.floats(1e-9, 1e15))
 def test_the_static_deflection_carries_the_force(force, linear, cubic):
     if linear == cubic == 0:
         return

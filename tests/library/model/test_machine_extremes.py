@@ -1,7 +1,4 @@
-"""Extreme machines and dampers: every motion ends within its limit of forcing cycles.
-
-Several parameters are extreme together, in a Latin hypercube.
-"""
+"""Extreme machines and dampers: every motion ends within its limit of forcing cycles."""
 
 import math
 from itertools import cycle

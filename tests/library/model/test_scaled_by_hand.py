@@ -1,8 +1,4 @@
-"""Functions called with a machine, against the same functions called with numbers scaled by hand.
-
-The machine is the paper's oscillator with lengths in units of 2 mm, times of 10 ms and masses of
-3 kg. `Machine.scales` has other units.
-"""
+"""Functions called with a machine, against the same calls with numbers scaled by hand."""
 
 import math
 

@@ -79,10 +79,7 @@ def test_orbits_of_a_branch_are_those_of_three_bodies_in_space(point):
 
 
 def test_rule_for_the_clearance_in_closed_form():
-    """At resonance a base with the acceleration a exerts the force k a/w0^2 by the spring.
-
-    The dashpot adds the fraction 2 zeta^2 of this force.
-    """
+    """At resonance a base with the acceleration a exerts the force k a/w0^2 by the spring."""
     square = STIFFNESS / MASS
     force = STIFFNESS * ACCELERATION / square * (1 + 2 * RATIO**2)
     expected = force / (0.05 * MASS * square)

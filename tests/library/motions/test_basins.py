@@ -1,7 +1,4 @@
-"""Basins: against SciPy's integrator, the symmetry of the oscillator, and stable manifolds.
-
-Symbols are as in `system.parameters`.
-"""
+"""Basins: against SciPy's integrator, the symmetry of the oscillator, and stable manifolds."""
 
 import numpy as np
 import pytest

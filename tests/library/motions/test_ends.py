@@ -1,7 +1,4 @@
-"""Motions that lead to no orbit escape over a barrier of a softening spring, or come to rest.
-
-Z1 is the displacement of the primary mass.
-"""
+"""Motions that lead to no orbit escape over a barrier of a softening spring, or come to rest."""
 
 import math
 

@@ -1,8 +1,4 @@
-"""Envelopes against samples of a motion, and the largest values of polynomials.
-
-An envelope is the largest |Z1| in each of several windows of time. Z1 is the displacement of the
-primary mass.
-"""
+"""Envelopes against samples of a motion, and the largest values of polynomials."""
 
 import math
 

@@ -1,7 +1,4 @@
-"""Lives of chaotic motions, against closed forms and longer runs.
-
-Symbols are as in `system.parameters`.
-"""
+"""Lives of chaotic motions, against closed forms and longer runs."""
 
 import numpy as np
 import pytest
@@ -20,10 +17,7 @@ RUNNING = {"workers": 2, "progress": None}
 
 @pytest.fixture(scope="module")
 def violent():
-    """Return parameters and states of chaotic motions of figure 5 (a), at two frequencies.
-
-    At W = 1.1 the chaos lasts, and at W = 1.6 it is a transient.
-    """
+    """Return parameters and states of chaotic motions of figure 5 (a), at two frequencies."""
     parameters = np.array([pack(PAPER, DESIGN, frequency) for frequency in (1.1, 1.6)])
     starts = np.random.default_rng(7).uniform(-1.5, 1.5, (48, 4))
     states = []

@@ -1,7 +1,4 @@
-"""Stable orbits with small basins of attraction, which Newton's method finds and starts miss.
-
-Z1 is the displacement of the primary mass.
-"""
+"""Stable orbits with small basins of attraction, which Newton's method finds and starts miss."""
 
 import numpy as np
 import pytest

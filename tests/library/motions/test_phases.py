@@ -1,8 +1,4 @@
-"""States of datasets carry their phase, and every function that takes a state begins there.
-
-W is the forcing frequency, and T the time. A strobe is the time of the phase W T = pi/2 in a
-forcing cycle.
-"""
+"""States of datasets carry their phase, and every function that takes a state begins there."""
 
 import numpy as np
 import pytest

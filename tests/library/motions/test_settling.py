@@ -1,7 +1,4 @@
-"""Settled motions, chaos, and measures of a motion, each compared with another computation.
-
-Symbols are as in `system.parameters`.
-"""
+"""Settled motions, chaos, and measures of a motion, each compared with another computation."""
 
 import math
 
@@ -28,10 +25,7 @@ def settled(p, state, tolerance=1e-9, patience=300, limit=1500, watched=50):
 
 
 def divergence_of_neighbours(p, state, periods, skipped=100, apart=1e-7, batches=20):
-    """Return the rate at which two neighbouring motions diverge, and its standard error.
-
-    After every period the second motion is moved back to the distance `apart` from the first.
-    """
+    """Return the rate at which two neighbouring motions diverge, and its standard error."""
     period, strobe = 2 * math.pi / p[0], 0.5 * math.pi / p[0]
     work = single.workspace()
 

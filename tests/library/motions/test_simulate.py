@@ -1,8 +1,4 @@
-"""Single motions with labels, random starts, and ensembles on several threads.
-
-Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
-forcing frequency, and T the time.
-"""
+"""Single motions with labels, random starts, and ensembles on several threads."""
 
 import math
 

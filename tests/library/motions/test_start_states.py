@@ -1,7 +1,4 @@
-"""Starts of searches are scaled by the free motions; a narrow ball of starts misses motions.
-
-Free motions are motions without the damper.
-"""
+"""Starts of searches are scaled by the free motions; a narrow ball of starts misses motions."""
 
 import math
 import warnings
@@ -27,12 +24,8 @@ SETTLING = Settling()
 
 
 def hardening_machine():
-    """Return oscillator, damper, frequency, and unit of length in mm, of a machine in SI units.
-
-    m = 12 kg, k = 2e5 N/m, k3 = 4e9 N/m^3, damping ratio 0.5 %, F = 40 N, 30 Hz. The loose mass has
-    5 % of the mass m and a gap of 3 mm.
-    """
-    mass, stiffness, cubic, force = 12.0, 2e5, 4e9, 40.0
+    """Return oscillator, damper, frequency, and unit of length in mm, of a machine in SI units."""
+    mass, stiffness, cubic, force = 12.0, 2e5, 4e9, 40.0  # kg, N/m, N/m^3, N
     length = (force / cubic) ** (1 / 3)
     rate = math.sqrt(cubic * length**2 / mass)
     natural = math.sqrt(stiffness / mass) / rate
@@ -110,10 +103,7 @@ def test_a_radius_gives_the_ball_and_warns_only_where_it_is_narrow():
 
 
 def test_bound_on_what_was_never_seen():
-    """All of n starts miss a motion with the share `missed_share(n)` with just below 5 %.
-
-    This probability is (1 - share)^n.
-    """
+    """All of n starts miss a motion with the share `missed_share(n)` with just below 5 %."""
     for n in (24, 96, 1000):
         assert (1 - missed_share(n)) ** n < 0.05 < (1 - 0.9 * missed_share(n)) ** n * 1.1
     assert missed_share(0) == missed_share(1) == 1

@@ -1,7 +1,4 @@
-"""Motions along a sweep: periods, branches, and ends of branches.
-
-Symbols are as in `system.parameters`.
-"""
+"""Motions along a sweep: periods, branches, and ends of branches."""
 
 import numpy as np
 import pytest

@@ -1,8 +1,4 @@
-"""Undecided motions that are run longer: spectra, multipliers, and integration over a period.
-
-Z1 is the displacement of the primary mass. A strobe is the time of the forcing phase pi/2 in each
-cycle.
-"""
+"""Undecided motions that are run longer: spectra, multipliers, and integration over a period."""
 
 import math
 
@@ -61,10 +57,7 @@ def test_frequencies_are_those_of_the_spectrum(torus):
 
 
 def test_torus_turns_as_the_orbit_it_splits_off_from():
-    """At a Neimark-Sacker point the rotation number is the angle of the multiplier exp(i angle).
-
-    The torus splits off from an orbit of period 3, which becomes unstable towards low frequencies.
-    """
+    """At a Neimark-Sacker point the rotation number is the angle of the multiplier exp(i angle)."""
     p = pack(PAPER, INELASTIC, 1.6)
     state = np.array([0.7796012138, 0.1703671945, 0.8163322819, -0.9718488376])
     p, (state, multiplier) = follow_stable(p, state, 3, FREQUENCY, 1.55)

@@ -1,9 +1,4 @@
-"""Folds and losses of symmetry of the oscillator without a damper, compared with AUTO-07p.
-
-AUTO-07p is a continuation program. It finds orbits by collocation over the whole period, this
-package by shooting. AUTO's numbers are stored in references/auto/folds.csv, which
-references/auto/folds.py writes.
-"""
+"""Folds and losses of symmetry of the oscillator without a damper, compared with AUTO-07p."""
 
 import pandas as pd
 import pytest

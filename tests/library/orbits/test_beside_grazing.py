@@ -1,11 +1,4 @@
-"""Branches close to a grazing: derivatives, ends at other branches, and switching there.
-
-At a grazing the loose mass reaches a wall with zero speed. The damper is that of figure 10. Its
-branches of period 2 and of asymmetric orbits of period 3 begin on other branches, at frequencies
-that differ from the frequency of a grazing by less than 1e-9.
-
-W is the forcing frequency and W T the phase of the forcing.
-"""
+"""Branches close to a grazing: derivatives, ends at other branches, and switching there."""
 
 import numpy as np
 import pytest
@@ -56,10 +49,7 @@ def asymmetric(thrice):
 
 
 def test_ends_of_a_doubled_branch_are_doublings_of_the_other(twice):
-    """A branch of period 2 ends where a branch of period 1 has period doublings.
-
-    The branch of period 1 is followed independently, from an orbit of its own.
-    """
+    """A branch of period 2 ends where a branch of period 1 has period doublings."""
     value, state = 1.95, polished_orbit("inelastic").state
     other = follow_branch(family, find_orbit(family(value), state), value, (1.1, 2.0))
     walks = [other]

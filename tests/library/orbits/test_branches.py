@@ -1,10 +1,4 @@
-"""Branches of orbits: closed forms, simulation on both sides of events, ends, and symmetry.
-
-A branch is the curve of the periodic orbits over a parameter. An event is a point of a branch at
-which an orbit changes, such as a fold, at which the branch turns back, or a grazing, at which a
-contact appears with zero speed. Without the damper the resonance motion is the large motion of
-period 1. The quiet motion is the small symmetric motion for which a damper is designed.
-"""
+"""Branches of orbits: closed forms, simulation on both sides of events, ends, and symmetry."""
 
 from dataclasses import replace
 
@@ -95,10 +89,7 @@ def test_period_doubles_where_simulation_doubles_it():
 
 
 def test_quiet_motion_folds_into_the_unstable_large_one(quiet):
-    """The quiet motion and the unstable large motion lie on one branch.
-
-    The quiet motion is stable at frequencies above the fold.
-    """
+    """The quiet motion and the unstable large motion lie on one branch."""
     assert quiet.ends == ("range_ends", "range_ends") and quiet.lost == 0
     assert all(point.orbit.sequence == "+-" for point in quiet.points)
     assert_allclose(
@@ -111,11 +102,7 @@ def test_quiet_motion_folds_into_the_unstable_large_one(quiet):
 
 
 def test_isola_is_closed():
-    """The branch of the one-third subharmonic, a motion of period 3, is a closed curve.
-
-    It turns back at two folds. One of the two parts between the folds is stable up to the fold at
-    the largest frequency.
-    """
+    """The branch of the one-third subharmonic, a motion of period 3, is a closed curve."""
     response = frequency_response(PAPER, None, [1.8], starts=96)
     branches = orbit_branches(PAPER, None, span=(0.6, 2.6), motions=[response])
     third = int(np.flatnonzero(branches["branch_period"].values == 3)[0])

@@ -1,10 +1,4 @@
-"""Optimum clearance compared with simulations and closed forms; ends of sweep and branch.
-
-Z1 is the displacement of the primary mass, Z2 its displacement relative to the loose mass, W the
-forcing frequency, d0 the clearance, rm the mass ratio, r1 the contact stiffness and e the
-restitution. A start is an initial state. The quiet orbit is the small symmetric periodic motion for
-which a damper is designed.
-"""
+"""Optimum clearance compared with simulations and closed forms; ends of sweep and branch."""
 
 import numpy as np
 import pytest
@@ -58,10 +52,7 @@ def test_near_range_is_where_the_minimum_is_exceeded_by_a_tenth(sweeps, case):
 
 
 def test_kind_of_minimum(sweeps):
-    """With e = 1 the minimum is a kink, with e < 1 it is smooth.
-
-    At the kink the largest displacements at an impact and between impacts are equal.
-    """
+    """With e = 1 the minimum is a kink, with e < 1 it is smooth."""
     assert [int(sweep.optimum_kind) for sweep in sweeps] == [
         flag("optimum_kind", "kink"),
         flag("optimum_kind", "smooth"),
@@ -132,10 +123,7 @@ def test_optimum_at_the_edge_of_the_sweep():
 
 
 def test_no_quiet_motion(tmp_path):
-    """Beyond the fold of its branch there is no quiet motion.
-
-    The dataset is complete nevertheless.
-    """
+    """Beyond the fold of its branch there is no quiet motion."""
     sweep = run(INELASTIC | {"mass_ratio": 0.12}, 2.6, 3.0, points=3)
     assert np.all(sweep.quiet_status == flag("quiet_status", "absent"))
     assert sweep.optimum_kind == flag("optimum_kind", "not_found")

@@ -1,9 +1,4 @@
-"""Branches over several parameters, compared with closed forms and a scaling law.
-
-A branch is the curve of the periodic orbits over a parameter.
-
-Z1 is the displacement of the primary mass and W T the phase of the forcing.
-"""
+"""Branches over several parameters, compared with closed forms and a scaling law."""
 
 import numpy as np
 import pytest
@@ -44,10 +39,7 @@ def test_branch_of_a_linear_oscillator(parameter, span):
 
 
 def test_branches_over_force_and_cubic_agree_by_scaling():
-    """With k3, sqrt(k3) Z1 and sqrt(k3) F in place of 1, Z1 and F the equation is the same.
-
-    k3 is the cubic coefficient and F the force.
-    """
+    """With k3, sqrt(k3) Z1 and sqrt(k3) F in place of 1, Z1 and F the equation is the same."""
     oscillator = Oscillator(1.2, 1.0, 0.05, 1.0)
     state = at_strobe(harmonic(oscillator))
     cubic = orbit_branches(oscillator, None, FREQUENCY, state, span=(-0.02, 4.0), parameter="cubic")

@@ -1,7 +1,4 @@
-"""Orbits followed over a grid: the cells reached, their order, and where following ends.
-
-The orbits are not computed: the state of each is set to the point of its cell.
-"""
+"""Orbits followed over a grid: the cells reached, their order, and where following ends."""
 
 from types import SimpleNamespace
 
@@ -18,10 +15,7 @@ def known(point):
 
 
 def correction(lost):
-    """Return a function for the argument `correct` of `Grid`.
-
-    It fails at points for which `lost` is true.
-    """
+    """Return a function for the argument `correct` of `Grid`."""
 
     def correct(point, _):
         return (None, "not_followed") if lost(*point) else (known(point), "found")

@@ -1,8 +1,4 @@
-"""Branches that leave at bifurcations, compared with 80-bit arithmetic and with simulations.
-
-A branch is the curve of the periodic orbits over the forcing frequency W. At a loss of symmetry or
-a period doubling another branch leaves it, whose orbits have less symmetry.
-"""
+"""Branches that leave at bifurcations, compared with 80-bit arithmetic and with simulations."""
 
 import numpy as np
 import pytest

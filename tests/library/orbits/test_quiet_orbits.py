@@ -1,11 +1,4 @@
-"""The quiet orbit over a grid: its ends, multipliers and bifurcations.
-
-The quiet orbit is the symmetric periodic motion with two contacts for which a damper is designed.
-Its root is the derivative of the map over half a cycle.
-
-W is the forcing frequency and d0 the clearance. A strobe is the time in each cycle at which the
-forcing has the phase W T = pi/2. Multipliers are Floquet multipliers.
-"""
+"""The quiet orbit over a grid: its ends, multipliers and bifurcations."""
 
 from dataclasses import replace
 
@@ -77,10 +70,7 @@ def test_a_row_ends_at_the_fold_that_continuation_locates(design_orbit):
     end = np.interp(found.end[0, LEFT], np.arange(len(frequencies)), frequencies)
     # The branch goes on beyond this fold and has further folds.
     assert np.min(np.abs(np.array(folds) - end)) < 1e-6
-    assert list(found.end_event[0]) == [
-        "fold",
-        "map_ends",
-    ]
+    assert list(found.end_event[0]) == ["fold", "map_ends"]
 
 
 def test_the_fold_by_simulation_on_both_sides(design_orbit):

@@ -1,9 +1,4 @@
-"""Multiple shooting compared with single shooting, exact arithmetic and 80-bit motions.
-
-In multiple shooting an orbit is a chain of segments. Factors are the derivatives of the segments.
-
-W is the forcing frequency.
-"""
+"""Multiple shooting compared with single shooting, exact arithmetic and 80-bit motions."""
 
 from fractions import Fraction
 from itertools import combinations
@@ -31,10 +26,7 @@ def saddle():
 
 
 def exact_sums(factors):
-    """Return the sums of products of k eigenvalues, k = 1 to n, of a product of matrices.
-
-    The principal minors of the product are computed in fractions, without rounding.
-    """
+    """Return the sums of products of k eigenvalues, k = 1 to n, of a product of matrices."""
     n = factors.shape[1]
     product = [[Fraction(i == j) for j in range(n)] for i in range(n)]
     for factor in factors:
@@ -120,10 +112,7 @@ def test_chain_is_the_orbit_of_single_shooting(name, symmetric, monkeypatch):
 
 
 def test_strongly_unstable_orbit_in_80_bit(saddle):
-    """In 80-bit arithmetic each segment ends where the next begins, and has the same derivative.
-
-    The multipliers from these derivatives are the same too.
-    """
+    """In 80-bit arithmetic each segment ends where the next begins, and has the same derivative."""
     if extended.obstacle():
         pytest.skip(extended.obstacle())
     chain, factors = saddle, []

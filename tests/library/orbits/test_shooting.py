@@ -1,7 +1,4 @@
-"""Periodic orbits: residual, Liouville's theorem, symmetry, and multipliers by heyoka.
-
-Multipliers are Floquet multipliers.
-"""
+"""Periodic orbits: residual, Liouville's theorem, symmetry, and multipliers by heyoka."""
 
 import math
 
@@ -50,10 +47,7 @@ def test_multipliers_by_heyoka(orbit):
 
 
 def test_half_the_map_squared_is_the_whole(orbit):
-    """A symmetric orbit solves y = -map(half a period, y).
-
-    This map applied twice is the map over a period.
-    """
+    """A symmetric orbit solves y = -map(half a period, y)."""
     if not orbit.record["asymmetry"] < 1e-6:
         pytest.skip("the orbit is not symmetric")
     half = shoot(orbit.p, orbit.state, 1, orbit.phase, symmetric=True)
@@ -63,10 +57,7 @@ def test_half_the_map_squared_is_the_whole(orbit):
 
 
 def test_unstable_orbit_is_found_and_left_by_simulation():
-    """Newton's method finds the large symmetric orbit.
-
-    A simulation leaves it at the rate of its multiplier.
-    """
+    """Newton's method finds the large symmetric orbit."""
     branch = follow_branch(
         lambda value: pack(PAPER, DESIGN, value),
         find_orbit(pack(PAPER, DESIGN, 2.0), polished_orbit("design").state),

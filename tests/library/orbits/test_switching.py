@@ -1,8 +1,4 @@
-"""The other branch at a bifurcation, compared with laws of bifurcations and with simulations.
-
-A branch is the curve of the periodic orbits over a parameter. At a loss of symmetry or a period
-doubling another branch leaves the first one.
-"""
+"""The other branch at a bifurcation, compared with laws of bifurcations and with simulations."""
 
 import numpy as np
 import pytest
@@ -19,10 +15,7 @@ from impact_damper.orbits.switching import met_branch, other_branch
 
 
 def event_of(damper, name, frequency, span, kind):
-    """Return the first event of a kind on the branch of a known orbit, and the function `family`.
-
-    `family` maps the frequency to packed parameters.
-    """
+    """Return the first event of a kind on the branch of a known orbit, and its `family`."""
 
     def family(value):
         return pack(PAPER, damper, value)

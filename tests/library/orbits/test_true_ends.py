@@ -1,9 +1,4 @@
-"""Ends of branches, and bifurcations and grazings on them compared with 80-bit arithmetic.
-
-A branch is the curve of the periodic orbits over a parameter. At a grazing the loose mass reaches a
-wall with zero speed. W is the forcing frequency. Multipliers are Floquet multipliers. The quiet
-orbit is the small symmetric periodic motion for which a damper is designed.
-"""
+"""Ends of branches, and bifurcations and grazings on them compared with 80-bit arithmetic."""
 
 import numpy as np
 import pytest
@@ -32,11 +27,7 @@ def quiet():
 
 
 def test_branch_ends_at_the_range(quiet):
-    """The branch reaches both ends of the range of W.
-
-    On the way a multiplier exceeds 1e7, and the number of contacts per period changes from four to
-    two.
-    """
+    """The branch reaches both ends of the range of W."""
     assert quiet.ends == ("range_ends", "range_ends") and quiet.lost == 0
     assert {quiet.points[0].value, quiet.points[-1].value} == set(SPAN)
     assert max(abs(point.orbit.multipliers[0]) for point in quiet.points) > 1e7
@@ -55,10 +46,7 @@ def test_every_event_is_where_80_bit_arithmetic_has_it(quiet):
 
 
 def test_fold_and_loss_of_symmetry_beside_a_grazing(quiet):
-    """Fold, loss of symmetry and grazing lie within 1e-10 in W.
-
-    At the grazing the number of contacts changes from four to two.
-    """
+    """Fold, loss of symmetry and grazing lie within 1e-10 in W."""
     kinds = [event.kind for _, event in quiet.events]
     grazing = kinds.index("grazing")
     near = [
@@ -73,10 +61,7 @@ def test_fold_and_loss_of_symmetry_beside_a_grazing(quiet):
 
 @pytest.mark.thorough
 def test_ends_of_all_branches_of_a_damper():
-    """Each branch ends at the range or at another branch, or it is closed.
-
-    Branches above period 1 may also be left among unstable orbits (7).
-    """
+    """Each branch ends at the range or another branch, is closed, or is left unstable (7)."""
     response = frequency_response(PAPER, INELASTIC, [1.15, 1.2], starts=12)
     branches = orbit_branches(PAPER, INELASTIC, span=(1.1, 1.4), motions=[response])
     ends = branches["branch_end"].values

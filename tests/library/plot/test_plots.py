@@ -202,10 +202,7 @@ def test_the_package_starts_without_matplotlib():
 
 
 def test_a_backend_that_becomes_interactive_stays_so():
-    """The backend of notebooks becomes interactive with the first figure, and must remain so.
-
-    Otherwise a notebook would show only the first figure.
-    """
+    """The backend of notebooks becomes interactive with the first figure, and must remain so."""
     before = matplotlib.is_interactive()
     try:
         with sheet(None):

@@ -1,8 +1,4 @@
-"""One contact in closed form against its differential equation, energy and impulse.
-
-e is the restitution, z the damping ratio and w = sqrt(1 - z^2). The penetration u and the load G
-are dimensionless, as in `contact.contact_law`.
-"""
+"""One contact in closed form against its differential equation, energy and impulse."""
 
 import math
 
@@ -68,10 +64,7 @@ def test_an_elastic_contact_returns_what_it_got_whatever_the_load(load):
 
 @pytest.mark.parametrize(("restitution", "load"), [(0.3, 0.05), (0.3, -1), (0.75, 0.2), (0.9, -3)])
 def test_energy_and_pull(restitution, load):
-    """Energy lost in the dashpot and time of the pull against numerical integrals.
-
-    The dashpot dissipates 2 z times the integral of u'^2.
-    """
+    """Energy lost in the dashpot and time of the pull against numerical integrals."""
     z = damping_ratio(restitution)
     solution, (end, *_) = integrated(restitution, load, "zero_penetration")
     begin = integrated(restitution, load, "no_tension")[1][0]

@@ -1,7 +1,4 @@
-"""The oscillator without a damper, with springs of any sign and any forcing: limits and searches.
-
-Symbols are as in `model.parameters`.
-"""
+"""The oscillator without a damper, with any spring and forcing: limits and searches."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,4 @@
-"""Response and suppression band by harmonic balance, against solutions one by one.
-
-Wp is the frequency of the resonance peak without the damper.
-"""
+"""Response and suppression band by harmonic balance, against solutions one by one."""
 
 import numpy as np
 import pytest
@@ -82,11 +79,7 @@ def stable_amplitudes(frequency, oscillator=CUBIC, damper=PAPER):
 
 
 def test_band_of_the_paper():
-    """Below the lower edge the quiet and a large motion are stable, above it the quiet motion only.
-
-    The large motion is in antiphase with the forcing, so its amplitude is negative. The upper edge
-    is the end of the free resonance branch.
-    """
+    """Below the lower edge a large motion is stable too, above it the quiet motion only."""
     band = suppression_band(CUBIC, PAPER)
     lower, upper = band.edge_frequency.values
     assert band.band_status == flag("band_status", "found")

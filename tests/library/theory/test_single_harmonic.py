@@ -1,7 +1,4 @@
-"""Harmonic balance against numerical integrals, the printed equations, grids, and limits.
-
-Numbers in brackets are equations of the paper.
-"""
+"""Harmonic balance against numerical integrals, the printed equations, grids, and limits."""
 
 import numpy as np
 import pytest

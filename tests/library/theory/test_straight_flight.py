@@ -1,8 +1,4 @@
-"""Closed forms for the optimum clearance, against sampled motions, laws, and exact orbits.
-
-Symbols of the system are as in `system.parameters`, those of the model as in
-`theory.straight_flight.Flight`.
-"""
+"""Closed forms for the optimum clearance, against sampled motions, laws, and exact orbits."""
 
 import numpy as np
 import pytest
@@ -24,10 +20,7 @@ PHASES = np.linspace(0, np.pi, 40001)
 
 
 def straight(mass_ratio, restitution, impulse):
-    """Return Z1 over half a cycle after an impact at a rigid wall, rm W^2 d0, and the lag.
-
-    The formulas are independent of the package.
-    """
+    """Return Z1 over half a cycle after an impact at a rigid wall, rm W^2 d0, and the lag."""
     mean_speed = 2 * impulse / np.pi * (1 + 1 / mass_ratio)
     lag = np.arcsin(mean_speed * (1 - restitution) / (1 + restitution))
     flight = impulse * (1 - 2 * PHASES / np.pi)
@@ -65,10 +58,7 @@ def test_optima_of_sampled_straight_flights(mass_ratio, restitution):
     ("damping", "stiffness"), [(0, 0), (0.2, 0), (0, 0.6), (0.3, 0.15), (0.1, 0.5)]
 )
 def test_flight_of_the_primary_mass_solves_its_equation(damping, stiffness):
-    """The motion solves x'' + g x' + l^2 x = cos(phi) between two impulses of 4 q/pi.
-
-    The impulses are half a cycle apart, and the motion at the second is the mirror image.
-    """
+    """The motion solves x'' + g x' + l^2 x = cos(phi) between two impulses of 4 q/pi."""
     flight, impulse = Flight(0.12, 0.9, damping=damping, stiffness=stiffness), 0.9
     lag = flight.lag(impulse)
 
@@ -88,10 +78,7 @@ def test_flight_of_the_primary_mass_solves_its_equation(damping, stiffness):
 
 
 def optima(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
-    """Return optimum values of rm W^2 d0 by exact orbits and by the closed forms, and the `Flight`.
-
-    The two optima have the smallest displacement and the smallest first harmonic of Z1.
-    """
+    """Return optima of rm W^2 d0 by exact orbits and by the closed forms, and the `Flight`."""
     damper = Damper(mass_ratio, 1.0, restitution, contact_stiffness)
     flight = flight_of(oscillator, damper, frequency)
     motion = QuietMotion(oscillator, damper, frequency)
@@ -102,10 +89,7 @@ def optima(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 
 @pytest.mark.parametrize("restitution", [1.0, 0.75])
 def test_what_a_contact_of_finite_duration_leaves_is_of_second_order(restitution):
-    """With 16 times the r1 a contact lasts a quarter of the time.
-
-    The errors fall to a sixteenth, without corrections to a quarter.
-    """
+    """With 16 times the r1 a contact lasts a quarter of the time."""
     errors, uncorrected = [], []
     for stiffness in (4e3, 6.4e4):
         exact, rules, flight = optima(Oscillator(0.02), 0.25, restitution, stiffness, 8.0)
