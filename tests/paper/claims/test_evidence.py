@@ -1,7 +1,4 @@
-"""Verdicts follow from the data: changes of invented data flip them at the borders of the claims.
-
-In the invented world all claims are reproduced, except claim 15 and S5, which closed forms decide.
-"""
+"""Changes of invented data flip verdicts at the borders; unchanged, nearly all are reproduced."""
 
 import numpy as np
 import pytest
@@ -19,7 +16,7 @@ from helpers.made_up import (
 )
 from helpers.made_up_orbits import branch, branches
 
-from chatterjee1995.claims.claim import DIFFERENT, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from chatterjee1995.claims.claim import DIFFERENT, NOT_REPRODUCED, REPRODUCED
 from chatterjee1995.claims.verdicts import CLAIMS, claims
 from chatterjee1995.reading.datasets import ELASTIC
 from impact_damper.data.datasets import flag
@@ -150,16 +147,6 @@ def test_regions_of_contact_number_overlap(overlap, expected, data):
     assert BY_NUMBER["6"].verdict(values) == expected
 
 
-def test_subharmonic_outside_of_the_band(data):
-    """A branch of period 3 below the band has 1.2 times the free amplitude."""
-    third = branch(np.array([1.7, 1.701]), 0.96, period=3)
-    high = branch(np.array([1.0, 1.84]), np.array([1.0, 1.9]), contacts=4.0)
-    data["branches"]["figure_05b"] = damped(high, third, mass_ratio=0.25)
-    values = BY_NUMBER["10"].evidence(data)
-    assert values["light_anywhere"] == pytest.approx(0.001) and values["light"] == 0
-    assert values["light_ratio"] == pytest.approx(1.2)
-
-
 @pytest.mark.parametrize(("fall", "expected"), [(1.06, REPRODUCED), (1.04, NOT_REPRODUCED)])
 def test_fall_of_the_subharmonic_at_lower_damping(fall, expected, data):
     """At h = 0.107 no start leads to a subharmonic; at h = 0.215 half do, to a smaller one."""
@@ -205,10 +192,3 @@ def test_early_releases_reach_period_3(third, expected, data):
     values = BY_NUMBER["19"].evidence(data)
     assert values["early"] == pytest.approx(third / 1000)
     assert BY_NUMBER["19"].verdict(values) == expected
-
-
-def test_without_any_optimum_the_claims_are_open(data):
-    for name in data["optimum"]:
-        scale("optimum", name, optimum_clearance=np.nan)(data)
-    for number in ("9", "11"):
-        assert BY_NUMBER[number].judge(data)["verdict"] == NOT_DECIDABLE

@@ -91,10 +91,7 @@ def motion():
 
 
 def migration():
-    """Return runs with one and two switchings, and releases to each motion without damper.
-
-    A release switches the damper off.
-    """
+    """Return runs with one and two switchings, and releases to each motion without damper."""
     time = np.linspace(-30, 300, 2000)
     kinds = [value for value in DAMPED_MOTION.values() if value >= 0]
     destinations = list(FREE_MOTION.values())

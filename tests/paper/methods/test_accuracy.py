@@ -109,10 +109,7 @@ def test_contacts_near_grazing_are_missed_by_methods_that_check_the_ends_of_step
 
 
 def typical_averages(given, integrate, periods, exponents=False):
-    """Medians over five starts of the averages and their standard errors.
-
-    A single run may not be typical: the loose mass may be almost at rest for hundreds of cycles.
-    """
+    """Return medians over five starts, since one run may hold a long rest of the loose mass."""
     begin, found = strobe_time(given.p), []
     for shift in 1e-3 * np.arange(5):
         start = np.array(given.state) + shift

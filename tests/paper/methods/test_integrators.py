@@ -71,10 +71,7 @@ def test_order_of_fixed_steps(method, free):
 
 @pytest.mark.parametrize("locate", [False, True])
 def test_merson_follows_its_tolerance(locate, free):
-    """The error is of order h^4, with the step h, and the estimate of the error of order h^5.
-
-    The error is therefore proportional to tolerance^(4/5).
-    """
+    """Error of order h^4 and estimate of order h^5 make the error fall as tolerance^(4/5)."""
     p, end = free
     merson = integrators()["merson"]
     runs = [merson.run(p, START, 0.0, 2, tolerance, locate) for tolerance in (1e-6, 1e-9, 1e-12)]
@@ -95,10 +92,7 @@ def test_a_run_on_a_smooth_motion(name, free):
 
 @pytest.mark.parametrize("method", NUMBERS)
 def test_linear_stability_limit_of_the_contact(method):
-    """With almost no clearance the two masses on the contact spring are a linear oscillator.
-
-    The springs of the primary mass are negligible compared with the contact spring.
-    """
+    """With almost no clearance both masses on the contact spring are a linear oscillator."""
     stiffness, mass_ratio = 1e6, 0.25
     p = pack(Oscillator(1e-9), Damper(mass_ratio, 1.0, contact_stiffness=stiffness), 2.0)
     p[CLEARANCE] = 1e-12
@@ -106,10 +100,7 @@ def test_linear_stability_limit_of_the_contact(method):
     limit = integrators()[method].stability_limit
 
     def growth(scaled):
-        """Return the largest |eigenvalue| of the matrix of a step of length `scaled`/frequency.
-
-        The common motion of both masses has the eigenvalue 1.
-        """
+        """Return the largest |eigenvalue| of a step; the common motion of both masses has 1."""
         h = scaled / contact
         drives = fixed_steps.forcing(p, 0.0, h)
 
@@ -145,3 +136,12 @@ def test_runs_that_diverge_or_take_too_many_evaluations_have_nan():
     assert np.isnan(integrators()["runge_kutta_4"].largest_displacements(*given)).all()
     run = integrators()["DOP853"].run(p, START, 0.0, 2, 1e-9, True, 20)
     assert run.status == "capped" and np.isnan(run.state).all()
+
+
+def test_a_contact_at_the_start_counts_and_a_series_that_overflows_fails():
+    p, begin = pack(PAPER, DESIGN, 2.0), 0.25 * math.pi
+    series = integrators()["taylor"]
+    found = series.run(p, np.array([0.1, 0.0, 2.01, 0.5]), begin, 20, 1e-11)
+    assert found.contact_times[0] == begin
+    lost = series.run(p, np.array([1e200, 0.0, 0.0, 1.0]), begin, 20, 1e-11)
+    assert lost.status == "failed" and np.isnan(lost.displacement)

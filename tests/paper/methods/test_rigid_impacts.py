@@ -1,7 +1,4 @@
-"""The rigid-impact model: laws of one impact, volume, derivative, SciPy, and compliant contact.
-
-Symbols are as in `system.parameters`.
-"""
+"""The rigid-impact model against SciPy and against compliant contact."""
 
 import math
 
@@ -83,10 +80,7 @@ def test_compliant_contact_comes_to_it(damper, name):
 
 
 def test_chatter_ends_with_a_status():
-    """A loose mass that is pressed to a wall and loses nearly all its speed at an impact chatters.
-
-    Infinitely many impacts would follow each other in a finite time. The map stops with a status.
-    """
+    """A loose mass that is pressed to a wall and loses nearly all its speed hits it without end."""
     damper = Damper(0.12, 2.0, 0.05)
     y = np.array([-2.0, 0.0, 1.999, 0.0])
     assert rigid_map(rigid(damper, 0.5), 0.05, y, 1e-9)[2] == MOST_IMPACTS

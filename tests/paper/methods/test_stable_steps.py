@@ -22,15 +22,6 @@ def test_orbits_return_by_heyoka(damper, heyoka_references):
         assert abs(orbit.multiplier) < 1
 
 
-def test_the_displacement_tends_to_that_of_rigid_walls():
-    """The difference falls as r1^(-1/2), like the time in contact."""
-    r1 = 10.0 ** np.array([4.0, 5.0, 6.0, 7.0])
-    found = steps.orbits_over_stiffness(PAPER, DESIGN, 2.0, r1)
-    sizes = np.array([orbit.displacement for orbit in found])
-    differences = np.diff(sizes)
-    assert_allclose(differences[:-1] / differences[1:], math.sqrt(10), rtol=0.1)
-
-
 def test_largest_step_needs_all_smaller_ones():
     sizes = np.arange(9.0, 0.0, -1.0)
     held = np.array([1, 0, 1, 0, 1, 1, 1, 1, 1], bool)

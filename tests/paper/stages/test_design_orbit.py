@@ -1,7 +1,4 @@
-"""The exact quiet orbit at peak frequencies, compared with simulations.
-
-Motions settle on the orbit where it is stable, and leave it where it is unstable.
-"""
+"""The exact quiet orbit at peak frequencies: motions settle on it only where it is stable."""
 
 import numpy as np
 import pytest

@@ -63,10 +63,7 @@ def test_stability_agrees_with_a_run(mass_ratio, stable):
 
 
 def test_rules_and_excess(grid):
-    """The ratio rm W^2 d0 is 1 by rule (18) and pi^2/8 by the first harmonic of straight flight.
-
-    The rule "elastic" holds for e = 1 only. By no rule is max |Z1| below its minimum.
-    """
+    """The ratio rm W^2 d0 is 1 by (18) and pi^2/8 by the first harmonic of straight flight."""
     rules = grid.rule_ratio
     assert np.all(rules.sel(rule="balance") == 1)
     assert_allclose(rules.sel(rule="gap_harmonic"), np.pi**2 / 8)

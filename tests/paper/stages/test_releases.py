@@ -60,10 +60,7 @@ def test_releases(runs, row):
 
 
 def test_release_scan():
-    """At W = 1.73 releases from the quiet motion lead to a motion that does not exist at W = 1.7.
-
-    This is the free motion of period 3.
-    """
+    """At W = 1.73 releases of the quiet motion lead to period 3, which is absent at W = 1.7."""
     small = {"starts": 16, "releases": 10, "lifetime": 60, "settling": Settling()}
     scan = release_scan(CUBIC, PAPER, [1.7, 1.73], **small)
     quiet = scan.damped_kind == flag("damped_kind", "quiet")

@@ -1,7 +1,4 @@
-"""The quiet motion between rigid walls, corrected walls (`mended`) and compliant walls.
-
-Corrected walls are rigid walls that account for the penetration at finite stiffness r1.
-"""
+"""The quiet motion between rigid walls, corrected rigid walls (`mended`) and compliant walls."""
 
 from dataclasses import replace
 

@@ -1,7 +1,4 @@
-"""A study does not depend on its division into chunks, and each chunk fills its own cells.
-
-A study runs motions in each cell of a grid of dampers and frequencies; a chunk is a range of cells.
-"""
+"""A study does not depend on its division into chunks, and each chunk fills its own cells."""
 
 import json
 

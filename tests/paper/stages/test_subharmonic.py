@@ -1,7 +1,4 @@
-"""One-third subharmonic compared with long runs on both sides of its ends, and the energy balance.
-
-Without the damper (free) the subharmonic is a motion of period 3.
-"""
+"""One-third subharmonic against long runs on both sides of its ends, and its energy balance."""
 
 import numpy as np
 import pytest

@@ -24,11 +24,6 @@ def test_a_row_states_what_to_build_and_what_it_promises():
         "largest with the best tuned absorber [mm]": 0.5,
         "largest with this absorber detuned by 10 % [mm]": 0.6,
     }
-
-
-def test_the_advice_follows_the_decision():
-    assert row(decision="do_not_build")["advice"] == "do not build it"
-
-
-def test_a_motion_that_escapes_has_no_size():
-    assert row(promised_displacement=np.inf)["promised displacement [mm]"] == "escapes"
+    other = row(decision="do_not_build", promised_displacement=np.inf)
+    assert other["advice"] == "do not build it"
+    assert other["promised displacement [mm]"] == "escapes"

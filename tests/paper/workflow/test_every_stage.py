@@ -1,7 +1,4 @@
-"""Each stage, table and kind of figure of the registry has its function, entries and test.
-
-After its record stands in a file of `sections`, this test names the files that it still lacks.
-"""
+"""For each record in `sections` these tests name the function, entry and test that are missing."""
 
 import inspect
 import re

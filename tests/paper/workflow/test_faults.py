@@ -37,10 +37,7 @@ def job_log(folder):
 
 @pytest.fixture(scope="module")
 def first(tmp_path_factory):
-    """Return a copy of the project with the result of one job, and what its run printed.
-
-    Before the run the marker file says that the kernels were edited.
-    """
+    """Return a project with the result of one job after an edit of kernels, and its messages."""
     project = Project(tmp_path_factory.mktemp("faults") / "a project")
     marker = project.folder / KERNELS
     marker.parent.mkdir()

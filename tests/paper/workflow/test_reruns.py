@@ -1,7 +1,4 @@
-"""After an edit exactly the jobs that depend on the edited value or file run again.
-
-Snakemake only plans the jobs, for a copy of the project whose results are empty files.
-"""
+"""Snakemake plans again exactly the jobs that depend on an edited value or file."""
 
 import re
 from fnmatch import fnmatch
@@ -181,17 +178,3 @@ def test_touched_files_comments_and_order_rerun_nothing(project, edit, config):
     result = snakemake(project, "-n")
     marker.write_text(text)
     assert "Nothing to be done" in result.stdout + result.stderr
-
-
-def test_a_dry_run_shows_what_changed(project, edit, config):
-    edited = configurations.changed(config, ("curves", "figure_08", "clearance"), 1.07)
-    edit("config/config.yaml", yaml.safe_dump(edited))
-    edit("workflow/scripts/chapter.py", "# A word.")
-    result = snakemake(project, "-n")
-    told = result.stdout + result.stderr
-    reason = r"Motions over frequency, of the curve figure_08\nReason: Params have changed .*"
-    texts = re.search(f"{reason} before: (.*) now: (.*)", told).groups()
-    damper = {"mass_ratio": 0.12, "restitution": 1, "contact_stiffness": 2000}
-    for text, clearance in zip(texts, (1.063, 1.07), strict=True):
-        assert yaml.safe_load(text) == {"damper": {"Damper": damper | {"clearance": clearance}}}
-    assert "Reason: Updated input files: workflow/scripts/chapter.py" in told

@@ -1,8 +1,4 @@
-"""Checkouts share results through a cache if parameters, sources and lock file agree.
-
-In each checkout all scripts begin with a stub that writes the path of the checkout into the output
-and ends. The output therefore says where it was computed.
-"""
+"""Checkouts share results through a cache if parameters, sources and lock file agree."""
 
 import inspect
 import json
@@ -93,10 +89,7 @@ def test_a_checkout_takes_what_another_computed(shared):
 
 
 def test_what_differs_is_not_shared(shared, edit):
-    """Each dataset but the last has one difference: its source, its parameters, or its name.
-
-    A dataset holds the name of its entry, and loading it under another name raises.
-    """
+    """Each dataset but the last differs in its source, its parameters, or its name."""
 
     def others(text):
         config = yaml.safe_load(text)
