@@ -101,11 +101,6 @@ def test_a_motion_and_its_mirror_image_are_told_once_with_their_starts(machine_f
         assert 12 * sum(shares) == pytest.approx(np.maximum(found["motion_starts"][i], 0).sum())
 
 
-def test_equal_sizes_are_told_once():
-    found = command_line.different(np.array([2.0, 1.0, 2.0 + 1e-9, 3.0]))
-    assert [places for _, places in found] == [[1], [0, 2], [3]]
-
-
 @pytest.fixture
 def made_up(monkeypatch):
     """The design that `design` and `evaluate` return in place of their own, for FILE's machine."""
@@ -280,13 +275,6 @@ def test_error_ends_the_command_with_one_message(machine_file, monkeypatch):
     arguments = ["impact-damper", "simulate", str(machine_file), "--frequency", "24 kg"]
     monkeypatch.setattr(sys, "argv", arguments)
     with pytest.raises(SystemExit, match="Error: frequency = '24 kg'"):
-        command_line.run_app()
-
-
-def test_a_state_too_far_away_is_told_in_si_units(machine_file, monkeypatch):
-    asked = ["--frequency", "24 Hz", "--state", "7, 0"]
-    monkeypatch.setattr(sys, "argv", ["impact-damper", "simulate", str(machine_file), *asked])
-    with pytest.raises(SystemExit, match=r"Error: state\[0\] = 7 m: must be at least -.* m"):
         command_line.run_app()
 
 

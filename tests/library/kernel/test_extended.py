@@ -108,49 +108,6 @@ def test_replay_by_extrapolation(case):
     assert np.max(np.abs(np.array(samples) - run.states)) < allowed
 
 
-def test_flow_by_differences_and_liouville(case):
-    p, state, start, times = case
-    run = extended.run(p, state, start, times)
-    touched = run.contacts[:, 2] - run.contacts[:, 1]
-    touched[np.isnan(touched)] = times[-1] - run.contacts[np.isnan(touched), 1]
-    for j in range(4):
-        ends = []
-        for nudge in (1e-8, -1e-8):
-            beside = np.array(state, Real)
-            beside[j] += nudge
-            ends.append(extended.run(p, beside, start, times).states[-1])
-        slope = (ends[0] - ends[1]) / Real(2e-8)
-        assert np.max(np.abs(slope - run.flow[:, j])) < 1e-10 * run.growth**3
-    if np.isfinite(p[CLEARANCE]):
-        dashpot = p[DASHPOT] * (1 + p[INVERSE_MASS_RATIO])
-        shrunk = -p[DAMPING] * (times[-1] - start) - dashpot * np.sum(touched)
-        determinant = np.linalg.det(run.flow.astype(float))
-        assert determinant == pytest.approx(math.exp(shrunk), rel=1e-13 * float(run.growth) ** 2)
-
-
-@pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
-@pytest.mark.parametrize("exponent", range(2, 17))
-def test_grazing_to_the_last_digit(damper, exponent):
-    """The start is shifted so that an extremum of Z2 lies just beyond or just before a wall."""
-    p = pack(PAPER, damper, 2.0)
-    state, unbounded = np.array([0.3, 0.5, 0.0, 0.9], Real), p.copy()
-    unbounded[CLEARANCE] = 16.0
-    turnings = extended.run(unbounded, state, 0.0, [3.0]).turnings
-    instant, _, height, _ = turnings[turnings[:, 1] == 1][0]
-    for sign in (1, -1):
-        depth = sign * Real(10) ** -exponent
-        shifted = state.copy()
-        shifted[2] = p[CLEARANCE] + depth - (16.0 + height)
-        run = extended.run(p, shifted, 0.0, [instant + 0.05])
-        assert run.begun == (sign == 1)
-        # the wall reduces a deep extremum
-        if sign == 1 and exponent > 5:
-            assert run.turnings[0, 2] == pytest.approx(depth, rel=0.1, abs=1e-18)
-        if sign == -1:
-            assert abs(run.turnings[0, 0] - instant) < 1e-17
-            assert abs(run.turnings[0, 2] - depth) < 1e-18
-
-
 @pytest.mark.parametrize("scene", list(scenes.configured_scenes()), ids=lambda scene: scene[0])
 def test_stored_references_are_what_the_program_gives(scene):
     """C libraries may differ in the last digits."""

@@ -103,30 +103,6 @@ def first_contact(lanes, c, offset, drift, clearance, length, expecting=()):
     return t, int(wall) if met else 0
 
 
-def first_separation(lanes, c, side, length, stiffness, dashpot, inverse_mass):
-    """Return the time of the first separation and whether there is one.
-
-    c are the coefficients of the penetration q. The acceleration g without the force of the wall
-    follows from q'' = g - (1 + 1/rm) (r1 q + D q').
-    """
-
-    def series_given(bend):
-        q = Polynomial([*c[:2], *(bend * np.array(c[2:]))])
-        g = q.deriv(2) + (1 + inverse_mass) * (stiffness * q + dashpot * q.deriv())
-        return {"Q": q.coef, "G": g.coef}
-
-    c = [*c, *[0.0] * (3 - len(c))]
-    numbers = {
-        "CONTACT_STIFFNESS": stiffness,
-        "DASHPOT": dashpot,
-        "INVERSE_MASS_RATIO": inverse_mass,
-    }
-    numbers["NATURAL"] = math.sqrt(stiffness * (1 + inverse_mass))
-    searched = ["contact_bound", "find_separation"]
-    t, met, _ = found(lanes, searched, series_given, length, SIDE=side, **numbers)
-    return t, met
-
-
 def check_contact(lanes, c, offset, drift, clearance, length, expecting=()):
     """Assert that the distance to a wall is zero at the time found, and that no wall was passed."""
     t, side = first_contact(lanes, c, offset, drift, clearance, length, expecting)
@@ -172,52 +148,6 @@ def test_first_contact_of_grazing_polynomials(lanes, expecting, c, exponent, bey
         return
     clearance = largest * (1 + (1 if beyond else -1) * 10.0**-exponent)
     check_contact(lanes, c, 0.0, 0.0, clearance, 1.0, expecting)
-
-
-@widths
-@pytest.mark.parametrize("exponent", range(1, 15))
-@pytest.mark.parametrize("sign", [1, -1])
-def test_grazing_parabola(lanes, exponent, sign):
-    """Z2 = 1 - (t - 1)^2 meets the wall at 1 - eps when t = 1 - sqrt(eps)."""
-    depth = 10.0**-exponent
-    c = [0.0, 2.0 * sign, -1.0 * sign]
-    t, side = first_contact(lanes, c, 0.0, 0.0, 1 - depth, 3.0)
-    assert side == sign
-    assert_allclose(t, 1 - math.sqrt(depth), atol=1e-15 / math.sqrt(depth))
-    if exponent < 15:
-        # with this wall farther out, the motion meets the other wall, at -1 - eps
-        t, side = first_contact(lanes, c, 0.0, 0.0, 1 + depth, 3.0)
-        assert side == -sign
-        assert_allclose(t, 1 + math.sqrt(2 + depth), rtol=1e-14)
-
-
-@pytest.mark.thorough
-@widths
-@examples
-@given(
-    coefficients,
-    st.integers(0, 64),
-    st.floats(0.1, 2.0),
-    st.sampled_from([1, -1]),
-    st.sampled_from([1e-2, 1.0, 16.0, 256.0]),
-    st.sampled_from([0.0, 0.25, 4.0]),
-)
-def test_first_separation_of_random_polynomials(lanes, c, depth, length, side, stiffness, dashpot):
-    """The step begins on the wall, moving outward, or anywhere beyond the wall."""
-    c = [depth / 64, *(a / 64 for a in c)]
-    if depth == 0:
-        c[1] = abs(c[1]) + 1 / 64
-    t, separated = first_separation(
-        lanes, [side * a for a in c], side, length, stiffness, dashpot, 4.0
-    )
-    path = [Fraction(a) for a in c]
-    above = [path[0] + HAIR, *path[1:]]
-    assert roots_within(above, t) == 0
-    if separated:
-        assert 0 <= t <= length
-        assert abs(evaluate(path, Fraction(t))) < HAIR
-    else:
-        assert t == length
 
 
 def integrated(p, state, side, length, steps, tolerance):

@@ -10,9 +10,8 @@ from references import equation
 from references.equation import SPRINGS, in_other_units
 from scipy.integrate import quad, solve_ivp
 
-from impact_damper.kernel import batch
 from impact_damper.kernel.equation import no_return
-from impact_damper.model.packed import FORCE, pack
+from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 
 OSCILLATORS = SPRINGS | {
@@ -26,7 +25,7 @@ all_oscillators = pytest.mark.parametrize("oscillator", OSCILLATORS.values(), id
 
 
 @all_oscillators
-@pytest.mark.parametrize("units", [(0.3, 1.0), (5.0, 1.0), (1.0, 2.5), (1.4, 0.3)], ids=str)
+@pytest.mark.parametrize("units", [(5.0, 1.0), (1.4, 0.3)], ids=str)
 def test_a_change_of_units_changes_nothing_else(oscillator, units):
     """States, contacts and the derivative of the flow, to tolerance times the growth of errors."""
     length, time = units
@@ -65,24 +64,6 @@ def test_flights_and_contacts_against_dop853(oscillator):
         wall = side if side else np.sign(last[2])
         assert_allclose(found.y[2, -1], wall * DAMPER.clearance, atol=2e-10)
     assert len(ends) > 4
-
-
-@all_oscillators
-def test_several_trajectories_as_one(oscillator):
-    """Sixteen trajectories side by side, of different springs and forces, against single ones."""
-    random = np.random.default_rng(1995)
-    others = list(OSCILLATORS.values())
-    count = 40
-    chosen = [oscillator if k % 3 else others[k % len(others)] for k in range(count)]
-    parameters = np.array([pack(each, DAMPER, FREQUENCY) for each in chosen])
-    states = random.uniform(-0.4, 0.4, (count, 4))
-    ends = random.uniform(1.0, 6.0, count)
-    last, sides, contacts = states.copy(), np.zeros(count, int), np.zeros(count, int)
-    batch.advance(parameters, last, sides, np.zeros(count), ends, 1e-12, contacts)
-    for p, state, end, found, number in zip(parameters, states, ends, last, contacts, strict=True):
-        (alone,), log = sample(p, state, 0.0, [end])
-        assert len(log) == number
-        assert_allclose(found, alone, atol=1e-9)
 
 
 @all_oscillators
@@ -146,13 +127,3 @@ def test_time_of_an_escape():
     states, _ = sample(p, [0.0, speed, 0.0, speed], 0.0, time + np.linspace(0, 20, 50))
     gone = np.isnan(states[:, 0])
     assert gone[-1] and not gone[0] and np.array_equal(np.sort(gone), gone)
-
-
-@pytest.mark.parametrize("linear_frequency", [0.0, 1.0])
-@pytest.mark.parametrize("force", [0.0, 3.0])
-def test_no_return_from_where_the_force_is_weaker(linear_frequency, force):
-    """Beyond `no_return` the spring pushes outward at least as hard as the forcing pulls back."""
-    p = pack(Oscillator(0.1, linear_frequency, -0.3, force), None, 1.0)
-    beyond = no_return(p) * np.geomspace(1.0, 1e3, 200)
-    push = -equation.spring(p, beyond)
-    assert np.all(push >= p[FORCE])

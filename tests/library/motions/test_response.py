@@ -1,7 +1,5 @@
 """Frequency response as a labelled dataset."""
 
-import math
-
 import numpy as np
 import pytest
 from helpers.known_orbits import DESIGN, PAPER
@@ -37,20 +35,3 @@ def test_quiet_motion_is_there(response, design_orbit):
     assert len(np.unique(response.branch.values[quiet.values])) == 1
     state = response.state.values[quiet.values][1]
     assert_allclose(np.abs(state[3]), np.abs(design_orbit.state[3]), atol=1e-7)
-
-
-@pytest.mark.parametrize(
-    "wrong, message",
-    [
-        ({"frequencies": [2.0, 1.0]}, "frequencies = .*: must be increasing"),
-        ({"frequencies": []}, "at least 1 value"),
-        ({"frequencies": [0.0, 1.0]}, r"frequencies\[0\] = 0"),
-        ({"frequencies": math.nan}, r"frequencies\[0\] = nan"),
-        ({"frequencies": [1.0], "seed": -1}, "seed = -1"),
-        ({"frequencies": [1.0], "starts": 0}, "starts = 0"),
-        ({"frequencies": [1.0], "radius": -1.0}, "radius = -1"),
-    ],
-)
-def test_arguments_are_checked(wrong, message):
-    with pytest.raises(ValueError, match=message):
-        frequency_response(PAPER, DESIGN, **wrong)

@@ -24,14 +24,6 @@ def test_rotation_of_a_curve(number, sense):
     assert abs(found - number) < 1e-12
 
 
-@pytest.mark.parametrize("slenderness", [30.0, 1e4])
-def test_slender_curves_are_known_as_soon_as_round_ones(slenderness):
-    """A curve and the curve squeezed in one direction have the same rotation number."""
-    points = on_curve(1 - GOLDEN, 1000) * np.exp(0.4j)
-    slender, error = find_rotation(points.real + 1j * points.imag / slenderness)
-    assert error <= AGREEMENT and abs(slender - 1 + GOLDEN) < 1e-11
-
-
 def test_chaotic_points_are_no_curve():
     """Points of Henon's map."""
     points = [0.1 + 0.1j]

@@ -8,7 +8,6 @@ from numpy.testing import assert_allclose
 from impact_damper.data.datasets import flag
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.settling import Settling
-from impact_damper.motions import strobe_map
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.start_states import NO_LOOSE, NO_STARTS, Search
 from impact_damper.motions.sweep import sweep
@@ -39,18 +38,6 @@ def ends_of(data, event="fold"):
     chosen = data["end_event"] == flag("end_event", event)
     columns = (data["end_value"], data["end_direction"], data["end_displacement"])
     return np.array(columns).T[chosen]
-
-
-def test_every_motion_returns(free):
-    """An integration from the state of a motion returns after its period and not before."""
-    period, state = free["period"][1], free["state"][1]
-    outcome = free["outcome"][1]
-    for i, frequency in enumerate(FREQUENCIES):
-        p = pack(PAPER, None, frequency)
-        for k in np.flatnonzero(outcome[i] == flag("outcome", "settled")):
-            back = [strobe_map.period_map(p, state[i, k], n, 1e-13)[0] for n in range(1, 4)]
-            apart = np.max(np.abs(back - state[i, k])[:, :2], axis=1)
-            assert np.argmax(apart < 1e-8) + 1 == period[i, k]
 
 
 def test_three_branches_of_the_free_oscillator(free):

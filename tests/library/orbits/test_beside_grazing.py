@@ -8,7 +8,6 @@ from references import extended
 
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.orbits.branches import follow_branch
-from impact_damper.orbits.grazing import nearest, turns_of, with_gradient
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import other_branch
 
@@ -88,21 +87,3 @@ def test_80_bit_motion_repeats_from_an_orbit_beside_a_grazing(asymmetric):
     run = extended.run(orbit.p, orbit.state, begin, [begin + period])
     assert_allclose(run.states[-1].astype(float), orbit.state, rtol=0, atol=1e-11)
     assert len(orbit.sequence) == 7 and orbit.record["asymmetry"] > 1e-6
-
-
-def test_heights_change_as_their_gradients_say(twice):
-    """Against the heights of the same extremum at the next point, close to a grazing."""
-    compared = 0
-    for point, ahead in zip(twice.points, twice.points[1:], strict=False):
-        problem, moved = point.problem, turns_of(ahead.orbit)
-        if not np.array_equal(problem.phases, ahead.problem.phases):
-            continue
-        turn = min(turns_of(point.orbit), key=lambda each: abs(each.height))
-        near = nearest(moved, turn)
-        if near is not None and abs(turn.height) < 1e-5 and near.height * turn.height > 0:
-            pairs = (point, turn), (ahead, near)
-            ends = [with_gradient(problem, each.x, each.orbit, own) for each, own in pairs]
-            slope = (ends[0].gradient + ends[1].gradient) / 2
-            assert_allclose(near.height - turn.height, slope @ (ahead.x - point.x), rtol=0.03)
-            compared += 1
-    assert compared > 10

@@ -7,11 +7,10 @@ import pytest
 from helpers.known_orbits import DESIGN, INELASTIC, PAPER, polished_orbit
 from numpy.testing import assert_allclose
 
-from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper
 from impact_damper.model.settling import Settling
 from impact_damper.motions.ensemble import settle
-from impact_damper.motions.following import follow_stable
 from impact_damper.motions.response import frequency_response
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit_branches import orbit_branches, periodic_orbit
@@ -52,30 +51,6 @@ def test_every_orbit_is_exact(quiet, resonance):
             assert point.orbit.p[0] == point.value
 
 
-def test_fold_by_simulation_on_both_sides(resonance):
-    """The resonance motion exists just below the frequency of the upper fold, but not above it."""
-    fold = event(resonance, "fold")
-    p = free(fold.value - 1e-4)
-    below = [point for point in resonance.points if point.orbit.stable and point.value < fold.value]
-    nearest = max(below, key=lambda point: point.value)
-    y, at = nearest.orbit.strobe_states[0].copy(), nearest.orbit.p.copy()
-    at, (y, _) = follow_stable(at, y, 1, FREQUENCY, p[FREQUENCY])
-    assert at[FREQUENCY] == p[FREQUENCY]
-    record = settle(p[None], y[None] + 1e-6, SETTLING, from_strobe=True)[0]
-    assert record["maximum_displacement"] > 2.3
-    beyond = settle(free(fold.value + 1e-4)[None], y[None], SETTLING, from_strobe=True)[0]
-    assert beyond["maximum_displacement"] < 1
-
-
-def test_symmetry_is_lost_where_simulation_loses_it(resonance):
-    lost = event(resonance, "symmetry_breaking")
-    for side, symmetric in ((1e-3, True), (-1e-3, False)):
-        p = free(lost.value + side)
-        nudged = lost.orbit.strobe_states[0] + np.array([1e-3, 0, 1e-3, 0])
-        record = settle(p[None], nudged[None], SETTLING, from_strobe=True)[0]
-        assert (record["asymmetry"] < 1e-6) == symmetric
-
-
 def test_period_doubles_where_simulation_doubles_it():
     """The large motion has period 1 above the frequency of the event and period 2 below."""
     orbit = find_orbit(damped(1.7), polished_orbit("large").state)
@@ -86,19 +61,6 @@ def test_period_doubles_where_simulation_doubles_it():
         nudged = doubling.orbit.strobe_states[0] + np.array([1e-3, 0, 1e-3, 0])
         record = settle(p[None], nudged[None], SETTLING, from_strobe=True)[0]
         assert (record["outcome"], record["period"]) == (1, period)
-
-
-def test_quiet_motion_folds_into_the_unstable_large_one(quiet):
-    """The quiet motion and the unstable large motion lie on one branch."""
-    assert quiet.ends == ("range_ends", "range_ends") and quiet.lost == 0
-    assert all(point.orbit.sequence == "+-" for point in quiet.points)
-    assert_allclose(
-        min(point.value for point in quiet.points if point.orbit.stable),
-        min(found.point.value for _, found in quiet.events if found.kind == "fold"),
-        atol=1e-5,
-    )
-    large = max(quiet.points, key=lambda point: point.orbit.record["maximum_displacement"])
-    assert not large.orbit.stable
 
 
 def test_isola_is_closed():
@@ -116,18 +78,6 @@ def test_isola_is_closed():
     values = points["followed_value"].values
     assert_allclose(values[stable].max(), values.max(), atol=1e-4)
     assert not stable.all() and points["orbit_residual"].max() < 2e-12
-
-
-def test_a_branch_holds_its_orbits_and_no_others(quiet, resonance):
-    for branch in (quiet, resonance):
-        middle = branch.points[len(branch.points) // 3]
-        orbit = find_orbit(middle.orbit.p, middle.orbit.strobe_states[0])
-        assert branch.holds(orbit, middle.value)
-        assert not branch.holds(orbit, middle.value + 0.01)
-    other = find_orbit(free(1.9), polished_orbit("non-resonance").state)
-    assert not quiet.holds(other, 1.9)
-    of_period_2 = replace(quiet.points[5].orbit, periods=2)
-    assert not quiet.holds(of_period_2, quiet.points[5].value)
 
 
 @pytest.mark.parametrize(
@@ -177,25 +127,6 @@ def test_a_branch_ends_at_a_bound_of_its_parameter(parameter, side, bound):
     ends = branch["followed_value"].values[[0, -1]]
     assert_allclose(ends[np.argmax(ends) if side else np.argmin(ends)], bound, rtol=1e-12)
     assert branch["branch_end"].values.tolist() == [[0, 0]]
-
-
-@pytest.fixture(scope="module")
-def grazing():
-    """Return a damper, its branches, and the events at which the sequence of contacts changes."""
-    soft = Damper(0.4, 0.625, contact_stiffness=50.0)
-    response = frequency_response(PAPER, soft, [1.2, 1.4, 2.0], starts=24)
-    branches = orbit_branches(PAPER, soft, span=(0.9, 2.6), motions=[response])
-    changes = np.flatnonzero(np.isin(branches["event_kind"].values, [5, 6]))
-    assert len(changes) > 0
-    return soft, branches, changes
-
-
-@pytest.mark.thorough
-def test_change_of_contacts_is_where_a_contact_has_no_speed(grazing):
-    _, branches, changes = grazing
-    for k in changes:
-        assert branches["walls_before"].values[k] != branches["walls_after"].values[k]
-        assert branches["event_speed"].values[k] < 1e-4, branches["event_kind"].values[k]
 
 
 def test_bad_arguments_are_named():

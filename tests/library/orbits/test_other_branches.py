@@ -3,13 +3,10 @@
 import numpy as np
 import pytest
 from helpers.known_orbits import DESIGN, PAPER, polished_orbit
-from numpy.testing import assert_allclose
 from references import extended
 
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.model.settling import Settling
-from impact_damper.motions.ensemble import settle
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import LEAVING, follow_others, met_by, other_branch
@@ -79,34 +76,6 @@ def extended_state(p, state, phase, cycles):
     begin = extended.Real(phase) / extended.Real(p[FREQUENCY])
     end = begin + extended.Real(cycles) * turn / extended.Real(p[FREQUENCY])
     return extended.run(p, state, begin, [end]).states[-1]
-
-
-@pytest.mark.thorough
-def test_a_simulated_motion_goes_over_to_a_supercritical_branch(branches):
-    """A motion that starts near an unstable symmetric orbit settles to the asymmetric orbit."""
-    branch = branches["inelastic"]
-    event = next(
-        event
-        for _, event in branch.events
-        if event.kind == "symmetry_breaking" and abs(event.point.value - 1.508702) < 1e-5
-    )
-    begun = other_branch(event, stable=True)
-    value = event.point.value + 2e-3 * np.sign(begun.value - event.point.value)
-    p = event.point.problem.family(value)
-    start = event.point.orbit.strobe_states[0] + np.array([1e-3, 0, 1e-3, 0])
-    settling = Settling(tolerance=1e-10, patience=300, limit=6000)
-    record = settle(p[None], start[None], settling, from_strobe=True)[0]
-    assert record["period"] == 3 and record["asymmetry"] > 1e-3
-    followed = follow_branch(
-        event.point.problem.family,
-        begun.orbit,
-        begun.value,
-        tuple(sorted((value, event.point.value + 1e-3 * np.sign(event.point.value - value)))),
-    )
-    end = next(point for point in followed.points if point.value == value)
-    assert_allclose(
-        end.orbit.record["maximum_displacement"], record["maximum_displacement"], rtol=1e-5
-    )
 
 
 def test_the_doubled_branch_of_a_stable_orbit_is_followed_once():

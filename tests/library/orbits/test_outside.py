@@ -10,7 +10,6 @@ import pytest
 
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.orbits.bifurcations import _is_complex_pair
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 
@@ -60,17 +59,3 @@ def _reachable(count, changes):
     for change in changes:
         reached = {each + sign * change for each in reached for sign in (-1, 1)}
     return reached
-
-
-@pytest.mark.parametrize(
-    ("multipliers", "expected"),
-    [
-        ([-8.75, 0.6 + 0.8j, 0.6 - 0.8j, -0.01], True),
-        ([0.6 + 0.8j, 0.6 - 0.8j, 0.1 + 0.2j, 0.1 - 0.2j], True),
-        ([50.0, 0.1 + 0.3j, 0.1 - 0.3j, 0.02], False),
-        ([30 + 40j, 30 - 40j, 0.012 + 0.016j, 0.012 - 0.016j], False),
-    ],
-)
-def test_only_a_conjugate_pair_on_the_unit_circle_makes_a_torus(multipliers, expected):
-    """In the last two cases two multipliers that are not conjugate have the product 1."""
-    assert _is_complex_pair(np.array(multipliers, complex)) == expected

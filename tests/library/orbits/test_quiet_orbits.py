@@ -11,7 +11,6 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
-from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.quiet_orbits import (
     PHASE,
@@ -57,20 +56,6 @@ def settled(orbit, push):
     """Return the record of the motion that starts near an orbit."""
     state = orbit.strobe_states[0] + push
     return ensemble.settle(orbit.p[None], state[None], SETTLING, from_strobe=True)[0]
-
-
-def test_a_row_ends_at_the_fold_that_continuation_locates(design_orbit):
-    frequencies = np.arange(1.0, 2.01, 0.04)
-    found = seeded(row(DESIGN, frequencies), design_orbit.state)
-    orbit, _ = find_quiet_orbit(
-        design_orbit.parameters, at_phase(design_orbit.parameters, design_orbit.state)
-    )
-    branch = follow_branch(lambda w: pack(PAPER, DESIGN, w), orbit, 2.0, (1.0, 2.0))
-    folds = [event.point.value for _, event in branch.events if event.kind == "fold"]
-    end = np.interp(found.end[0, LEFT], np.arange(len(frequencies)), frequencies)
-    # The branch goes on beyond this fold and has further folds.
-    assert np.min(np.abs(np.array(folds) - end)) < 1e-6
-    assert list(found.end_event[0]) == ["fold", "map_ends"]
 
 
 def test_the_fold_by_simulation_on_both_sides(design_orbit):

@@ -1,10 +1,8 @@
 """Periodic orbits: residual, Liouville's theorem, symmetry, and multipliers by heyoka."""
 
-import math
-
 import numpy as np
 import pytest
-from helpers.known_orbits import DESIGN, INELASTIC, PAPER, STARTS, polished_orbit
+from helpers.known_orbits import DESIGN, PAPER, STARTS, polished_orbit
 from numpy.testing import assert_allclose
 from references import extended
 
@@ -44,16 +42,6 @@ def test_multipliers_by_heyoka(orbit):
     order = np.lexsort((-expected.imag.round(9), -np.abs(expected).round(9)))
     again = np.lexsort((-found.imag.round(9), -np.abs(found).round(9)))
     assert_allclose(found[again], expected[order], atol=1e-9)
-
-
-def test_half_the_map_squared_is_the_whole(orbit):
-    """A symmetric orbit solves y = -map(half a period, y)."""
-    if not orbit.record["asymmetry"] < 1e-6:
-        pytest.skip("the orbit is not symmetric")
-    half = shoot(orbit.p, orbit.state, 1, orbit.phase, symmetric=True)
-    assert_allclose(half.ends[0], -orbit.state, atol=1e-11)
-    assert_allclose(half.monodromy, orbit.monodromy, atol=1e-9)
-    assert_allclose(half.touching, orbit.touching, rtol=1e-9)
 
 
 def test_unstable_orbit_is_found_and_left_by_simulation():
@@ -109,13 +97,3 @@ def test_phase_leaves_a_contact():
     found = find_orbit(reference.p, reference.at(inside), 1, inside % TURN)
     assert found.converged and found.margin(found.phase) > 0.1
     assert found.is_same(reference)
-
-
-def test_inelastic_volume_shrinks_by_the_time_in_contact():
-    known_orbit = polished_orbit("inelastic")
-    orbit = find_orbit(known_orbit.parameters, known_orbit.state)
-    h, period = known_orbit.parameters[1], known_orbit.period
-    rate = INELASTIC.dashpot * (1 + 1 / INELASTIC.mass_ratio)
-    expected = math.exp(-h * period - rate * orbit.touching)
-    assert_allclose(np.prod(orbit.multipliers).real, expected, rtol=1e-11)
-    assert_allclose(orbit.touching, np.sum(orbit.contacts[:, 2] - orbit.contacts[:, 1]), rtol=1e-10)

@@ -132,25 +132,6 @@ def test_labels_have_the_units_of_the_machine(results):
     assert idm.plot.response(results["machine_response"]).get_xlabel().endswith("(Hz)")
 
 
-def test_curves_of_a_machine_are_named_in_its_units():
-    """Its mass is 12 kg; the loose mass is a twentieth of it. 21 Hz is 131.9 rad/s."""
-    varied = [
-        idm.clearance_sweep(
-            MACHINE, MACHINE_DAMPER, frequency, [1e-3, 2e-3], method="harmonic_balance"
-        )
-        for frequency in (21.0, 22.0)
-    ]
-    sizes = {
-        "quiet_displacement": varied[0]["clearance"],
-        "optimum_clearance": 1.5,
-        "optimum_displacement": 1.0,
-        "near_clearance": ("edge", [1.4, 1.6]),
-    }
-    axes = idm.plot.sweep([each.assign(sizes) for each in varied])
-    found = [each.get_label() for each in axes.lines[:2]]
-    assert found == ["21 Hz, loose mass 0.6 kg", "22 Hz, loose mass 0.6 kg"]
-
-
 def test_branches_reach_to_their_ends_and_split_where_the_period_changes():
     """The branch doubles its period at W = 3; its ends lie between two frequencies."""
     data = {

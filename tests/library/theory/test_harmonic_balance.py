@@ -9,7 +9,6 @@ from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.theory.design_rule import rule_clearance
 from impact_damper.theory.free_oscillator import free_folds, maximum_response
 from impact_damper.theory.harmonic_balance import (
-    branches_over,
     harmonic_balance_response,
     suppression_band,
 )
@@ -34,27 +33,6 @@ def test_response_holds_every_solution(response):
         stable = row.stability.values != flag("stability", "absent")
         assert np.array_equal(np.isfinite(row.amplitude.values), stable)
     assert np.all(response.balance_status == flag("balance_status", "solved"))
-
-
-def test_resting_motions_are_the_free_ones_within_the_gap(response):
-    resting = response.kind == flag("kind", "resting")
-    assert np.all(response.amplitude.where(resting, 0) < PAPER.clearance)
-    inside = (response.free_amplitude < PAPER.clearance).sum("free_solution")
-    assert np.array_equal(resting.sum("solution"), inside)
-
-
-def test_roots_of_a_cubic_lie_on_three_branches():
-    """The real roots of x^3 - x = s: between the folds at s = -+2/sqrt(27) there are three."""
-    generator, rows = np.random.default_rng(1), []
-    for level in np.linspace(-1, 1, 201):
-        roots = np.roots([1, 0, -1, -level])
-        rows.append(generator.permutation(roots[abs(roots.imag) < 1e-9].real)[:, None])
-    numbers = np.concatenate(branches_over(rows))
-    roots = np.concatenate(rows)[:, 0]
-    fold = 1 / np.sqrt(3)
-    assert numbers.max() == 2
-    for part in (roots < -fold - 0.02, abs(roots) < fold - 0.02, roots > fold + 0.02):
-        assert len(set(numbers[part])) == 1
 
 
 def test_solutions_are_curves(response):

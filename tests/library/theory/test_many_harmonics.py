@@ -114,14 +114,6 @@ def test_approaches_the_exact_orbit_and_its_multipliers(damper):
     assert np.max(away.min(axis=1)) < 1e-3
 
 
-def test_eigenvalues_near_zero_are_those_of_the_whole_problem(monkeypatch):
-    """The iteration for eigenvalues near zero, used for large problems, against all eigenvalues."""
-    solution = solve(Balance(PAPER, INELASTIC, 2.0, 15), single_term(PAPER, INELASTIC, 2.0))
-    whole = hill.exponents(solution).values
-    monkeypatch.setattr(hill, "DENSE", 0)
-    assert hill.exponents(solution).values == pytest.approx(whole, abs=1e-10)
-
-
 def test_failures_say_so(monkeypatch):
     first = single_term(PAPER, DESIGN, 2.0)
     lost = solve(Balance(PAPER, replace(DESIGN, contact_stiffness=1e8), 2.0, 63), first)

@@ -15,7 +15,7 @@ from references import extended
 from references.extended.starts import draw
 
 SEED = 4
-COUNT = 600  # starts of each kind
+COUNT = 300  # starts of each kind
 TOLERANCES = (1e-6, 1e-9, 1e-12)
 
 

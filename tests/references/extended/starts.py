@@ -15,7 +15,7 @@ from impact_damper.model.packed import (
 from impact_damper.model.parameters import Damper, Oscillator, parameters_in, pick
 from references import extended
 
-PERIODS = 3  # forcing cycles of a run
+PERIODS = 2  # forcing cycles of a run
 FAR = 1e3  # a clearance that no motion reaches
 
 # USUAL: ranges of the parameters. KINDS: ranges that replace the usual ones for each kind of start.
