@@ -232,10 +232,9 @@ def subharmonic(name, damped=np.nan):
         "free_subharmonic": np.full(len(frequency), size),
         "damped_subharmonic": np.where(present, damped, np.nan),
         "subharmonic_ratio": np.where(present, damped, 0.0) / size,
-        "switched_share": 0.5 * present[:, None],
+        "switched_share": 0.5 * present,
     }
     coordinates = {"frequency": frequency, "edge": ["lower", "upper"]}
-    coordinates["switched_motion"] = ["subharmonic"]
     return made(data, coordinates, **parameters(damping, **damper(mass_ratio, peak)))
 
 

@@ -30,8 +30,6 @@ register(
 fixed_method | fixed_method | | | method with equal steps
 scaled_step | scaled_step | | h omega_c | step times contact frequency
 accuracy | accuracy | | | relative deviation allowed in max |Z1|
-step_deviation | fixed_method contact_stiffness scaled_step | | | largest relative deviation of
-  max |Z1| in any period, infinite if the run diverged
 stable_step | fixed_method contact_stiffness accuracy | | h | largest step that keeps the accuracy
   together with all smaller ones
 step_slope | fixed_method accuracy | | | slope of log(1/h) as a function of log r1, h the largest
@@ -133,7 +131,6 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
     methods = integrators("stable_steps").values()
     deviations = np.array([_deviations(each, orbits, counts, tested, periods) for each in methods])
     data = _step_data(deviations, tested, period / counts, stiffnesses) | {
-        "step_deviation": deviations,
         "linear_limit": [method.stability_limit for method in methods],
         "contact_frequency": contact,
     }

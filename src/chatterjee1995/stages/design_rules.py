@@ -26,8 +26,6 @@ criterion | criterion | | | quantity that is smallest at an optimum
 rule | rule | | | rule for the clearance
 best_ratio | mass_ratio restitution contact_stiffness frequency criterion | | | r_m Omega^2 d0
   (dimensionless clearance) at the optimum
-best_size | mass_ratio restitution contact_stiffness frequency criterion | | | value of the
-  criterion at the optimum, times Omega^2
 best_kind | mass_ratio restitution contact_stiffness frequency criterion | | | kind of minimum
   : MINIMUM
 best_stability | mass_ratio restitution contact_stiffness frequency criterion | |  | stability of
@@ -87,17 +85,15 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
     optima = [motion.least(i, rules[i, -1]) for i in range(len(CRITERIA))]
     ratios = np.array([ratio for ratio, _ in optima])
     found = [motion.at(ratio) for ratio in ratios]
-    sizes = np.array([values[i] for i, values in enumerate(found)])
     reached = np.array([motion.at(ratio)[0] for ratio in rules[0]])
     multiplier = np.array([values[-1] for values in found])
     stability = ["absent" if np.isnan(m) else "stable" if m < 1 else "unstable" for m in multiplier]
     return {
         "best_ratio": ratios,
-        "best_size": np.where(np.isfinite(sizes), sizes, np.nan),
         "best_kind": [flag("best_kind", kind) for _, kind in optima],
         "best_stability": [flag("best_stability", each) for each in stability],
         "rule_ratio": rules,
-        "rule_excess": np.where(np.isfinite(reached), reached / sizes[0] - 1, np.nan),
+        "rule_excess": np.where(np.isfinite(reached), reached / found[0][0] - 1, np.nan),
     }
 
 

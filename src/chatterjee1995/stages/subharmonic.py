@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset, flag, touches_no_wall
+from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import register
 from impact_damper.kernel.single import side_of
 from impact_damper.model import packed
@@ -27,11 +27,8 @@ damped_subharmonic | frequency | displacement | max |Z1| | largest displacement 
   with the damper
 subharmonic_ratio | frequency | | | damped_subharmonic divided by free_subharmonic, 0 if the
   damper removes it
-suppression | frequency | | | effect of the damper on the subharmonic, judged by all motions found
-  : no_subharmonic_without_damper 0, removed 1, reduced 2, unchanged 3
-switched_motion | switched_motion | | | kind of motion that follows when the damper is switched on
-switched_share | frequency switched_motion | | | share of starts on the free subharmonic that lead
-  to each motion when the damper is switched on
+switched_share | frequency | | | share of starts on the free subharmonic that lead to a subharmonic
+  when the damper is switched on
     """
 )
 
@@ -40,20 +37,6 @@ SEARCHED = 81
 # The frequencies extend beyond each end of the free subharmonic by BEYOND times the width of its
 # range of frequencies.
 BEYOND = 0.1
-# A subharmonic counts as reduced if its max |Z1| is below REDUCED times that of the free one.
-REDUCED = 0.95
-# Motions that follow, or ways in which a run ends, if the damper is switched on during the free
-# subharmonic.
-SWITCHED_MOTIONS = (
-    "quiet",
-    "other_period_1",
-    "subharmonic",
-    "other_period",
-    "chaotic",
-    "non_colliding",
-    "quasi_periodic",
-    "unsettled",
-)
 
 
 def subharmonic_suppression(
@@ -91,13 +74,11 @@ def subharmonic_suppression(
     run = {"workers": workers, "progress": progress}
     data = sweep(parameters, FREQUENCY, "frequency", search, settling, **run)
     data |= _subharmonic_table(data, size)
-    data["switched_share"] = _shares(data, np.isfinite(size), starts // 2)
+    switched = data["run_motion"][1][:, : starts // 2]
+    share = np.mean(np.take_along_axis(is_subharmonic(data), switched, axis=1), axis=1)
+    data["switched_share"] = np.where(np.isfinite(size), share, np.nan)
     made = describe(oscillator, damper, settling) | describe_search(**drawn)
-    coordinates = {
-        "frequency": frequencies,
-        "component": list(COMPONENTS),
-        "switched_motion": list(SWITCHED_MOTIONS),
-    }
+    coordinates = {"frequency": frequencies, "component": list(COMPONENTS)}
     return dataset(data, coordinates, made, "One-third subharmonic without and with the damper")
 
 
@@ -146,41 +127,7 @@ def _subharmonic_table(data, free):
         "free_subharmonic": free,
         "damped_subharmonic": np.where(damped > 0, damped, np.nan),
         "subharmonic_ratio": np.maximum(damped, 0) / free,
-        "suppression": _suppression(damped, free),
     }
-
-
-def _suppression(damped, free):
-    """Return flags of `suppression` from max |Z1| with the damper and without it."""
-    meanings = np.select(
-        [np.isnan(free), damped < 0, damped < REDUCED * free],
-        ["no_subharmonic_without_damper", "removed", "reduced"],
-        "unchanged",
-    )
-    return np.array([flag("suppression", meaning) for meaning in meanings])
-
-
-def _shares(data, present, count):
-    """Return the shares of the first `count` starts by motion, NaN where `present` is False."""
-    settled = data["outcome"][1] == flag("outcome", "settled")
-    period = data["period"][1]
-    symmetric = (np.abs(data["contacts"][1] - 2) < SAME) & (data["asymmetry"][1] < SAME)
-    kinds = np.select(
-        [
-            settled & (period == 1) & symmetric,
-            settled & (period == 1),
-            is_subharmonic(data),
-            settled,
-            data["outcome"][1] == flag("outcome", "chaotic"),
-            touches_no_wall({"outcome": data["outcome"][1]}),
-            data["outcome"][1] == flag("outcome", "quasi_periodic"),
-        ],
-        range(len(SWITCHED_MOTIONS) - 1),
-        len(SWITCHED_MOTIONS) - 1,
-    )
-    reached = np.take_along_axis(kinds, data["run_motion"][1][:, :count], axis=1)
-    shares = np.stack([np.mean(reached == k, axis=1) for k in range(len(SWITCHED_MOTIONS))], axis=1)
-    return np.where(present[:, None], shares, np.nan)
 
 
 def is_subharmonic(data):

@@ -128,14 +128,15 @@ def subharmonic(datasets) -> pd.DataFrame:
         rows.append(_subharmonic(name, "off", free) | found)
     for name, curve in datasets.get("subharmonic", {}).items():
         existing = curve.where(curve.free_subharmonic.notnull())
-        led = existing.switched_share.sel(switched_motion="subharmonic")
         rows.append(
             _subharmonic(name, "on", curve)
             | {
                 "branch": "all",
                 "largest displacement max |Z1|": float(existing.damped_subharmonic.max()),
                 "largest ratio to free max |Z1|": float(existing.subharmonic_ratio.max()),
-                "share of starts on the free one that lead to it": float(led.mean()),
+                "share of starts on the free one that lead to it": float(
+                    existing.switched_share.mean()
+                ),
             }
         )
         if name in datasets.get("branches", {}):

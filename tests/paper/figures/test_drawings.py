@@ -226,14 +226,6 @@ def test_what_differs_in_colour_differs_in_grey_too():
     assert len(set(found.values())) == len(found)
 
 
-def test_contacts_are_marked_where_they_are():
-    (axes,) = draw_motion(motion=[motion()]).axes
-    time = motion()["time"].values
-    _, first, second = axes.lines
-    assert np.array_equal(np.isfinite(first.get_ydata()), (time >= 1) & (time <= 1.5))
-    assert np.array_equal(np.isfinite(second.get_ydata()), time >= 4)
-
-
 def test_the_stored_run_is_drawn_with_its_own_switchings():
     whole, part = draw_migration(migration=[migration()]).axes
     assert [patch.get_x() for patch in whole.patches] == [0, 120]

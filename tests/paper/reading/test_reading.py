@@ -35,14 +35,6 @@ def test_the_band_begins_above_the_last_violent_motion(data):
     assert (band.lower, band.least_width) == pytest.approx((0.96 * peak, 0.035 * peak))
 
 
-def test_band_without_high_motions_has_no_lower_edge(data):
-    unstable("figure_05a", 0.4, 1.6)(data)
-    calm = data["response"]["figure_05a"]
-    calm = calm.assign(contacts=calm.contacts.where(calm.contacts != 4, np.nan))
-    band = suppression_band(data | {"response": {"figure_05a": calm}}, "figure_05a")
-    assert np.isnan(band.lower) and np.isnan(band.width)
-
-
 def test_a_quiet_orbit_is_stable_and_smaller_than_half_the_resonance(data):
     quiet = orbits.quiet(*orbits.of_curve(data, "figure_05a"))
     assert orbits.ranges(quiet) == [pytest.approx([1.0, 3.0])]

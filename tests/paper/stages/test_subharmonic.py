@@ -9,7 +9,6 @@ from chatterjee1995.stages.subharmonic import (
     subharmonic_suppression,
     switched_on,
 )
-from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
@@ -75,11 +74,11 @@ def assert_energy_balance(motion, frequency):
 
 @pytest.mark.thorough
 def test_damped_subharmonic_is_a_motion_of_period_3(damped):
-    """The motions after switching the damper on are all counted too."""
+    """Some starts on the free subharmonic lead to it when the damper is switched on."""
     present = np.isfinite(damped.free_subharmonic)
-    assert_allclose(damped.switched_share.sum("switched_motion"), present)
+    assert np.array_equal(np.isfinite(damped.switched_share), present)
     row = damped.sel(frequency=1.85, method="nearest")
-    assert row.suppression == flag("suppression", "reduced")
+    assert 0 < row.switched_share < 1 and 0 < row.subharmonic_ratio < 0.95
     frequency = float(row.frequency)
     place = int(np.flatnonzero(row.period.values == 3)[0])
     motion = from_strobe(row.state.values[place], DAMPER, frequency, 3)
@@ -110,4 +109,4 @@ def test_no_free_subharmonic():
         Oscillator(1.0), DAMPER, frequencies, starts=4, settling=Settling()
     )
     assert_allclose(data.frequency, frequencies)
-    assert np.all(data.suppression == flag("suppression", "no_subharmonic_without_damper"))
+    assert np.isnan(data.free_subharmonic).all() and np.isnan(data.switched_share).all()
