@@ -1,8 +1,4 @@
-"""Arguments of the public functions: read and checked once, in the unit of the user.
-
-A public function takes a `system`, an `Oscillator` or a `Machine`. What it computes with is
-dimensionless; `Model` keeps the scales, in which errors are told and results are labelled.
-"""
+"""Arguments of the public functions: read and checked once, in the unit of the user."""
 
 import math
 from dataclasses import replace
@@ -57,14 +53,9 @@ class Model(NamedTuple):
 
 
 def read_system(system, damper=None, *, needs_damper=False) -> Model:
-    """Return the model of the arguments `system` and `damper` of a public function.
+    """Return the model of the arguments `system` and `damper`; with `needs_damper` None is refused.
 
-    The damper of a machine is made by `Machine.damper`. With `needs_damper` None is refused.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is of another type, or the damper does not fit the machine.
+    TypeError or ValueError if one has another type, or the damper does not fit the machine.
     """
     if isinstance(system, Machine):
         damper, scaled = _read_machine_damper(system, damper, needs_damper)
@@ -80,8 +71,7 @@ def read_system(system, damper=None, *, needs_damper=False) -> Model:
 def read_forced(system, damper, frequency, *, exact=True, needs_damper=False) -> Model:
     """Return the model of `system` and `damper` at a frequency, in Hz for a machine.
 
-    Without `exact` the force of a moving base is approximated by the formula that holds over a
-    range of frequencies. The other arguments and the errors are as in `read_system`.
+    Without `exact` the force of a moving base is the approximation over a range of frequencies.
     """
     if not isinstance(system, Machine):
         model = read_system(system, damper, needs_damper=needs_damper)
@@ -105,10 +95,9 @@ def _read_machine_damper(machine, damper, needs_damper):
 
 
 def read_swept_damper(system, damper, frequency) -> Model:
-    """Return the model for a sweep of the clearance, in which the damper's own one is ignored.
+    """Return the model for a sweep of the clearance; the clearance of the damper is not used.
 
-    For an `Oscillator` the damper may be a dictionary of the arguments of `Damper` without the
-    clearance.
+    Beside an `Oscillator` the damper may be a dictionary without the clearance.
     """
     if isinstance(system, Oscillator) and isinstance(damper, dict):
         allowed = {"mass_ratio", "restitution", "contact_stiffness"}
@@ -122,7 +111,7 @@ def read_swept_damper(system, damper, frequency) -> Model:
 
 
 def read_numbers(scales, name, values, kind="number", **bounds) -> np.ndarray:
-    """Return a number or a sequence as an array, dimensionless; the bounds are so too."""
+    """Return a number or a sequence as a dimensionless array; the bounds are dimensionless too."""
     return np.array(
         [scales.read(f"{name}[{i}]", value, kind, **bounds) for i, value in _numbered(values)]
     )
@@ -160,10 +149,7 @@ def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
 
 
 def read_radius(scales, radius) -> float | None:
-    """Return the radius of the ball of random starts, or None for a search without it.
-
-    The ball holds displacements up to the radius, and velocities up to radius * w0.
-    """
+    """Return the radius of the ball of random starts, or None for a search without it."""
     if radius is None:
         return None
     return scales.read("radius", radius, "displacement", **RADIUS_RANGE)
@@ -192,19 +178,8 @@ def _components(scales, name, values, kinds, words):
 def read_state(model, state) -> np.ndarray:
     """Return the argument `state` of a public function as Z1, Z1', Z2, Z2', shape (4,).
 
-    Without a damper two numbers suffice. Then Z2 = Z1 and Z2' = Z1', as for a loose mass at rest at
-    the origin.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If the state does not consist of four numbers (or two without a damper), or if a number is
-        out of range.
-
-    Warns
-    -----
-    UserWarning
-        If the penetration of the loose mass into a wall exceeds the clearance.
+    Without a damper two numbers suffice; then Z2 = Z1 and Z2' = Z1'. UserWarning if the penetration
+    of a wall exceeds the clearance.
     """
     scales, damper = model.scales, model.damper
     if hasattr(state, "coords"):
@@ -254,8 +229,8 @@ def carried_phase(state):
 def read_start(model, state, start) -> float:
     """Return the time T of a state, from the argument `start` of a public function.
 
-    It is `start` if this is given, otherwise the time of the phase that a state of a dataset has,
-    otherwise 0. A `start` with another phase than that of the state is an error.
+    If this is None, it follows from the phase of a state of a dataset, or is 0. A `start` with
+    another phase is an error.
     """
     phase, frequency = carried_phase(state), model.frequency
     if start is None:

@@ -79,10 +79,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return the number in an array without dimensions, and other values unchanged.
-
-    A unit in the attributes of the array is an error.
-    """
+    """Return the number in an array without dimensions and unit, and other values unchanged."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")
@@ -101,20 +98,9 @@ def check_number(
 ) -> float:
     """Return `value` as a float, or raise an error that names the allowed range.
 
-    Parameters
-    ----------
-    value : float
-        A number, or an array without dimensions and without a unit.
-    above, least, most : float, optional
-        Bounds: greater than `above`, at least `least` and at most `most`.
-    why, unit, given : str
-        For the message: reason for the bounds, unit of value and bounds, text in place of the
-        value.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If the value is not a real number, or not finite or outside the bounds.
+    `why`, `unit` and `given` are the reason for the bounds, the unit, and text in place of the
+    value. TypeError if it is not a real number, ValueError if it is not finite or outside the
+    bounds.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):

@@ -39,8 +39,7 @@ def facts_of(parameter) -> tuple:
 def read_followed(model, parameter, span) -> tuple:
     """Return the arguments `parameter` and `span` of a branch, dimensionless.
 
-    A parameter is named as in PARAMETERS, or as for a machine. The span must hold the value of the
-    model.
+    A machine has its own names of PARAMETERS. The span must hold the value of the model.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}
@@ -62,15 +61,8 @@ def read_followed(model, parameter, span) -> tuple:
 def family_of(oscillator, damper, frequency, parameter, span):
     """Return the packed parameters as a function of the coordinate of one parameter.
 
-    Returns
-    -------
-    callable, float, (float, float)
-        The function; the coordinate of the given system; the coordinates of the ends of the span.
-
-    Raises
-    ------
-    ValueError
-        If the contact is too stiff at an end of the span.
+    Also return the coordinate of the given system, and those of the ends of the span. ValueError if
+    the contact is too stiff at an end.
     """
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)

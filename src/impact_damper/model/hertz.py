@@ -104,10 +104,9 @@ class HertzContact:
         return "unknown" if None in strengths else "no"
 
     def compression(self, speed, mass) -> float:
-        """Return the largest compression q of an elastic impact, m.
+        """Return the largest compression q of an elastic impact, m, from (2/5) K q^(5/2) = m v^2/2.
 
-        The speed (m/s) is relative, the mass (kg) m1 m2/(m1 + m2). The elastic energy
-        (2/5) K q^(5/2) is equal to mass speed^2/2.
+        The speed v (m/s) is relative, the mass m (kg) m1 m2/(m1 + m2).
         """
         return (5 * mass * speed**2 / (4 * self.coefficient)) ** 0.4
 
@@ -117,9 +116,8 @@ class HertzContact:
         return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
 
     def stiffness(self, speed, mass) -> float:
-        """Return the stiffness of the linear spring that is compressed as far in an impact, N/m.
+        """Return the stiffness, N/m, of the linear spring with equal compression in an impact.
 
-        The spring stores the same energy; its largest force is 4/5 of Hertz's. The arguments are as
-        in `compression`.
+        The spring stores the same energy; its largest force is 4/5 of the largest force of Hertz.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

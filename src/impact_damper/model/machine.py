@@ -249,8 +249,7 @@ class Machine:
         """Scales with which the dimensionless equations describe the machine.
 
         The length is the geometric mean of the static deflection and the displacement at resonance,
-        so that small motions, large motions and useful gaps are all of the order 1. In these scales
-        omega_l^2 + |k3| = 1.
+        so small and large motions and useful gaps are of the order 1, and omega_l^2 + |k3| = 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -260,8 +259,8 @@ class Machine:
     def _static_deflection(self):
         """Return the deflection under the excitation, m.
 
-        Without a force it is the deflection at which the linear and the cubic part of the spring's
-        force are equal, or 1 mm if the spring has only one part.
+        Without a force the linear and the cubic part of the spring's force are equal there, or it
+        is 1 mm.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
@@ -297,9 +296,8 @@ class Machine:
         """Return the dimensionless oscillator: the machine in its scales.
 
         With a moving base its force holds for the given frequency (Hz) alone. Without a frequency
-        the force is approximated by A (k + c^2 w^2/(2 k)), with A = a/w^2 for `base_acceleration`;
-        its relative error is (2 damping_ratio w/wn)^4/8. A machine too strongly damped for this is
-        refused.
+        it is A (k + c^2 w^2/(2 k)), A = a/w^2 for `base_acceleration`, with the relative error (2
+        damping_ratio w/wn)^4/8; a machine too strongly damped for this is refused.
         """
         scales = self.scales
         force, unbalance, shaker = self.forcing(frequency)
@@ -344,18 +342,14 @@ class Machine:
     def damper(self, *, mass, gap=None, clearance_each_side=None, **contact) -> MachineDamper:
         """Return a damper for this machine.
 
-        Parameters
-        ----------
-        mass : float, str or pint.Quantity
+        Parameters ---------- mass : float, str or pint.Quantity
             kg.
         gap, clearance_each_side : float, str or pint.Quantity
             Full play of the loose mass from wall to wall, m, or half of it in its place.
         contact
             The arguments contact_stiffness and restitution of `MachineDamper`.
 
-        Raises
-        ------
-        TypeError, ValueError
+        Raises ------ TypeError, ValueError
             If a value is out of range, in general or for this machine.
         """
         if (gap is None) == (clearance_each_side is None):
@@ -383,10 +377,7 @@ class TunedAbsorber:
 
     Each value is a number in the SI unit, text with units, or a quantity of pint.
 
-    Examples
-    --------
-    >>> TunedAbsorber(mass="0.6 kg", stiffness="9e3 N/m", damping=20).stiffness
-    9000.0
+    >>> TunedAbsorber(mass="0.6 kg", stiffness="9e3 N/m", damping=20).stiffness 9000.0
     """
 
     mass: float = physical("mass", "mass of a tuned absorber", above=0)

@@ -1,7 +1,4 @@
-"""Parameters packed into the array `p` of COUNT dimensionless numbers that kernels read.
-
-Kernels (compiled functions) read each number by its index, for example `p[FREQUENCY]`.
-"""
+"""Parameters packed into the array `p` of COUNT dimensionless numbers that kernels read."""
 
 import math
 
@@ -48,13 +45,9 @@ DESIGN = (*SIMPLE, "restitution", "contact_stiffness", "mass_ratio")
 def pack(oscillator, damper, frequency) -> np.ndarray:
     """Return the parameters as the array that kernels read, shape (COUNT,).
 
-    Without a damper (None) the clearance is infinite and the contact's parameters are 0.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument has the wrong type, the frequency W is out of range, or the natural frequency
-        of the contact is more than MOST_STIFF times the forcing frequency.
+    Without a damper (None) the clearance is infinite and the contact's parameters are 0. TypeError
+    if an argument has the wrong type, ValueError if W is out of range, or the natural frequency of
+    the contact exceeds MOST_STIFF W.
     """
     p = np.zeros(COUNT)
     p[FREQUENCY] = frequency = check_frequency(frequency)
@@ -92,10 +85,7 @@ def cubic_spring(p) -> tuple:
 
 
 def design_slopes(p) -> np.ndarray:
-    """Return the derivatives of packed parameters by the parameters DESIGN, a column for each.
-
-    Without a damper the last three columns, for the parameters of the contact, are 0.
-    """
+    """Return the derivatives of packed parameters by the parameters DESIGN, a column for each."""
     slopes = np.zeros((COUNT, len(DESIGN)))
     for column, index in enumerate(SIMPLE.values()):
         slopes[index, column] = 1.0

@@ -69,25 +69,11 @@ CALCULATION = re.compile(r"\s*[\d.][^*/·+]*[*/·+]\s*[\d.].*")
 
 
 def si_value(name, value, quantity) -> float:
-    """Return a physical quantity as a number in its SI unit.
+    """Return a physical quantity, a key of QUANTITIES, as a number in its SI unit.
 
-    Frequencies are in Hz. Angular frequencies with a unit ("188 rad/s", "1800 rpm") are divided by
-    2 pi, which pint by itself does not do.
-
-    Parameters
-    ----------
-    name : str
-        Name of the argument, for messages.
-    value : float, str, pint.Quantity or xarray.DataArray
-        A number in the SI unit, text with units, a quantity of any registry of pint, or a single
-        value of a dataset in the unit of its attribute `units`.
-    quantity : str
-        A key of QUANTITIES.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If the value is none of these, not finite, or of another quantity.
+    The value is a number in the SI unit, text with units, a quantity of any registry of pint, or a
+    single value of a dataset. Angular frequencies ("188 rad/s", "1800 rpm") are divided by 2 pi,
+    which pint does not do. TypeError, or ValueError for a value not finite or of another quantity.
     """
     value = _from_dataset(value)
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
@@ -180,10 +166,7 @@ def physical(quantity, meaning="", **others):
 
 
 def convert(part) -> None:
-    """Replace the fields of a frozen dataclass made by `physical` by numbers in SI units.
-
-    A field whose default is None may keep the value None.
-    """
+    """Convert the fields of a frozen dataclass made by `physical` to SI, except None by default."""
     for each in fields(part):
         value = getattr(part, each.name)
         if "quantity" in each.metadata and not (value is None and each.default is None):
@@ -203,10 +186,7 @@ class Scales(NamedTuple):
     si: bool = False
 
     def unit(self, kind) -> float:
-        """Return the SI value of the dimensionless 1 of a key of QUANTITIES.
-
-        The dimensionless frequency W is angular; its value in Hz is W w0/(2 pi).
-        """
+        """Return the SI value of the dimensionless 1 of a key of QUANTITIES; W is 2 pi times Hz."""
         if not self.si:
             return 1.0
         each = QUANTITIES[kind]
@@ -228,10 +208,7 @@ class Scales(NamedTuple):
         }
 
     def read(self, name, value, kind, **bounds) -> float:
-        """Return an argument, given in the unit of the user, as a dimensionless number.
-
-        The bounds are dimensionless, as in `check_number`; errors are in the unit of the user.
-        """
+        """Return an argument in the unit of the user as a dimensionless number."""
         if not self.si:
             return check_number(name, value, **bounds)
         return self.from_si(check_si(name, value, kind, **self.range_to_si(bounds, kind)), kind)

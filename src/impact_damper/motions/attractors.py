@@ -1,7 +1,7 @@
 """Attractors and what leads to them: neighbourhoods, labels of states, and the release set.
 
-A neighbourhood is an ellipse around a state of a free orbit at a strobe. Every motion in the
-ellipse provably tends to the orbit (docs/explanation/neighbourhoods.md), so its integration stops.
+A motion that enters the neighbourhood of a free orbit, an ellipse around a strobe state, provably
+tends to the orbit (docs/explanation/neighbourhoods.md), so its integration stops.
 """
 
 import math
@@ -50,9 +50,8 @@ PHASES, WIDTH, REFINED = 16, 1.6, 4
 class Attractors(NamedTuple):
     """Attracting orbits of the free oscillator, by ascending max |Z1|, and their m neighbourhoods.
 
-    `owner` (m,) is the index of the orbit of each neighbourhood, `centre` (m, 2) its state Z1, Z1'
-    at a strobe, and `shape` (m, 2, 2) a matrix S, infinite without a proof: a state z lies in the
-    neighbourhood if |S (z - centre)| < 1.
+    A state z at a strobe lies in a neighbourhood if |shape (z - centre)| < 1; `owner` is the index
+    of the orbit, and `shape` (m, 2, 2) infinite without a proof.
     """
 
     records: np.ndarray
@@ -131,10 +130,7 @@ def linear_flow(p, state, periods):
 
 
 def neighbourhood(p, state, periods):
-    """Return the matrix S of the proven neighbourhood |S d| < 1 of a state of a free orbit.
-
-    S is infinite if the proof fails, for example for an unstable orbit.
-    """
+    """Return the matrix S of the neighbourhood |S d| < 1 of a state, infinite without a proof."""
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
     if not np.max(np.abs(values)) < 1:
@@ -158,9 +154,8 @@ def neighbourhood(p, state, periods):
 def _radius(coefficients, step, contraction):
     """Return the largest r0 for which `contraction` r(P) < FACTOR r0.
 
-    r grows, so in a step r' = a r^2 + b r^3 is at most its value with r at the end. The loop
-    computes an upper bound on the root of r = r(begin) + step (a r^2 + b r^3), by one iteration
-    from a value `ahead` above the root.
+    r grows, so r' = a r^2 + b r^3 is at most its value at the end of a step. `ahead` lies above the
+    root of r = r(begin) + step (a r^2 + b r^3), and one iteration from it gives an upper bound.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -177,11 +172,10 @@ def _radius(coefficients, step, contraction):
 
 
 def label_damped(p, states, phase, settling, workers=1, progress=None):
-    """Return labels of states with the damper on, and the attractors.
+    """Return labels of states (n, 4) at a forcing phase with the damper on, and the attractors.
 
-    No proven neighbourhoods exist for motions with contacts, so each motion is run until it has
-    settled. A label is the index of an attractor, a record, by ascending max |Z1|, or a negative
-    flag of `basin_label`. `states` (n, 4) are states at the forcing phase `phase`, radian.
+    A label is the index of an attractor, by ascending max |Z1|, or a negative flag of
+    `basin_label`.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     if begin > strobe_time(p):
@@ -220,11 +214,9 @@ def orbit_passages(p, record, phase):
 class ReleaseSet(NamedTuple):
     """The states of the free oscillator at one frequency that lead to the goal of migration.
 
-    goal: Index among the `attractors` of the smaller free motion of period 1; the last attractor is
-        the resonance motion.
-    depth: Distance of a state from the boundary of the set, positive inside, in units of Z1 with
-        Z1' divided by W, over phase, Z1' and Z1; shape (PHASES, cells, cells).
-    half: Half widths of the grid in Z1 and Z1'.
+    `goal` is the index of the smaller free motion of period 1 among the attractors. `depth` (phase,
+    Z1', Z1) is the distance from the boundary of the set, positive inside, in units of Z1 with Z1'
+    divided by W, and `half` the half widths of the grid in Z1 and Z1'.
     """
 
     p: np.ndarray
@@ -238,8 +230,7 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
     """Compute the release set at one frequency on a grid at each of PHASES phases.
 
     A mirrored state half a cycle later leads to the mirrored motion, and the goal is its own mirror
-    image, so only half of the phases are computed. `cells` are the states on each axis of the
-    coarse grid. ValueError if one of the two free motions of period 1 is missing.
+    image, so only half of the phases are computed.
     """
     p = pack(oscillator, None, frequency)
     known = free_motions(oscillator, frequency, settling)
@@ -268,10 +259,7 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return which cells of the fine grid lie inside a set, shape (n, n) with n = REFINED cells.
-
-    The function `inside` of states (m, 2) is called on finer grids only near the boundary.
-    """
+    """Return which of (n, n) fine cells lie in a set; only cells at its boundary are refined."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
         # The cells at the boundary: those with a different neighbour, and their neighbours.

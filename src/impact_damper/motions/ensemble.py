@@ -1,7 +1,4 @@
-"""Run many motions on several threads: until they settle, or enter a known basin.
-
-Each motion is computed separately, so results do not depend on the number of threads.
-"""
+"""Run many motions on several threads: until they settle, or enter a known basin."""
 
 import math
 from concurrent.futures import ThreadPoolExecutor
@@ -40,8 +37,7 @@ GONE, UNKNOWN = -2, -1
 def run_chunks(work, count, workers, progress, stop, size=CHUNK):
     """Call `work(slice)` for slices of length `size` that cover range(count), on `workers` threads.
 
-    `progress` is the title of a progress bar, or None. An error or Ctrl-C sets `stop[0]` and does
-    not wait for the slices that are being computed, so `work` must end soon after.
+    An error or Ctrl-C sets `stop[0]` and does not wait for the slices that are being computed.
     """
     check_count("workers", workers, most=4096)
     slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
@@ -68,11 +64,11 @@ def settle(
     progress=None,
     stop=None,
 ):
-    """Run motions from states (m, 4), each with its packed parameters, until each has settled.
+    """Run motions from states (m, 4) until each has settled; return an array of `records.MOTION`.
 
-    `start` is the time T of all states, in the forcing cycle that ends at the first strobe; with
-    `from_strobe` they are states at the strobe. `progress` is the title of a progress bar. If
-    another thread sets `stop[0]`, the records are incomplete. Return an array of `records.MOTION`.
+    `parameters` has a packed row for each. `start` is the time T of all states, in the forcing
+    cycle that ends at the first strobe. If another thread sets `stop[0]`, the records are
+    incomplete.
     """
     settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)
@@ -96,11 +92,7 @@ def settle(
 
 @kernel
 def settle_many(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Run each motion until it has settled or is certainly chaotic, for at most `limit` cycles.
-
-    The states are those at the times `start`, not after the first strobe. `watch` fills the records
-    `out`, whose `state` is the last one at a strobe or on the orbit.
-    """
+    """Fill the records `out`, by `watch`, of motions from states at the times `start`."""
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
     seen = np.zeros(size, SEEN)
@@ -154,9 +146,8 @@ def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes
 def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
     """Return the free orbit that each state leads to, and the number of cycles until it was known.
 
-    `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`, radian. A label is an index in
-    `attractors.records` (`attractors` is an `Attractors`), or GONE, or UNKNOWN after `limit`
-    cycles.
+    `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`. A label is an index in
+    `attractors.records`, or GONE, or UNKNOWN after `limit` cycles.
     """
     states = np.ascontiguousarray(states, float)
     strobe = 0.5 * math.pi
@@ -176,11 +167,7 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
 
 @kernel
 def label_many(p, begin, tolerance, limit, neighbourhoods, states, labels, periods, stop):
-    """Label states of the free oscillator by the orbit whose neighbourhood their motions enter.
-
-    `states` are Z1 and Z1' at the time `begin`, at most a forcing cycle before the first strobe.
-    `labels` and `periods` receive the results of `label_states`.
-    """
+    """Fill the `labels` and `periods` of `label_states`, for states at the time `begin`."""
     owner, centre, shape = neighbourhoods
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

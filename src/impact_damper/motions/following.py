@@ -1,7 +1,6 @@
 """Follow an orbit from one value of a parameter to another, by prediction and correction.
 
-A step predicts the state at the next value and corrects it by a function of the caller, Newton's
-method. A step that fails is halved. Following stops at folds, unlike `orbits.continuation`.
+Following stops at folds, unlike `orbits.continuation`.
 """
 
 import math
@@ -65,12 +64,10 @@ def follow(
 ) -> Followed:
     """Follow an orbit from one value of a parameter to another, or as far as it goes.
 
-    `correct` takes a value and a predicted state (4,), and returns an orbit with the attribute
-    `state`, or None if it fails, and a status. The first step leads from `start` to `target`; a
-    step grows by the factor `growth` after success. It fails also if Z1, Z1' or Z2 changes by
-    `reach` or more, since it may have led to another orbit. Following stops when half of a failed
-    step is shorter than `shortest`. The prediction is the last state, if `extrapolating`
-    extrapolated from the last two. `behind` is the orbit at 2 start - target, if known.
+    `correct` takes a value and a predicted state (4,), and returns an orbit, or None if it fails,
+    and a status. The first step leads to `target`. A step grows by `growth` after success, and is
+    halved if the correction fails, or if Z1, Z1' or Z2 changes by `reach` or more, since it may
+    have led to another orbit. `behind` is the orbit at 2 start - target, if known.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -102,9 +99,9 @@ def extrapolate(state, before, ratio):
 def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -> tuple:
     """Follow a stable orbit while the parameter of an index changes to a target value, if possible.
 
-    Following stops where the orbit becomes unstable or repeats after fewer cycles, located with the
-    accuracy `resolution`. Return the packed parameters, with exactly the target if it was reached,
-    and the last `StrobeOrbit`, whose multiplier is NaN if there is no orbit near the given state.
+    Following stops where the orbit becomes unstable or repeats after fewer cycles. Return the
+    packed parameters, with exactly the target if it was reached, and the last `StrobeOrbit`, whose
+    multiplier is NaN if there is no orbit near the given state.
     """
     # Records hold periods as two-byte integers; for these numba would compile the kernels again.
     periods = int(periods)

@@ -31,8 +31,8 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
     """Run a motion until it is near a stable orbit, at most `limit` strobes beyond the first one.
 
     The state y (4,), `ahead` forcing cycles before the strobe number `strobe`, is replaced by the
-    last state. Return a row for the beginning and for each strobe, shape (m, 5): the number of the
-    strobe and the state; and the `records.MOTION`, measured if the motion settled.
+    last one. Return rows of strobe number and state, for the beginning and each strobe, shape (m,
+    5), and the `records.MOTION`, measured if the motion settled.
     """
     records, path = np.zeros(1, MOTION), np.empty((limit + 2, 5))
     out = records[0]
@@ -90,8 +90,8 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
 def wait_and_switch(before, after, y, wait, place, tolerance):
     """Run from a strobe for `wait` forcing cycles, and switch the damper; return the time.
 
-    `before` and `after` are the packed parameters. When the damper is switched on, the loose mass
-    is at rest relative to the primary mass, with Z2 at `place` times the clearance.
+    When it is switched on, the loose mass is at rest relative to the primary mass, with Z2 at
+    `place` times the clearance.
     """
     t = strobe_time(before)
     end = t + wait * 2.0 * math.pi / before[FREQUENCY]
@@ -104,10 +104,9 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 
 
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
-    """Wait, switch the damper on, and off as soon as the state lies in the set `releases`.
+    """Wait, switch the damper on, and off once the state is in `releases` or `longest` is over.
 
-    Return rows as `run` does, for the switching on, each strobe, and the switching off, at most
-    `longest` forcing cycles later. y is replaced by the free state after it.
+    Return rows as `run` does; y is replaced by the free state after the switching off.
     """
     begin = wait_and_switch(off, on, y, wait, place, tolerance)
     path = np.full((longest + 2, 5), np.nan)
@@ -141,10 +140,9 @@ def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, wo
 
     `rule` is a kind, a number n of forcing cycles, and the index of a phase. HOLD releases after n
     cycles, PHASE at the first such phase after n cycles, SETTLED at the fraction `draw` of a period
-    after the states at the strobes repeat, STATE as soon as the state lies inside the release set
-    (`depth` and `half` of a `ReleaseSet`), or after n cycles. The first strobes fill the rows of
-    `path` (m, 5): forcing cycles since `begin`, and the state. Return the time of the end, whether
-    the rule released within `limit` forcing cycles, and the number of contacts begun.
+    after the states at the strobes repeat, STATE once the state lies in the release set, or after n
+    cycles. Rows of `path` (m, 5) receive forcing cycles since `begin` and the state at the strobes.
+    Return the time, whether the rule released within `limit` cycles, and the number of contacts.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

@@ -1,9 +1,4 @@
-"""Migration control, from the large free motion of period 1 to the small one, the goal (figure 17).
-
-The damper is switched on and off repeatedly until the free oscillator settles to the goal: off
-after the motion with it has settled, at a phase drawn uniformly over the period of this motion, or
-as soon as the state leads to the goal.
-"""
+"""Migration control: switch the damper until the large free motion has become the small one."""
 
 from typing import NamedTuple
 
@@ -46,8 +41,8 @@ SWITCHING = np.dtype(
 class ReleaseCase(NamedTuple):
     """Packed parameters with and without the damper, and the free motions at one frequency.
 
-    `state` is the free resonance motion at a strobe, and `known` the max |Z1| of the free
-    non-resonance motion and of the resonance motion.
+    `state` is the resonance motion at a strobe, `known` max |Z1| of the non-resonance and this
+    motion.
     """
 
     on: np.ndarray
@@ -141,8 +136,7 @@ def migrate(
 def _free_motion(oscillator, frequency, start, which, settling):
     """Return the record of a free motion of period 1 at a frequency, or None.
 
-    It is followed from the frequency `start`, where a run begins with the harmonic-balance solution
-    number `which`, by ascending amplitude.
+    It is followed from the frequency `start`, from the harmonic-balance solution number `which`.
     """
     p = pack(oscillator, None, start)
     free = main_solutions(oscillator, start)
@@ -180,9 +174,9 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return flags (`DAMPED_MOTION`) that classify motions by period and max |Z1|, arrays.
+    """Return flags (`DAMPED_MOTION`) of motions by period and max |Z1|, arrays.
 
-    A motion of period 1 is quiet if its max |Z1| is below half that of the free resonance motion.
+    Quiet motions of period 1 have less than half the max |Z1| of the free resonance motion.
     """
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
@@ -210,11 +204,9 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """Return path and log of one run of the controller.
 
     A row of `draws` holds the phase at which the damper is switched on, the place of the loose mass
-    in the gap at this time, and the phase at which the damper is switched off. A phase is a
-    fraction of the period of the motion before the switching. `releases` is a `ReleaseSet` for
-    release by state, or None. The path has a row for each strobe and each switching, shape (m, 5):
-    forcing cycles from the first strobe, then the state. The log has a SWITCHING for each row of
-    `draws`.
+    in the gap, and the phase at which the damper is switched off, each as a fraction. `releases` is
+    a `ReleaseSet` for release by state, or None. The path (m, 5) has forcing cycles from the first
+    strobe and the state at each strobe and switching, the log a SWITCHING for each row of `draws`.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit
@@ -256,8 +248,7 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
 def course(case, path, log, tolerance):
     """Return times T and Z1 along a run, with MARGIN forcing cycles before and after the run.
 
-    Each interval between two rows of the path is integrated from its state in the path, because
-    errors grow in chaotic parts.
+    Each part begins with a state of the path, because errors grow in chaotic parts.
     """
     period = 2 * np.pi / case.on[FREQUENCY]
     path = np.vstack([np.append(-MARGIN, case.state), path])

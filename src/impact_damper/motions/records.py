@@ -1,7 +1,4 @@
-"""Measurements of motions: largest |Z1|, contacts, harmonics, first collisions, envelopes.
-
-A record is an element of an array of the type MOTION. It holds the results for one motion.
-"""
+"""Measurements of motions: largest |Z1|, contacts, harmonics, first collisions, envelopes."""
 
 import math
 
@@ -76,8 +73,8 @@ MOTION = np.dtype(
 def extremum(c, order, length, start):
     """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
 
-    In most calls a bound shows that `start` or an end is largest: length^2/8 times a bound on the
-    second derivative. Otherwise Newton's method locates the turning point in each of PIECES pieces.
+    In most calls length^2/8 times a bound on the second derivative shows that `start` or an end is
+    largest. Otherwise Newton's method locates the turning point in each of PIECES pieces.
     """
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)
@@ -119,11 +116,10 @@ def turning_time(c, order, begin, end, first, last):
 def survey(p, states, phases, times, tolerance, log, sums):
     """Record contacts, the largest |Z1| and first harmonics of a motion in segments.
 
-    `states` (m, 4) at the beginnings of the segments are replaced by the states at their ends;
-    `phases` and `times` (m + 1,) are W T and T at the beginnings and at the last end. `log` (n, 5)
-    receives the first n contacts, as from `traces.trace`; `sums` (2, 2) real and imaginary part of
-    the mean of 2 exp(-i W T) Z1 and 2 exp(-i W T) Z2, from SAMPLES samples in a forcing cycle.
-    Return the number of contacts and the largest |Z1|.
+    `states` (m, 4) at the beginnings of segments become those at their ends; `phases` and `times`
+    (m + 1,) are W T and T at their ends. `log` (n, 5) receives the first n contacts, as from
+    `traces.trace`, `sums` (2, 2) real and imaginary part of the mean of 2 exp(-i W T) Z1, and of
+    Z2. Return the number of contacts and the largest |Z1|.
     """
     work, start = workspace(), np.empty(4)
     frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
@@ -202,9 +198,8 @@ def measure_nothing(out):
 def measure(parameters, tolerance, watched, out, stop):
     """Complete the records `out` by measurements that begin at their states at the strobe.
 
-    A motion is integrated over its `period`, or over `watched` forcing cycles if its period is 0.
-    One that has diverged or escaped gets an infinite displacement. Asymmetry is the distance
-    between the mirrored first state and the state after half the measured time, NaN for an even
+    A motion is integrated over its `period`, or `watched` forcing cycles if this is 0. Asymmetry is
+    the distance between the mirrored first state and the state after half the time, NaN for an even
     number of cycles. The harmonics are complex amplitudes c of Re(c exp(i W T)). If another thread
     sets `stop[0]`, the remaining records are not completed.
     """
@@ -248,9 +243,9 @@ def envelope(parameters, lengths, y, tolerance):
     """Run a motion through windows of time (n,), each with its packed parameters (n, COUNT).
 
     Return the largest |Z1| and the number of contacts begun in each window; where the motion
-    escapes they are infinite and NaN, afterwards NaN. The state y is replaced by the last one. A
-    step needs a fixed frequency, so in a sweep it changes at the strobe, where the force is zero:
-    each window begins at the strobe, and with forcing its length is a forcing cycle.
+    escapes infinite and NaN, then NaN. y is replaced by the last state. Each window begins at the
+    strobe, where the force is zero, so the frequency can change there; with forcing it lasts a
+    forcing cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)
@@ -299,10 +294,7 @@ def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
 
 @kernel
 def follow_peaks(parameters, states, periods, tolerance, largest, stop):
-    """Run motions in place from a strobe, and raise `largest` to the largest |Z1| of each.
-
-    It is infinite after an escape. If another thread sets `stop[0]`, the numbers are incomplete.
-    """
+    """Run motions in place from a strobe; raise `largest` to max |Z1|, infinite after an escape."""
     work = workspace()
     for i in range(len(states)):
         p, y = parameters[i], states[i]

@@ -1,7 +1,7 @@
 """The steady motion that a state leads to, all motions at each frequency, and their lives.
 
-Runs that begin close together on a chaotic transient end at random times, distributed
-exponentially, so the number of ends divided by the sum of the lives estimates the rate of ending.
+Lives of chaotic transients are distributed exponentially, so the number of ends divided by the sum
+of the lives estimates the rate of ending.
 """
 
 from dataclasses import replace
@@ -207,10 +207,9 @@ def frequency_response(
 
 
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
-    """Return the lives of the chaotic motions of a sweep, registered variables of shape (n, m).
+    """Return variables (n, m) of the lives of the chaotic motions of a sweep.
 
-    `outcomes` (n, m) and `states` (n, m, 4), at the strobe, are those of the motions at each row of
-    the packed `parameters`. Each chaotic motion is run `runs` times for `periods` forcing cycles.
+    Each is run `runs` times for `periods` forcing cycles from near its state, `states` (n, m, 4).
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}
@@ -234,7 +233,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 def _lives(parameters, states, periods, settling, **running):
     """Return the life of each run in forcing cycles; for a run that does not end `periods` + 1.
 
-    The time for which a run approaches an orbit before it counts as settled is subtracted.
+    The time in which a run approaches an orbit before it counts as settled is subtracted.
     """
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 

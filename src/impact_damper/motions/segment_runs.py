@@ -29,8 +29,8 @@ NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 def list_turns(p, states, phases, tolerance, turns):
     """List the extrema of Z2 of a motion in segments (see `survey`); return their number.
 
-    `turns` (n, 4) receives a row for each of the first n: segment, phase W T, 1 for a maximum of
-    |Z2| or 0 for a minimum, and |Z2| minus the clearance.
+    A row of `turns` (n, 4) is segment, phase W T, 1 for a maximum of |Z2| or 0 for a minimum, and
+    |Z2| minus the clearance.
     """
     work, start = workspace(), np.empty(4)
     c = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
@@ -69,10 +69,7 @@ def list_turns(p, states, phases, tolerance, turns):
 
 @kernel
 def flow_all(p, states, tangents, times, tolerance):
-    """Integrate all segments of a chain between `times` (m + 1,); return the time in contact.
-
-    States (m, 4) and tangents (m, 0 or 4, 4) are replaced by those at the ends.
-    """
+    """Integrate states (m, 4) and tangents (m, 0 or 4, 4) in place; return the time in contact."""
     work, touching = workspace(), 0.0
     for k in range(len(states)):
         side = side_of(p, states[k])
@@ -86,10 +83,9 @@ def flow_all(p, states, tangents, times, tolerance):
 def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
     """Compute the derivatives of the ends of segments by a parameter, as central differences.
 
-    `rate` (COUNT,) are the derivatives of the packed parameters by it; `sign` is -1 if the segments
-    cover half a symmetric orbit, else 1, and multiplies the last end. `slopes` (m, n) receives the
-    derivatives of the first n components, n = 2 without a damper or 4 with one. `phases` (m + 1,),
-    `states` and `ends` (m, 4) are as in `orbits.segments.Chain`.
+    `rate` (COUNT,) are the derivatives of the packed parameters by it. `sign`, -1 if the segments
+    cover half a symmetric orbit, multiplies the last end. `slopes` (m, n) receives the first n
+    components.
     """
     work, none = workspace(), np.empty((0, 4))
     ahead, behind, moved = np.empty(4), np.empty(4), np.empty(COUNT)

@@ -25,9 +25,8 @@ CONTACT = "contact_wall contact_begin contact_end approach_velocity departure_ve
 def random_states(count, radius, damper, seed, *, within_gap=True):
     """Return random states (count, 4), uniform in a ball of a radius around the origin.
 
-    Without a damper they are drawn from a disk of (Z1, Z1'), with Z2 = Z1 and Z2' = Z1'. If
-    `within_gap`, states with |Z2| beyond the clearance are drawn again, because the contact spring
-    would store a large energy. The seed is an int or a sequence of int.
+    Without a damper it is a disk of (Z1, Z1'). If `within_gap`, states with |Z2| beyond the
+    clearance are drawn again, because the contact spring would store a large energy.
     """
     check_count("count", count, least=0, most=10**8)
     check_number("radius", radius, **RADIUS_RANGE)

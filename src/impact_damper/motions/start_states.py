@@ -1,14 +1,10 @@
 """Start states of a search for motions: random states, and states on known motions.
 
 With a radius all starts are random and uniform in a ball, as in the paper (section 3, iii). Without
-it the range is scaled by the free motions at the frequency, and the starts are of two kinds:
-
-- random: the state of the primary mass has a random direction and a size up to SPREAD times these
-  scales, distributed evenly on a logarithmic scale.
-- placed: the primary mass on each free motion and at rest, with the loose mass at several places
-  and velocities; the solutions of harmonic balance with contacts; and the ends of slow ramps of the
-  frequency and of the force. Ramps find the violent motions of weakly damped machines, in whose
-  small basins hardly any random start lies.
+one, random starts are distributed on a logarithmic scale up to SPREAD times the free motions, and
+others are placed: on free motions and at rest, with the loose mass at several places and
+velocities; on solutions of harmonic balance; at the ends of slow ramps, which find the violent
+motions of weakly damped machines, whose small basins hardly any random start hits.
 """
 
 import math
@@ -57,11 +53,10 @@ RULE_OF_THREE = 3.0
 
 
 class Search(NamedTuple):
-    """Start states of a search at n systems, at T = 0.
+    """Start states of a search at n systems, at T = 0, and the sizes of starts and of free motions.
 
     `random` has the shape (n, m, 4). `placed`, and `loose` (an argument of `sweep.stable_orbits`),
-    have an array for each system, empty if a radius is given. The other fields are the largest |Z1|
-    and |Z1'| of a random start and of the free motions, shape (n,).
+    have an array for each system, empty if a radius is given.
     """
 
     random: np.ndarray
@@ -83,11 +78,7 @@ class Search(NamedTuple):
 
 
 def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
-    """Return the starts of a search. If a radius is given, `warn_if_narrow` is called.
-
-    `systems` is a list of a damper or None, and a frequency W. Each has `count` random starts,
-    uniform in a ball of the radius, or scaled by the free motions if the radius is None.
-    """
+    """Return the starts of a search, `count` random ones for each system (damper or None, W)."""
     if radius is None:
         rows = [
             wide_starts(oscillator, *system, count, [seed, i], settling)
@@ -116,7 +107,7 @@ def missed_share(starts) -> float:
 
 
 def warn_if_narrow(oscillator, frequencies, radius) -> dict:
-    """Return displacement and speed of the largest free motion for each frequency, by balance.
+    """Return displacement and speed of the largest free motion by frequency, from harmonic balance.
 
     Warn if it is larger or faster than the radius of the ball of starts.
     """
@@ -201,8 +192,8 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
 def ramped(oscillator, damper, frequency, tolerance) -> list:
     """Return the states at T = 0 at the ends of slow ramps, without motions that have escaped.
 
-    Ramps of the frequency begin below the lowest and above the highest fold of the free response,
-    and at most at half and at least at twice the frequency.
+    Ramps of the frequency begin outside the folds of the free response, and at most at half and at
+    least at twice the frequency.
     """
     folds = [fold.frequency for fold in free_folds(oscillator)] or [frequency]
     lowest = max(BELOW * min(frequency / 2, *folds), FREQUENCY_RANGE["least"])
@@ -233,11 +224,7 @@ def barrier(oscillator):
 
 
 class FreeMotions(NamedTuple):
-    """States and sizes of the free motions at one frequency.
-
-    `states` (k, 2) are Z1, Z1' at W T = 0, up to MOST_STATES of each motion. `displacement` and
-    `speed` are the largest of all motions.
-    """
+    """States Z1, Z1' (k, 2) at W T = 0 of the free motions at one frequency, and largest sizes."""
 
     states: np.ndarray
     displacement: float
@@ -248,8 +235,7 @@ class FreeMotions(NamedTuple):
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
     """Find the free motions at one frequency W, by runs from rest and from harmonic balance.
 
-    The amplitude of the resonance peak is tried too, since it leads to motions near a fold that
-    harmonic balance does not predict.
+    The amplitude of the resonance peak leads to motions near a fold that balance does not predict.
     """
     p = pack(oscillator, None, frequency)
     angles = 2 * np.pi * np.arange(PHASES) / PHASES

@@ -64,8 +64,8 @@ def distance(a, b, weight):
 def flow(p, state, tangents, begin, periods, half, tolerance):
     """Integrate over `periods` forcing cycles from `begin`, and half a cycle more if `half`.
 
-    The state (4,) and the tangents (n, 4) are replaced: if arrays were returned, numba would lose a
-    Ctrl-C that arrives meanwhile. Return the number of contacts begun and the time in contact.
+    State (4,) and tangents (n, 4) are replaced: with returned arrays numba would lose a Ctrl-C that
+    arrives meanwhile. Return the number of contacts begun and the time in contact.
     """
     period = 2.0 * math.pi / p[FREQUENCY]
     work = workspace()
@@ -143,9 +143,9 @@ def dominant(values):
 def polish(p, y, periods, reach, tolerance):
     """Move a state y onto the periodic orbit near it, by Newton's method on the map over `periods`.
 
-    Without contacts only Z1 and Z1' are unknown, and Z2 - Z1 and Z2' - Z1' do not change. Return
-    whether the method converged to an orbit within `reach` of y in Z1, Z1' and Z2, the largest
-    difference between the state and its image, and the dominant multiplier, or NaN.
+    Without contacts only Z1 and Z1' are unknown. Return whether it converged to an orbit within
+    `reach` of y in Z1, Z1' and Z2, the difference between the state and its image, and the dominant
+    multiplier.
     """
     orbit = y.copy()
     for _ in range(ITERATIONS):

@@ -1,9 +1,8 @@
 """Find the motions along a sweep of one parameter, by runs from start states and by following.
 
-At each value motions are run from the starts of a search, and Newton's method searches for further
-stable orbits, since some attract so few states that hardly any random start leads to them. Each
-settled motion is then followed by Newton's method to the next value, upward and downward. Motions
-that have not settled are matched between neighbouring values by outcome, period and size.
+At each value Newton's method also searches for stable orbits, some of which attract hardly any
+random start. Settled motions are followed to the next values, upward and downward; others are
+matched between neighbouring values by outcome, period and size.
 """
 
 import math
@@ -49,9 +48,8 @@ CLOSE = 0.05
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
     """Find all motions along a sweep of one parameter; return a dict of registered variables.
 
-    The rows of packed `parameters` differ in the parameter of this `index`; `dimension` is its name
-    in the data. `search` is a `start_states.Search`. The dimensions of the variables are
-    (dimension, motion) for distinct motions, (dimension, start) for runs, (end) for the ends of
+    The rows of packed `parameters` differ in the parameter of this `index`; `dimension` is its
+    name. Dimensions are (dimension, motion), (dimension, start) for runs, and (end) for ends of
     branches.
     """
     size, starts = search.random.shape[:2]
@@ -99,10 +97,9 @@ def reached(data):
 
 
 def _follow(source, target, index, settling, links, ends):
-    """Follow all motions of the catalogue `source` to the next value, and enter what they lead to.
+    """Follow all motions of `source` to the next value, and enter what they lead to in `target`.
 
-    `links` receives the numbers of two motions on the same branch, and `ends` a dictionary for each
-    branch that ends between the two values.
+    `links` receives pairs of numbers of motions on the same branch, `ends` a dict for each end.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
@@ -138,8 +135,7 @@ def _follow(source, target, index, settling, links, ends):
 def _end_event(record, multiplier, beyond):
     """Return the name of the event that ends a branch of the motion `record`.
 
-    `multiplier` is the dominant multiplier of the last orbit, NaN without one, and `beyond` the
-    motion that its state leads to at the next value.
+    `multiplier` is that of the last orbit, and `beyond` the motion at the next value.
     """
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
@@ -167,10 +163,7 @@ def _branches(catalogues, links):
 
 
 def _tables(catalogues, branches, dimension, starts):
-    """Return variables with the dimensions (dimension, motion), by descending displacement.
-
-    Rows are padded by motions with the outcome absent. Each has `starts` random starts.
-    """
+    """Return variables (dimension, motion) by descending displacement, padded by absent motions."""
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -204,8 +197,8 @@ def _tables(catalogues, branches, dimension, starts):
 class Catalogue:
     """Distinct motions at one value of the swept parameter, with packed parameters p.
 
-    For each motion it holds a record, a number that is unique over the sweep (`numbering` is an
-    iterator), the flag of `origin`, and the number of random starts that lead to it.
+    Each has a record, a number from the iterator `numbering`, the flag of `origin`, and the number
+    of random starts that lead to it.
     """
 
     def __init__(self, p, numbering):
@@ -228,11 +221,7 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Return the index of a motion, and enter it if it is new.
-
-        A new record of a known motion replaces the old record if its max |Z1| is larger by more
-        than SAME.
-        """
+        """Return the index of a motion, and enter it if it is new or larger than its record."""
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -271,8 +260,8 @@ def match_unsettled(first, second) -> list:
 def size_ratio(one, other):
     """Return the ratio of max |Z1| of two motions of the same period, larger over smaller.
 
-    A chaotic motion may be small during its measurement, so for motions without a period the ratio
-    of their `reach` is returned if it is closer to 1. It is 1 if both are infinite or 0.
+    A chaotic motion may be small while it is measured, so without a period `reach` counts if
+    closer.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0
@@ -306,9 +295,9 @@ def add_orbits(catalogues, loose, settling, workers) -> None:
 def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
     """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
 
-    On most of these orbits the primary mass moves nearly as in another motion of the same system.
-    So Newton's method starts with the primary mass on the `motions` in turn, Z1 and Z1' at the
-    strobe, shape (m, 2), and with Z2 and Z1' - Z2' of the loose mass in `loose` (n, 2).
+    On most of these orbits the primary mass moves nearly as in another motion. So Newton's method
+    starts with Z1 and Z1' of the `motions` (m, 2) at the strobe in turn, and with Z2 and Z1' - Z2'
+    of the loose mass in `loose` (n, 2).
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

@@ -17,11 +17,7 @@ STEPS_AT_ONCE = 50_000
 
 @kernel_only
 def series_of_step(work, side, y, t):
-    """Return Z1, Z1', Z2 and Z2' at the time t within a step from the state y.
-
-    In contact (side not 0) the third number is the penetration in place of Z2, with the sign of the
-    wall.
-    """
+    """Return Z1, Z1', Z2, Z2' at the time t in a step from y; in contact q in place of Z2."""
     if side == 0:
         x, v = polynomial(work[X:], FLIGHT_ORDER, t)
         return x, v, x + (y[2] - y[0]) + (y[3] - y[1]) * t, v + (y[3] - y[1])
@@ -33,8 +29,7 @@ def series_of_step(work, side, y, t):
 def trace(p, state, begin, times, tolerance):
     """Return the states at increasing times, shape (n, 4), and the contacts, shape (k, 5).
 
-    The states are NaN after the motion has escaped (`kernel.equation.no_return`). A contact has a
-    row of wall, beginning, end, and Z2' at the beginning and the end.
+    After an escape the states are NaN. A contact has a row of wall, beginning, end, and Z2' there.
     """
     y, t, times = np.array(state, float), float(begin), np.ascontiguousarray(times, float)
     states, log = np.empty((len(times), 4)), np.empty((STEPS_AT_ONCE, 5))
@@ -59,10 +54,7 @@ def states_at(p, state, begin, times, tolerance):
 
 @kernel
 def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
-    """Do at most STEPS_AT_ONCE steps of `trace`, because Ctrl-C waits for a kernel to end.
-
-    Return the time, the wall in contact, and the numbers of samples and contacts so far.
-    """
+    """Do at most STEPS_AT_ONCE steps of `trace`, because Ctrl-C waits for a kernel to end."""
     work = workspace()
     start = y.copy()
     for _ in range(STEPS_AT_ONCE):

@@ -1,11 +1,9 @@
 """Run undecided motions longer, until their outcome is certain.
 
-They may be quasi-periodic, periodic with a long period, close to an orbit that they approach
-slowly, or weakly chaotic, or the loose mass may drift in the gap. The states of a quasi-periodic
-motion at the strobes lie on a closed curve, and advance along it by the rotation number on average.
-With weights that vanish at both ends with all derivatives the average over N states converges
-faster than any power of 1/N (S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity 30,
-4111-4140, 2017), on a chaotic motion only as N^(-1/2).
+The states of a quasi-periodic motion at the strobes lie on a closed curve, and advance along it by
+the rotation number on average. With weights that vanish at both ends with all derivatives the
+average over N states converges faster than any power of 1/N (S. Das, Y. Saiki, E. Sander and J. A.
+Yorke, Nonlinearity 30, 4111-4140, 2017), on a chaotic motion only as N^(-1/2).
 """
 
 import math
@@ -57,9 +55,9 @@ FEWEST = 100
 def run_block(p, y, tangent, states, growth, stop):
     """Run a motion and its tangent (1, 4) in place over the forcing cycles of a block.
 
-    After each cycle the tangent is scaled to length 1; `states` (n, 4) and `growth` (n,) receive
-    the state and the logarithm of the tangent's growth. Return the number of contacts, and whether
-    the motion escaped.
+    The tangent is scaled to length 1 after each cycle; `states` (n, 4) and `growth` (n,) receive
+    the state and the logarithm of its growth. Return the number of contacts, and whether it
+    escaped.
     """
     work = workspace()
     side = side_of(p, y)
@@ -85,8 +83,7 @@ def run_block(p, y, tangent, states, growth, stop):
 def name_undecided(parameters, motions, limit, further, stop):
     """Continue the motions that `settle_many` left unresolved, and complete their records.
 
-    They are run in blocks, each twice as long as the block before, for at most `further` forcing
-    cycles. If another thread sets `stop[0]`, the records are incomplete.
+    Blocks double in length, for at most `further` forcing cycles together.
     """
     curves = []
     for i in np.flatnonzero(motions["outcome"] == records.UNRESOLVED):
@@ -107,10 +104,7 @@ class _Curves(NamedTuple):
 
 
 def _name_one(p, record, limit, further, known, stop):
-    """Continue one motion, whose record is an array of length 1; return the last block's states.
-
-    A motion that reaches known closed curves is the same motion as the known one.
-    """
+    """Continue a motion, whose record is an array of length 1; return the last block's states."""
     y, tangent = record["state"][0].copy(), np.full((1, 4), 0.5)
     period, count = 2 * math.pi / p[FREQUENCY], min(limit, FIRST)
     states = np.empty((LONGEST_PERIOD, 4))
@@ -157,10 +151,7 @@ def _is_known(record, known, states):
 
 
 def _exponent(growth):
-    """Return the mean growth (logarithm) in a cycle and its standard error.
-
-    On a closed curve growth and decay cancel only in long batches.
-    """
+    """Return the mean growth in a cycle and its standard error, from batches."""
     length = len(growth) // BATCHES
     batches = growth[-BATCHES * length :].reshape(BATCHES, length).mean(axis=1)
     return np.mean(batches), np.std(batches, ddof=1) / math.sqrt(BATCHES)
@@ -197,9 +188,9 @@ def _on_orbit(p, record, states, contacts, limit):
 def _quasi_periodic(p, record, states, mean, error):
     """Return QUASI_PERIODIC if the states move along closed curves, otherwise UNRESOLVED.
 
-    `find_rotation` is tried on every curve, because it can fail on one with corners, at which
-    contacts begin or end, and in the planes of (Z1, Z1') and (Z2, Z2'), because in one of them the
-    curve may be so bent that it does not go around its centre.
+    `find_rotation` fails on a curve with corners, where contacts begin or end, or so bent that it
+    does not go around its centre; so every curve is tried, in the planes of (Z1, Z1') and (Z2,
+    Z2').
     """
     if abs(mean) > NEUTRAL * error:
         return records.UNRESOLVED
@@ -229,10 +220,10 @@ def find_rotation(points):
     """Return rotation number and error of an orbit's map on its closed curve, or None without one.
 
     The number (revolutions, from 0 to 1/2) is the average advance of the angle around the average
-    of the complex points, which are stretched first to have the same spread in all directions: on a
-    slender curve the angle advances mainly at the two ends. The error is the largest difference
-    between the first, middle and last half of the orbit. Sorted by the phases that follow from the
-    number, the points of a closed curve go around once; on other sets they jump from side to side.
+    of the complex points, stretched to the same spread in all directions: on a slender curve the
+    angle advances mainly at the ends. The error is the largest difference between parts of the
+    orbit. Points of a closed curve, sorted by the phases that follow from the number, go around
+    once.
     """
     if len(points) < FEWEST:
         return None

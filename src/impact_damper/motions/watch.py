@@ -1,9 +1,8 @@
 """Judge a motion once in each forcing cycle: whether it has settled to an orbit, or is chaotic.
 
-When a motion settles to an orbit of period n, the distances between states n cycles apart decrease
-geometrically. Once the sum of the remaining series is small, Newton's method moves the state onto
-the orbit. If this orbit is close and stable, the motion has settled; so a slow passage near a fold
-is not mistaken for an orbit.
+Distances between states n cycles apart decrease geometrically near an orbit of period n. Once the
+sum of the remaining series is small, Newton's method looks for a stable orbit close by; so a slow
+passage near a fold is not mistaken for one.
 """
 
 import math
@@ -88,10 +87,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return the mean growth in a batch, its standard error, and whether the growth continues.
-
-    It continues if its average over the last RECENT batches exceeds half its mean over all batches.
-    """
+    """Return mean growth in a batch, standard error, and whether the last RECENT exceed mean/2."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -104,8 +100,8 @@ def exponent(growth):
 def nearby_period(ring, k, weight, floor, tolerance):
     """Return the period of an orbit within `tolerance` of the motion, or 0.
 
-    `ring[k % RING]` is the last of k + 1 strobe states, `weight` as in `distance`. Distances below
-    `floor` are errors of the integration.
+    `ring[k % RING]` is the last of k + 1 strobe states. Below `floor` are errors of the
+    integration.
     """
     last = ring[k % RING]
     for n in range(1, LONGEST_PERIOD + 1):
@@ -127,10 +123,9 @@ def nearby_period(ring, k, weight, floor, tolerance):
 def move_onto_orbit(p, y, periods, near, out):
     """Move a state y onto the stable orbit near it; return whether there is such an orbit.
 
-    A motion that spirals towards an orbit may seem to repeat after a multiple of the period, so the
-    divisors of `periods` are tried first. At a distance below NEAREST a motion counts as an orbit
-    even if Newton's method fails, because the map is not smooth near a grazing contact; residual
-    and multiplier are then NaN.
+    A motion that spirals towards an orbit may seem to repeat after a multiple of the period, so
+    divisors come first. Below NEAREST a motion counts as an orbit even if Newton's method fails,
+    since the map is not smooth near a grazing contact; residual and multiplier are then NaN.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):
@@ -157,10 +152,7 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Move the primary mass of a motion without contacts onto the stable orbit near it, if any.
-
-    Return whether there is one. The loose mass keeps its place and its velocity.
-    """
+    """Move the primary mass onto the stable orbit without contacts near it, if there is one."""
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
         if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:
@@ -203,7 +195,7 @@ def watch_free(p, y, seen, out):
 def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
     """Judge a motion at a strobe, complete its record `out`, and return whether it is stopped.
 
-    A motion is stopped
+    It is stopped
 
     - when it has settled, diverged or escaped, or after `limit` cycles;
     - as at_rest if there is no forcing and hardly any energy is left (REST);
@@ -211,12 +203,10 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
       the loose mass has touched no wall for `patience` cycles and would drift by less than 1 % of
       the clearance in `limit` cycles; as drifting after `limit` cycles if it drifts faster;
     - as chaotic after `patience` cycles if the largest Lyapunov exponent exceeds CONFIDENCE
-      standard errors and the tangent still grows in the last batches (otherwise a chaotic transient
-      may just have ended). With an exponent below WEAK only in the last BLOCK cycles before
-      `limit`, because a slow spiral can look like weak chaos for some time.
+      standard errors and the tangent still grows (a transient may have ended); below WEAK only
+      in the last BLOCK cycles before `limit`, because a slow spiral can look like weak chaos.
 
-    Tangent and `reach` are followed from cycle `patience`/2 on. y is moved onto an orbit, whose
-    exponent follows from the dominant multiplier, because the motion before is a transient.
+    Tangent and `reach` are followed from cycle `patience`/2 on.
     """
     k = seen.strobes
     bounded = p[CLEARANCE] < math.inf

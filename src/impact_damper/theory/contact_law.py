@@ -1,8 +1,8 @@
 """One contact of the damper in closed form, under a constant load, with two rules for its end.
 
-With s = wn t, u = wn q/v0 and the approach speed v0 the penetration q obeys u'' + 2 z u' + u = G
-with u(0) = 0, u'(0) = 1; the force is F = u + 2 z u'. By `zero_penetration` (appendix B) a contact
-ends when u = 0, by `no_tension` when F = 0.
+With s = wn t and u = wn q/v0, v0 the approach speed, the penetration q obeys u'' + 2 z u' + u = G.
+The force is F = u + 2 z u'. By `zero_penetration` (appendix B) a contact ends when u = 0, by
+`no_tension` when F = 0.
 """
 
 import math
@@ -14,13 +14,10 @@ EXIT_RULES = ("zero_penetration", "no_tension")
 
 
 class Exit(NamedTuple):
-    """End of a contact.
+    """End of a contact at s = `duration`, and the realised restitution `departure`.
 
-    outcome: "released"; "falls_back" if the rule `no_tension` ends the contact, but the load drives
-        the loose mass back before u = 0; or "no_release".
-    duration: s = wn t at the end of the contact, infinite if the contact does not end.
-    departure: The realised restitution, speed at u = 0 divided by approach speed; NaN unless
-        released.
+    The outcome is "released", "no_release", or "falls_back" if the load drives the loose mass back
+    before u = 0.
     """
 
     outcome: str
@@ -47,20 +44,14 @@ class _Wave(NamedTuple):
         return _Wave(0.0, w * b - z * a, -z * b - w * a, z, w)
 
     def first_extrema(self):
-        """Return s at the first maximum and at the minimum after it.
-
-        If the function decreases from s = 0 on, the maximum is at 0.
-        """
+        """Return s at the first maximum (0 if the function falls there) and at the next minimum."""
         slope = self.slope()
         turn = math.atan2(-slope.a, slope.b) % math.pi or math.pi
         rising = slope.a > 0 or (slope.a == 0 and slope.b > 0)
         return (turn / self.w, (turn + math.pi) / self.w) if rising else (0.0, turn / self.w)
 
     def first_fall(self):
-        """Return s at which the function first decreases to zero, or infinity if it never does.
-
-        Only the first minimum is examined, because later minima are not lower.
-        """
+        """Return s at the first downward zero or infinity; the first minimum is the lowest."""
         top, bottom = self.first_extrema()
         if self(bottom) > 0:
             return math.inf
@@ -101,10 +92,7 @@ def contact(restitution, load, rule) -> Exit:
 
 
 def pull_time(restitution, load) -> float:
-    """Return the fraction of a contact in which the wall pulls, under the rule `zero_penetration`.
-
-    It is NaN if the contact does not end.
-    """
+    """Return the share of a contact, until u = 0, in which the wall pulls; NaN if it never ends."""
     penetration, force = _waves(restitution, load)
     end = penetration.first_fall()
     return math.nan if end == math.inf else (end - min(force.first_fall(), end)) / end

@@ -6,15 +6,11 @@ import math
 def peak_frequency(oscillator) -> float:
     """Return the peak frequency Wp of rule (19), dimensionless.
 
-    At Wp the displacement Z1 without the damper lags the forcing by a quarter of a cycle. Section
-    2.1 gives a = f/(h W) and W^2 = wl^2 + (3/4) k3 a^2, with the forcing amplitude
-    f = F + U W^2 + V/W^2. For V = 0 the square Wp^2 = s therefore solves
-
-        (1 - g U^2/h^2) s^2 - (wl^2 + 2 g F U/h^2) s - g F^2/h^2 = 0,   g = (3/4) k3.
-
-    V occurs only with a linear spring (k3 = 0), for which Wp = wl. A softening spring (k3 < 0) has
-    two solutions, and the peak is the solution with the smaller amplitude. The maximum of the
-    response curve lies at a slightly lower frequency, see `free_oscillator.maximum_response`.
+    At Wp the displacement Z1 without the damper lags the forcing by a quarter of a cycle. By
+    section 2.1, s = Wp^2 solves (1 - g U^2/h^2) s^2 - (wl^2 + 2 g F U/h^2) s - g F^2/h^2 = 0, g =
+    (3/4) k3. A shaker (V > 0) has a linear spring, for which Wp = wl. Of two solutions with a
+    softening spring the peak is the one with the smaller amplitude. The maximum of the response
+    curve (`free_oscillator.maximum_response`) lies at a slightly lower frequency.
     """
     stiffness, hardening = oscillator.linear_frequency**2, oscillator.hardening
     scale = hardening / oscillator.damping**2
@@ -47,11 +43,7 @@ def peak_frequency(oscillator) -> float:
 
 
 def rule_clearance(oscillator, mass_ratio) -> float:
-    """Return the clearance d0 = f/(rm Wp^2) of rule (19), dimensionless.
-
-    With this clearance the amplitude a = 0 solves equation (13), the harmonic balance for rigid
-    walls, at the peak frequency Wp. f is the forcing amplitude F + U W^2 + V/W^2 at W = Wp.
-    """
+    """Return the clearance d0 = f/(rm Wp^2) of rule (19), for which a = 0 solves (13) at Wp."""
     peak = peak_frequency(oscillator)
     forcing = oscillator.forcing_amplitude(peak)
     if forcing == 0:

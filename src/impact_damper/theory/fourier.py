@@ -13,10 +13,7 @@ SHORTEST = 1e-9
 
 
 def samples(coefficients, harmonics, count) -> np.ndarray:
-    """Return the values of a series at the angles 2 pi j/count, j = 0 ... count - 1.
-
-    The values are exact if count > 2 max(harmonics).
-    """
+    """Return a series at the angles 2 pi j/count, j = 0 ... count - 1; count > 2 max(harmonics)."""
     spectrum = np.zeros(count // 2 + 1, complex)
     spectrum[harmonics] = coefficients
     return np.fft.irfft(spectrum, count) * count
@@ -48,9 +45,9 @@ def largest(coefficients, harmonics) -> float:
 def intervals(coefficients, harmonics, level) -> np.ndarray:
     """Return the intervals of s in which z(s) > level (wall 1) or z(s) < -level (wall -1).
 
-    No interval wider than SHORTEST is missed. A bound on the second derivative of z shows which
-    cells (intervals between two samples) contain no crossing of the level and which contain exactly
-    one. All other cells are halved, down to the width SHORTEST.
+    A bound on the second derivative of z shows which cells, between two samples, contain no
+    crossing of the level or exactly one. Other cells are halved, so no interval wider than SHORTEST
+    is missed.
     """
     return np.concatenate([_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)])
 

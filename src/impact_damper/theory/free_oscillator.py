@@ -1,7 +1,6 @@
 """Single-term harmonic balance of the oscillator without the damper: Z1 = a cos(W T + t1).
 
-With g = (3/4) k3 and the forcing amplitude f the balance is (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2
-= f^2: a cubic equation in a^2 at fixed W, and a quadratic one in W^2 at fixed a.
+With g = (3/4) k3 and the forcing amplitude f, (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2.
 """
 
 from functools import lru_cache
@@ -18,10 +17,7 @@ ROUNDING = 1e-9
 
 
 class FreeSolutions(NamedTuple):
-    """Solutions without the damper at one frequency: a > 0, ascending, and t1; shape (count,).
-
-    Without forcing the only solution is 0.
-    """
+    """Solutions a > 0, ascending, and t1 at one frequency, shape (count,); 0 without forcing."""
 
     amplitude: np.ndarray
     phase: np.ndarray
@@ -35,10 +31,7 @@ class Point(NamedTuple):
 
 
 class Resonance(NamedTuple):
-    """The free resonance branch at one frequency.
-
-    Beyond the end of the branch the amplitude is that at the end, and the phase is None.
-    """
+    """Amplitude and phase of the free resonance branch; beyond its end the phase is None."""
 
     amplitude: float
     phase: float | None
@@ -63,10 +56,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def main_solutions(oscillator, frequency) -> FreeSolutions:
-    """Return the solutions of `free_solutions` on the main part of the curve, through the peak.
-
-    With a linear or hardening spring these are all solutions.
-    """
+    """Return the solutions on the main part of the response curve, the part with the peak."""
     free = free_solutions(oscillator, frequency)
     if oscillator.hardening >= 0:
         return free
@@ -83,10 +73,10 @@ def balance_amplitudes(oscillator, frequency):
 
 
 def resonance(oscillator, frequency) -> Resonance:
-    """Return the free resonance branch, the branch of the response curve on which the peak lies.
+    """Return the branch of the response curve on which the peak lies.
 
     With a hardening spring the branch ends at the upper fold, with a softening spring at the fold
-    next to the peak. Without folds it is the whole curve.
+    next to the peak.
     """
     free = main_solutions(oscillator, frequency)
     folds = _folds(oscillator)
@@ -101,11 +91,9 @@ def resonance(oscillator, frequency) -> Resonance:
 def maximum_response(oscillator) -> Point:
     """Return the maximum of the free response curve over W, with V > 0 the one at resonance.
 
-    The frequencies at which the curve has the amplitude a are the roots of
-
-        (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2 + m^2 - F^2/a^2 = 0,   m = wl^2 + g a^2.
-
-    At the maximum the discriminant of this equation, quadratic in a^2, is zero.
+    The curve has the amplitude a at the roots W of (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2
+    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. At the maximum its discriminant, quadratic in a^2,
+    is zero.
     """
     if oscillator.shaker:
         return _peak_on_a_shaker(oscillator)
@@ -155,10 +143,8 @@ def _peak_on_a_shaker(oscillator):
 def free_folds(oscillator) -> list[Point]:
     """Return the folds of the free response curve, by ascending amplitude.
 
-    The curve is the zero set of a quadratic polynomial in s = W^2, see `maximum_response`. At a
-    fold the derivative of this polynomial by u = a^2, which is also quadratic in s, vanishes too.
-    The resultant of both is a polynomial of degree five in u. With a softening spring the list also
-    contains the folds of the second part of the curve.
+    At a fold the polynomial of `maximum_response` in s = W^2 and its derivative by u = a^2 are
+    zero. Both are quadratic in s; their resultant has degree five in u.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening

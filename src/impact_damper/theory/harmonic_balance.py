@@ -24,9 +24,8 @@ JUMP = 0.25
 def branches_over(rows) -> list[np.ndarray]:
     """Return the number of the branch of each solution, at each value of a parameter.
 
-    Two solutions at neighbouring values of the parameter belong to the same branch if each is the
-    nearest solution to the other, and the distance between them is below JUMP times the size of the
-    largest solution. Any other solution begins a new branch.
+    Solutions at neighbouring values are on one branch if each is nearest to the other, and their
+    distance is below JUMP times the size of the largest solution.
     """
     sizes = [np.max(np.abs(row)) for row in rows if len(row)]
     reach = JUMP * max(sizes, default=1.0)
@@ -98,10 +97,7 @@ def harmonic_balance(system, damper, frequencies):
 
 
 def harmonic_balance_response(system, damper, frequencies):
-    """Return the solutions of `harmonic_balance` at each frequency, without the band.
-
-    The stability of a motion in which the loose mass rests is that without the damper.
-    """
+    """Return the solutions of `harmonic_balance` at each frequency, without the band."""
     model = read_system(system, damper)
     oscillator, damper = model.oscillator, model.damper
     frequencies = read_frequencies(model.scales, frequencies)
@@ -225,11 +221,7 @@ SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "r
 
 
 def suppression_band(system, damper):
-    """Return the suppression band of `harmonic_balance`.
-
-    The search goes from Wp in steps of SEARCH_STEP, and an edge is bisected. An interruption of the
-    band narrower than a step can be missed.
-    """
+    """Return the band of `harmonic_balance`, up to interruptions narrower than SEARCH_STEP."""
     model = read_system(system, damper, needs_damper=True)
     oscillator, damper = model.oscillator, model.damper
     check_elastic(damper)
@@ -265,10 +257,7 @@ def suppression_band(system, damper):
 
 
 def _look(oscillator, damper, frequency):
-    """Return the flag `band_status` at one frequency, and |a| of the stable solutions, ascending.
-
-    Beyond the end of the free resonance branch there is no reduction.
-    """
+    """Return the flag `band_status` at one frequency, and |a| of stable solutions, ascending."""
     solutions = impacting_solutions(oscillator, damper, frequency)
     growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
     stable = np.sort(np.abs(solutions.amplitude[stability(growth) == flag("stability", "stable")]))

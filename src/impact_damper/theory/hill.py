@@ -1,8 +1,7 @@
 """Hill's method: Floquet exponents of a motion from the Fourier series of its linearisation.
 
-For a disturbance exp(lambda T) p(T) with periodic p the linearised equations become a quadratic
-eigenvalue problem. Each exponent has copies at distances of 2 i W; the copies in the middle strip
-are accurate (Lazarus and Thomas, C. R. Mecanique 338, 510, 2010).
+Each exponent has copies at distances of 2 i W; those in the middle strip are accurate (Lazarus and
+Thomas, C. R. Mecanique 338, 510, 2010).
 """
 
 from typing import NamedTuple
@@ -21,12 +20,9 @@ EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
-    """Floquet exponents of a harmonic-balance solution.
+    """Floquet exponents per unit of T, by ascending real part; NaN unless the status is "found".
 
-    values: Per unit time T, by ascending real part, shape (2,) or with a damper (4,); NaN unless
-        the status is "found".
-    status: "found"; "not_separated" if the strip |Im lambda| < W holds another number of
-        eigenvalues; "not_converged" if the iteration for the eigenvalues near zero failed.
+    The status is "not_separated" if the strip |Im lambda| < W holds another number of eigenvalues.
     """
 
     values: np.ndarray
@@ -59,8 +55,8 @@ def exponents(solution) -> Exponents:
 def _near_zero(stiffness, damping, inertia):
     """Return the eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0 nearest zero.
 
-    They are the reciprocals of the largest eigenvalues of the inverse problem, written as a
-    first-order system. To apply this inverse, only `stiffness` needs to be factorised.
+    They are the reciprocals of the largest eigenvalues of the inverse, for which only `stiffness`
+    needs to be factorised.
     """
     size = len(stiffness)
     factors = lu_factor(stiffness, check_finite=False)

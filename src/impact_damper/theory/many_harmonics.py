@@ -1,7 +1,6 @@
 """Harmonic balance with any number of harmonics: its equations, and Newton's method for them.
 
-The times at which contacts begin and end are located to rounding, so the contact force has no
-aliasing error: the only error is the truncation of the Fourier series.
+Beginnings and ends of contacts are located to rounding, so the only error is the truncation.
 """
 
 from dataclasses import dataclass, replace
@@ -17,13 +16,7 @@ from impact_damper.theory.free_oscillator import main_solutions
 
 @dataclass(frozen=True)
 class Balance:
-    """The equations of a symmetric motion with the period of the forcing.
-
-    damper: Damper or None.
-    frequency: W, dimensionless.
-    highest: N, odd, the highest retained harmonic. The motion has odd harmonics only, because
-        Z(T + half a period) = -Z(T).
-    """
+    """The equations of a motion with Z(T + half a forcing period) = -Z(T), in odd harmonics."""
 
     oscillator: object
     damper: object
@@ -65,11 +58,7 @@ class Balance:
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)
 
     def residual(self, coefficients, rows) -> np.ndarray:
-        """Return left minus right side of (3), (4), (20), (21) in each harmonic, shape (1 or 2, m).
-
-        The forcing A cos(W T) has the coefficient A/2. `rows` are the `contacts` of the
-        coefficients.
-        """
+        """Return left minus right sides of (3), (4), (20), (21) in each harmonic."""
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
         count = fourier.product_samples(k, SPRING_POWER)
@@ -97,9 +86,8 @@ class Balance:
     def operator(self, coefficients, rows, power=0) -> np.ndarray:
         """Return the real matrix Q0, Q1 or Q2 of the linearised equations, chosen by `power`.
 
-        A disturbance exp(lambda T) p with periodic p obeys (Q0 + lambda Q1 + lambda^2 Q2) p = 0.
-        The unknowns p are in the order of `to_real`. Q0 is the Jacobian of `residual`. `rows` are
-        the `contacts` of the coefficients.
+        A disturbance exp(lambda T) p with periodic p obeys (Q0 + lambda Q1 + lambda^2 Q2) p = 0,
+        with p in the order of `to_real`. Q0 is the Jacobian of `residual`.
         """
         k, rate, own = self.harmonics, self.rates, self.oscillator
         unit = np.eye(len(k))
@@ -126,10 +114,7 @@ class Balance:
 
 
 def _convolution(coefficients, harmonics):
-    """Return matrices A, B: A z + B conj(z) are the retained coefficients of a product g z.
-
-    `coefficients` are g_0 ... g_2N or more.
-    """
+    """Return A, B: A z + B conj(z) are the coefficients of g z; `coefficients` are g_0 ... g_2N."""
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
     column = harmonics[:, None]
@@ -152,12 +137,9 @@ LEAST_DAMPING = 1e-4
 
 
 class Solution(NamedTuple):
-    """Last iterate of Newton's method, which is a solution if the status is "converged".
+    """Last iterate of Newton's method: coefficients c_k of Z1, with a damper also of Z2.
 
-    coefficients: Fourier coefficients c_k (see `fourier`) of Z1 and Z2, or of Z1 without a damper.
-    status: "converged"; "stalled" if even the shortest admitted step fails the test of `solve`; or
-        "iteration_limit" if the number of steps was reached.
-    iterations: Number of steps of Newton's method.
+    The status is "converged", "iteration_limit", or "stalled" if even the shortest step fails.
     """
 
     balance: Balance
@@ -169,9 +151,9 @@ class Solution(NamedTuple):
 def solve(balance, start) -> Solution:
     """Solve the equations of a balance by the damped Newton's method.
 
-    A step is halved until the following step, computed with the same Jacobian, is shorter. This is
-    the natural monotonicity test of Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
-    3.3. The residual would be a poor measure of progress, because the stiff contact dominates it.
+    A step is halved until the next one, with the same Jacobian, is shorter: the natural
+    monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3). The
+    residual is no measure of progress, because the stiff contact dominates it.
     """
     count = len(balance.harmonics)
     now = np.zeros((len(start), count), complex)
@@ -203,9 +185,8 @@ def solve(balance, start) -> Solution:
 def single_term(oscillator, damper, frequency) -> np.ndarray:
     """Return the coefficients of a single-term solution, the first guess for more harmonics.
 
-    With a damper this is the solution of equation (7) with the smallest |a|; (7) assumes elastic
-    contact, so the restitution is not used. Without a damper it is the solution with the largest a
-    on the response curve through the peak.
+    With a damper it is the solution of (7) with the smallest |a|, for elastic contact; without one
+    it is the largest solution on the response curve through the peak.
     """
     if damper is None:
         free = main_solutions(oscillator, frequency)

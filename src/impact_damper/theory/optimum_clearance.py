@@ -1,7 +1,4 @@
-"""The optimum clearance by harmonic balance, by straight flight and by closed-form rules.
-
-It is stated as the ratio rm W^2 d0/f, which is 1 by rule (18) of the paper.
-"""
+"""The optimum ratio rm W^2 d0/f, 1 by rule (18), by harmonic balance and by closed-form rules."""
 
 from dataclasses import replace
 
@@ -32,10 +29,7 @@ RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def _analytical(oscillator, damper, frequency):
-    """Return the amplitude a of Z1 with its sign, and the name of its `analytical_status`.
-
-    a belongs to the stable solution of the harmonic balance (7) with the smallest |a|.
-    """
+    """Return the a of smallest |a| among stable solutions of (7), and its `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     try:
@@ -71,12 +65,11 @@ def analytical_table(oscillator, dampers, frequency):
 
 
 def rule_ratios(oscillator, damper, frequency):
-    """Return the optimum rm W^2 d0 by each rule for each criterion.
+    """Return the optimum rm W^2 d0 for each of CRITERIA (rows) by each of RULES (columns).
 
-    The rules are: rule (18) ("balance"), the first harmonic of a straight flight ("gap_harmonic"),
-    a straight flight between rigid walls ("straight_flight"), a straight flight with elastic
-    contact to first order in the duration of a contact and in the damping ("elastic"), and a
-    straight flight with damping, stiffness and inelastic contact ("flight").
+    The rules: (18) of the paper; the first harmonic of a straight flight; a straight flight between
+    rigid walls; its first order in the duration of a contact and in the damping; a flight with
+    damping, stiffness and inelastic contact.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

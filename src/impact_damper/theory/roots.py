@@ -1,7 +1,6 @@
-"""Find all real roots of a smooth function of one variable, double roots included.
+"""All real roots of a smooth function of one variable, from the signs at its extrema.
 
-Between neighbouring extrema a function is monotone, so that signs decide; an extremum that is zero
-to rounding is a double root.
+An extremum that is zero to rounding is a double root.
 """
 
 import numpy as np
@@ -33,12 +32,10 @@ def polynomial_roots(coefficients) -> np.ndarray:
 
 
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
-    """Return the real roots of an analytic function in [lower, upper], ascending.
+    """Return the real roots of an analytic function in [lower, upper], each listed once.
 
-    A double root is listed once. `size` is a bound on the rounding error, in epsilons. The extrema
-    are those of a Chebyshev interpolant, eigenvalues of a companion matrix (Trefethen,
-    Approximation Theory and Approximation Practice, 2013, chapter 18). Between them the roots of
-    the function itself are located.
+    `size` bounds the rounding error in epsilons. The extrema are those of a Chebyshev interpolant
+    (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
     """
     sizes = size(np.linspace(lower, upper, 17))
     if np.max(sizes) > LARGEST_RANGE * np.min(sizes):

@@ -24,10 +24,7 @@ class Solutions(NamedTuple):
 
 
 class RigidSolutions(NamedTuple):
-    """Solutions a and t1 for rigid walls (r1 to infinity, b = d0), arrays of shape (count,).
-
-    Where a > d0 walls would have to pull; (7) has no such solution.
-    """
+    """Solutions a and t1 for rigid walls, which would have to pull where a > d0; shape (count,)."""
 
     amplitude: np.ndarray
     phase: np.ndarray
@@ -37,8 +34,7 @@ class RigidSolutions(NamedTuple):
 def contact_amplitude(relative_amplitude, clearance) -> tuple:
     """Return the first harmonic B(b) of the contact force divided by r1, equation (6e), and dB/db.
 
-    With the contact angle p, cos(p) = d0/b, we have B = b (2/pi)(p - sin p cos p) and
-    dB/db = (2/pi)(p + sin p cos p). Both are zero for b <= d0, without contact.
+    With the contact angle p, cos(p) = d0/b, B = b (2/pi)(p - sin p cos p); it is 0 for b <= d0.
     """
     amplitude = np.maximum(relative_amplitude, clearance)
     angle = np.arctan2(np.sqrt((amplitude - clearance) * (amplitude + clearance)), clearance)
@@ -47,10 +43,9 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 
 
 def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
-    """Return all real roots D of (14), ascending, with the amplitudes and phases that solve (13).
+    """Return all real roots D of (14), ascending, as the amplitudes and phases that solve (13).
 
-    For a forcing amplitude f other than 1, (14) holds with d0/f in place of d0, k3 f^2 in place of
-    k3, and a/f in place of a. Without forcing there is no solution.
+    For a forcing amplitude f other than 1, d0/f, k3 f^2 and a/f replace d0, k3 and a.
     """
     check_elastic(damper)
     frequency = check_frequency(frequency)
@@ -78,8 +73,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
         G(p) = (a wl^2 - a W^2 + g a^3 + rm W^2 (b - a))^2 + (h a W)^2 - f^2 = 0.
 
-    cos^6(p) G(p) is an entire function, and (7b) bounds |a| and thereby p. `smooth_roots` finds all
-    roots of this function up to rounding. Without forcing there is no solution.
+    `smooth_roots` finds all roots of the entire function cos^6(p) G(p) up to rounding.
     """
     balance = _Balance(oscillator, damper, check_frequency(frequency))
     lower, upper = balance.angle_range()
@@ -99,9 +93,9 @@ def resting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 class _Balance:
-    """The terms of (7) with (6e) as functions of the contact angle p.
+    """The terms of (7) with (6e) by contact angle p, multiplied by powers of cos(p).
 
-    The terms are multiplied by powers of cos(p), because a and b have a pole at p = pi/2.
+    At p = pi/2 a and b have a pole.
     """
 
     def __init__(self, oscillator, damper, frequency):
@@ -133,10 +127,7 @@ class _Balance:
         return inline**2 + quadrature**2 - self.force**2 * cosine**6
 
     def defect_size(self, angle):
-        """Return a bound on the rounding error of `defect`, in units of the machine epsilon.
-
-        The rounding error of a cos(p) dominates.
-        """
+        """Return a bound on the rounding error of `defect`, mostly from a cos(p), in epsilons."""
         cosine, scaled, inline, quadrature = self.terms(angle)
         square = cosine**2
         error = 2 * self.clearance - scaled
@@ -151,10 +142,9 @@ class _Balance:
         )
 
     def angle_range(self):
-        """Return the smallest and the largest p that (7a, b) allow.
+        """Return the least and the greatest p, equal if there is none, by bounds on |a|.
 
-        The two are equal if no p is allowed. (7b) bounds |a| by f/(h W), and (7a) bounds |g| |a|^3
-        by the other terms.
+        (7b) bounds |a| by f/(h W), and (7a) bounds |g| |a|^3 by the other terms.
         """
         reach = self.force / self.drag
         if reach == 0:

@@ -1,7 +1,7 @@
-"""Stability of harmonic-balance solutions by the slow flow (17) in the complex amplitudes.
+"""Stability of harmonic-balance solutions by the slow flow (17) in complex amplitudes.
 
-With A = a exp(i t1) and C = b exp(i t2), unlike the polar equations of the paper, the slow flow is
-regular at a = 0, the design point. Elsewhere its eigenvalues are the same.
+With A = a exp(i t1) and C = b exp(i t2) the slow flow is regular at a = 0, the design point, unlike
+the polar equations of the paper; elsewhere the eigenvalues are the same.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ MARGIN = 1e-9
 def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
     """Return the Jacobian of the slow flow, appendix A in complex amplitudes, shape (..., k, k).
 
-    `state` has the shape (..., k): Re A, Im A, and with a damper Re C, Im C.
+    `state` (..., k) holds Re A, Im A, and with a damper Re C, Im C.
     """
     state = np.asarray(state, float)
     primary = state[..., 0] + 1j * state[..., 1]
@@ -57,18 +57,12 @@ def fixed_points(solutions) -> np.ndarray:
 
 
 def stability(growth) -> np.ndarray:
-    """Return the flag `stability` of growth rates.
-
-    The flag is 1 (stable) below -MARGIN, -1 (unstable) above MARGIN, and 0 (marginal) between.
-    """
+    """Return the flag of growth rates: 1 (stable), -1 (unstable), or 0 (marginal, up to MARGIN)."""
     return -np.sign(np.where(np.abs(growth) <= MARGIN, 0.0, growth)).astype(int)
 
 
 def _push_slopes(loose, damper):
-    """Return the derivatives of r1 (B/b) C with respect to C and conj(C), where b = |C|.
-
-    B is the first harmonic of the contact force divided by r1, equation (6e).
-    """
+    """Return the derivatives of r1 (B/b) C, with b = |C|, with respect to C and conj(C)."""
     size = np.abs(loose)
     contact, slope = contact_amplitude(size, damper.clearance)
     size = np.maximum(size, damper.clearance)

@@ -27,13 +27,9 @@ APART = 1e-20j
 class Flight(NamedTuple):
     """The quiet motion near its optimum, with lengths in units of f/W^2 and time as phase W T.
 
-    `docs/explanation/straight_flight.md` derives the equations: x = W^2 Z1/f responds to the
-    forcing with the amplitude A, and to impulses 4 q/pi at the phase s.
-
-    mass_ratio, restitution: rm and e, dimensionless.
-    contact: k, phase that an elastic contact lasts, divided by pi; 0 for rigid walls.
-    damping: g = h/W.
-    stiffness: l = omega_l/W, below 1.
+    x = W^2 Z1/f responds to the forcing and to impulses 4 q/pi
+    (docs/explanation/straight_flight.md). `contact` is the phase that an elastic contact lasts,
+    divided by pi, `damping` h/W and `stiffness` omega_l/W, below 1.
     """
 
     mass_ratio: float
@@ -118,10 +114,7 @@ class Flight(NamedTuple):
         return impulse + self.mass_ratio * tip - (1 + self.mass_ratio) * self.reach * impulse
 
     def largest_displacement(self, impulse):
-        """Return max |x| for an impulse q, at the rounded tip or at a turning point in flight.
-
-        Newton's method locates the turning points, beginning at their positions for g = l = 0.
-        """
+        """Return max |x| for an impulse q, at the rounded tip or at a turning point in flight."""
         lag = self.lag(impulse)
         turn = np.arcsin(np.minimum(2 * impulse / (np.pi * self.forced), 1.0))
         sizes = [self.motion(lag, impulse)[0] - (1 - 2 / np.pi) * self.reach * impulse]
@@ -155,10 +148,10 @@ def flight_of(oscillator, damper, frequency) -> Flight:
 
 @cache
 def least_displacement_ratio(flight) -> float:
-    """Return rm W^2 d0 at which max |Z1| is smallest, dimensionless.
+    """Return rm W^2 d0 at which max |Z1| is smallest.
 
-    The optimum is a kink, where |x| at the impact equals the largest |x| between impacts, or with
-    low restitution a smooth minimum of the latter.
+    This is a kink, where |x| at the impact equals the largest |x| between impacts, or with low
+    restitution a smooth minimum of the latter.
     """
     impulses = np.linspace(0, flight.largest_impulse, GRID + 2)[1:-1]
     best = int(np.argmin(flight.largest_displacement(impulses)))
@@ -170,12 +163,11 @@ def least_displacement_ratio(flight) -> float:
 
 
 def least_harmonic_ratio(flight) -> float:
-    """Return rm W^2 d0 at which the first harmonic of Z1 is smallest, dimensionless.
+    """Return rm W^2 d0 at which the first harmonic of Z1 is smallest.
 
-    The first harmonic of Z1 is the response to the first harmonic of the forcing and the impulses,
-    which is 1 - c q exp(-i p) with c = 8/pi^2 and the lag p of the impact behind the forcing. Let
-    sin(u) = q L/A and n = u - p. The modulus is smallest where
-    tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
+    Forcing and impulses have the first harmonic 1 - c q exp(-i p), c = 8/pi^2, with the lag p of
+    the impact. With sin(u) = q L/A and n = u - p its modulus is smallest where tan(2 u) = 2
+    cos(n)/(c A/L - 2 sin(n)).
     """
     factor = 8 / np.pi**2
     loss = flight.loss

@@ -14,11 +14,10 @@ class Tuning(NamedTuple):
 
 
 def den_hartog(mass_ratio) -> Tuning:
-    """Return the tuning for which both fixed points are equally high, and the damping of Brock.
+    """Return the tuning with equally high fixed points, and the damping of Brock.
 
-    The tuning f = 1/(1 + m) is from Den Hartog, Mechanical Vibrations, 4th ed. 1956, sections 3.2
-    and 3.3. The damping z^2 = 3 m/(8 (1 + m)) is from Brock, "A note on the damped vibration
-    absorber", J. Appl. Mech. 13, A-284, 1946.
+    f = 1/(1 + m): Den Hartog, Mechanical Vibrations, 4th ed. 1956, sections 3.2 and 3.3. z^2 = 3 m/
+    (8 (1 + m)): Brock, "A note on the damped vibration absorber", J. Appl. Mech. 13, A-284, 1946.
     """
     return Tuning(
         mass_ratio, 1 / (1 + mass_ratio), np.sqrt(3 * mass_ratio / (8 * (1 + mass_ratio)))
@@ -28,8 +27,8 @@ def den_hartog(mass_ratio) -> Tuning:
 def exact_optimum(mass_ratio) -> Tuning:
     """Return the tuning and damping for which the maximum of the response is smallest.
 
-    The closed form is from Nishihara and Asami, "Closed-form solutions to the exact optimizations
-    of dynamic vibration absorbers", J. Vib. Acoust. 124(4), 576-582, 2002, doi 10.1115/1.1500335.
+    Nishihara and Asami, "Closed-form solutions to the exact optimizations of dynamic vibration
+    absorbers", J. Vib. Acoust. 124(4), 576-582, 2002, doi 10.1115/1.1500335.
     """
     mass = mass_ratio
     root = np.sqrt(4 + 3 * mass)
