@@ -36,7 +36,7 @@ def made_up_design(decision="build", told=None, **changed):
         addition=ADDITIONS,
     )
     data = data.merge(labelled(_motions()))
-    data = data.merge(labelled(_branches(), changed=["force", "gap", "unbalance"]))
+    data = data.merge(labelled(_branches()))
     data = data.merge(_transients())
     data = data.merge(labelled(_absorbers()))
     data["followed_value"] = ("point", np.linspace(*FREQUENCY[[0, -1]], 6))
@@ -90,7 +90,6 @@ def _decision(decision):
         "branch_frequency": 30.0,
         "keeping_gap": [5.0, 8.0],
         "keeping_end": [flag("keeping_end", "search_ends"), flag("keeping_end", "jump")],
-        "range_gap": [6.5, 7.5],
         "best_orbit_gap": 8.8,
         "best_orbit_displacement": 0.4,
         "best_orbit_beyond": flag("best_orbit_beyond", "yes"),
@@ -107,7 +106,6 @@ def _promise():
         "promise_bare_displacement": np.linspace(6.0, 10.0, 5),
         "unsettled_share": np.zeros(5),
         "settling_late": np.full(5, 100.0),
-        "balance_displacement": np.linspace(6.0, 10.0, 5),
     }
 
 
@@ -115,7 +113,6 @@ def _search():
     return {
         "searched_displacement": [0.9, 0.9, 0.8, 0.8, 6.0],
         "searched_tolerated": [0.9, 0.9, 0.9, 6.0, 6.0],
-        "searched_frequency": np.full(5, 30.0),
         "candidate_gap": [7.0],
         "candidate_end": [[6.5, 7.5]],
         "candidate_displacement": [0.9],
@@ -137,9 +134,7 @@ def _maps():
         "contact_force_by_frequency": np.linspace(600.0, 500.0, 5),
         "penetration_by_frequency": np.full(5, 0.03),
         "impact_speed_by_frequency": np.full(5, 0.2),
-        "impact_loss_by_frequency": np.full(5, 0.003),
         "impact_power_by_frequency": np.full(5, 0.04),
-        "noise_by_frequency": np.full(5, 0.25),
         "pressure_by_frequency": np.full(5, np.nan),
         "yields_by_frequency": np.full(5, flag("yields_by_frequency", "unknown")),
     }
@@ -164,12 +159,6 @@ def _branches():
         "orbit_displacement": np.linspace(0.5, 0.3, 6),
         "orbit_stability": np.where(x < 30, 1, -1),
         "branch_period": [1],
-        "bare_branch": np.repeat([0, 1], 3),
-        "bare_frequency": np.tile([26.0, 30.0, 34.0], 2),
-        "bare_displacement": [6.0, 8.0, 10.0, 5.0, 7.0, 9.0],
-        "bare_stability": [1, 1, 1, -1, -1, -1],
-        "displacement_change": [2.6, -1.6, 0.0],
-        "modulus_change": [0.2, -0.2, 0.0],
         "gap_of_orbit": [6.0, 7.0, 8.0, 9.0],
         "displacement_by_gap": [0.8, 0.7, 0.5, 0.4],
         "modulus_by_gap": [1.2, 0.9, 0.8, 1.1],
@@ -201,8 +190,6 @@ def _absorbers():
     return {
         "competitor_displacement": sizes,
         "competitor_status": [flag("competitor_status", "one_harmonic")] * 2,
-        "den_hartog_stiffness": 9.1e3,
-        "den_hartog_damping": 20.5,
         "absorber_stiffness": np.tile([[np.nan], [9e3]], 3),
         "absorber_damping": np.tile([[np.nan], [20.0]], 3),
     }

@@ -15,11 +15,6 @@ ENDS = {
 register(
     """
 # without the damper
-bare_frequency | bare_point | frequency | | frequency of an orbit without the damper
-bare_displacement | bare_point | displacement | | largest displacement without the damper
-bare_stability | bare_point | | | stability of an orbit without the damper
-  : STABILITY
-bare_branch | bare_point | | | branch of an orbit without the damper
 # transients
 direction | direction | | | direction in which the forcing frequency is swept
 equipment | equipment | | | whether the machine has its damper
@@ -71,8 +66,6 @@ keeping_gap | side | displacement | | ends of the gaps around design_gap at whic
   displacement exceeds the promised one by at most 10 %
 keeping_end | side | | | what ends these gaps
   : jump 0, growth 1, search_ends 2
-range_gap | side | displacement | | ends of the range of nominal gaps of which design_gap is the
-  middle
 best_orbit_gap | | displacement | | gap of the smallest stable quiet orbit at branch_frequency
 best_orbit_displacement | | displacement | | largest displacement of this orbit
 best_orbit_beyond | | | | whether its gap lies beyond keeping_gap
@@ -88,15 +81,12 @@ promise_bare_displacement | promise_frequency | displacement | | largest displac
 unsettled_share | promise_frequency | | | share of motions at nominal values that do not settle
   to an orbit
 settling_late | promise_frequency | | | cycles in which 95 % of the motions that settle have settled
-balance_displacement | frequency | displacement | | largest displacement without damper by
-  harmonic balance
 # search
 searched_gap | searched | displacement | | gap of the search
 searched_displacement | searched | displacement | | largest displacement of the starts over some
   frequencies
 searched_tolerated | searched | displacement | | largest of searched_displacement within the
   tolerance of the gap
-searched_frequency | searched | frequency | | frequency of searched_displacement
 candidate_gap | candidate | displacement | | middle of a range of nominal gaps that do nearly as
   well as the best
 candidate_end | candidate side | displacement | | ends of this range
@@ -113,10 +103,6 @@ modulus_by_gap | gap_point | | | modulus of the largest multiplier of the orbit 
 stability_gap | side | displacement | | gap at which the quiet orbit ceases to be stable
 stability_gap_event | side | | | why the quiet orbit ceases to be stable at stability_gap
   : ENDS
-changed | changed | | | parameter that grows by 1 per cent
-displacement_change | changed | | | change of the largest displacement of the quiet orbit, per
-  cent
-modulus_change | changed | | | change of the modulus of the orbit's largest multiplier, per cent
 # maps
 operating_frequency | operating_frequency | frequency | | frequency of a cell of the map
 force_map_displacement | operating_frequency force_share | displacement | | displacement below
@@ -147,13 +133,10 @@ impact_rate_by_frequency | frequency | rate | | impacts per time
 contact_force_by_frequency | frequency | force | | largest force in a contact
 penetration_by_frequency | frequency | displacement | | largest penetration of a wall
 impact_speed_by_frequency | frequency | velocity | | largest relative speed of an impact
-impact_loss_by_frequency | frequency | energy | | mean energy lost in an impact
 impact_power_by_frequency | frequency | power | | mean power lost in contacts
 pressure_by_frequency | frequency | pressure | | largest pressure after Hertz
 yields_by_frequency | frequency | | | whether the material yields at this pressure
   : no 0, yes 1, unknown 2
-noise_by_frequency | frequency | impulse_noise | | sum of the squared impulses of impacts, per
-  time
 # migration
 released_gap | released_gap | displacement | | gap of the damper that is released, the full play
 released_frequency | released_frequency | frequency | | forcing frequency of a release
@@ -173,8 +156,6 @@ migration_required | | | | share of releases that is required
 migration_offer | | | | whether releases of the damper may help where it is not worth building
   : no 0, yes 1
 # competitors
-den_hartog_stiffness | | stiffness | | stiffness of a tuned absorber by Den Hartog's closed form
-den_hartog_damping | | damping | | damping of Den Hartog's absorber by Brock's closed form
     """,
     ENDS=ENDS,
     STABILITY=STABILITY,

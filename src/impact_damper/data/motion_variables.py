@@ -170,12 +170,8 @@ optimum_kind | | | | kind of minimum: smooth, kink, end of the branch or of the 
   : MINIMUM
 near_clearance | edge | clearance | | ends of the range of clearances with at most 1.1 times the
   smallest displacement
-near_status | edge | | | event that ends the range near_clearance
-  : not_found 0, crossed 1, branch_ends 2, sweep_ends 3
 analytical_optimum | | clearance | d0 | clearance at which the harmonic balance (7) has a solution
   with a = 0
-analytical_kind | | | | kind of minimum of |a| at analytical_optimum
-  : MINIMUM
 rule_clearance | | clearance | d0 | clearance of rule (18) at the forcing frequency
 peak_rule_clearance | | clearance | d0 | clearance of rule (19)
 optimum_ratio | | | | rm W^2 d0/f at the optimum clearance, which is 1 by rule (18)
@@ -251,14 +247,11 @@ basin_share | attractor basin_velocity basin_displacement | | | fraction of the 
 attractor | attractor | | | index of an attractor, by rising max |Z1|
 attractor_period | attractor | | n | period in cycles
 attractor_displacement | attractor | displacement | max |Z1| | largest displacement
-attractor_phase | attractor | angle | | phase of the first harmonic relative to the forcing
 attractor_share | attractor | | | share of the states that lead to an attractor
 attractor_point | attractor passage | displacement | Z1 | displacement of an attractor whenever
   the forcing has the phase of the plane
 attractor_speed | attractor passage | velocity | Z1' | velocity of an attractor whenever the
   forcing has the phase of the plane
-label_count | without_attractor | | | number of states that lead to no attractor, by reason
-without_attractor | without_attractor | | | reason why a state leads to no attractor
 saddle_period | saddle | | n | period of an unstable orbit in cycles
 saddle_displacement | saddle | displacement | Z1 | displacement of an unstable orbit at the phase
   of the plane

@@ -32,7 +32,7 @@ from impact_damper.model.bounds import MASS_RATIO_RANGE, shown
 from impact_damper.model.machine import Machine, TunedAbsorber
 from impact_damper.model.units import UNITLESS, check_si
 from impact_damper.theory.roots import polynomial_roots
-from impact_damper.theory.tuned_mass_damper import Tuning, den_hartog, exact_optimum
+from impact_damper.theory.tuned_mass_damper import Tuning, exact_optimum
 
 # A root counts as real if its imaginary part is at most REAL times the width of the resonance.
 REAL = 1e-6
@@ -110,21 +110,19 @@ def absorber_responses(
     sizes[0] = response(machine, None, frequencies, shares)
     springs = np.full((2, *sizes.shape[:2]), np.nan)
     kind = "one_harmonic" if machine.cubic_stiffness else "exact"
-    status, closed, absorbers = [kind] * len(names), {}, {}
+    status, absorbers = [kind] * len(names), {}
     if own is not None:
         absorbers[2] = own
     if not machine.linear_stiffness:
         status[1] = "not_possible"
     else:
         absorbers[1] = exact_absorber(machine, mass, band)
-        made = den_hartog_absorber(machine, mass)
-        closed = {"den_hartog_stiffness": made.stiffness, "den_hartog_damping": made.damping}
     for row, absorber in absorbers.items():
         for column, detuning in enumerate(detunings):
             built = absorber.detuned(detuning)
             sizes[row, column] = response(machine, built, frequencies, shares)
             springs[:, row, column] = built.stiffness, built.damping
-    values = closed | {
+    values = {
         "competitor_displacement": 1e3 * sizes,
         "competitor_status": [flag("competitor_status", each) for each in status],
         "absorber_stiffness": springs[0],
@@ -178,11 +176,6 @@ def check_band(machine, band) -> tuple:
     if ends[0] >= ends[1]:
         raise ValueError(f"band = {shown(band)}: must be lowest and highest frequency, in order")
     return ends
-
-
-def den_hartog_absorber(machine, mass) -> TunedAbsorber:
-    """Return the absorber with Den Hartog's tuning and Brock's damping, for an undamped machine."""
-    return _absorber(machine, den_hartog(check_mass(machine, mass) / machine.mass))
 
 
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:

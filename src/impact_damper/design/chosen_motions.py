@@ -22,33 +22,24 @@ from impact_damper.orbits.orbit_branches import orbit_branches
 SAMPLES, WATCHED = 64, 200
 # Largest number of cycles for which an undecided motion is run further, to name it.
 FURTHER = 1500
-# Variables of the response without the damper, with their names in the dataset of a design.
-BARE = {
-    "followed_value": "bare_frequency",
-    "orbit_displacement": "bare_displacement",
-    "orbit_stability": "bare_stability",
-    "orbit_branch": "bare_branch",
-}
 # Variables of the dataset, with the name of the cost (`costs.measured_costs`) and its quantity.
 COSTS = {
     "impact_rate_by_frequency": ("impact_rate", "rate"),
     "contact_force_by_frequency": ("contact_force", "force"),
     "penetration_by_frequency": ("penetration", "displacement"),
     "impact_speed_by_frequency": ("impact_speed", "velocity"),
-    "impact_loss_by_frequency": ("mean_impact_loss", "energy"),
     "impact_power_by_frequency": ("impact_power", "power"),
-    "noise_by_frequency": ("impulse_noise", "impulse_noise"),
 }
 
 
 def response_and_costs(task, decision, progress=None) -> xr.Dataset:
-    """Return the response with and without the damper, and the costs of the largest motions."""
+    """Return the response with the damper, and the costs of the largest motions."""
     response = damped_response(task, decision, progress)
     return response.merge(reached_motions(task, decision, response))
 
 
 def damped_response(task, choice, progress=None) -> xr.Dataset:
-    """Return the response with and without the chosen damper: motions and branches of orbits."""
+    """Return the response with the chosen damper: motions and branches of orbits."""
     # Motions that have not settled after the largest number of cycles are run further, to name
     # them. The search for the gap does not do this, to save time.
     effort = task.effort
@@ -58,13 +49,10 @@ def damped_response(task, choice, progress=None) -> xr.Dataset:
     damper, span = task.damper(1e-3 * float(choice["design_gap"])), task.band
     motions = frequency_response(task.machine, damper, task.grid, **searched)
     orbits = orbit_branches(task.machine, damper, span=span, motions=[motions])
-    alone = frequency_response(task.machine, None, task.grid, **searched)
-    alone = orbit_branches(task.machine, None, span=span, motions=[alone])
-    bare = {new: shown_variable(new, alone[old].values) for old, new in BARE.items()}
     # The motions have a variable `branch`, so the dimension `branch` of the orbits is renamed.
     # All steps get the same coordinate `frequency`.
     motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
-    return motions.merge(orbits.rename_dims(branch="curve")).merge(xr.Dataset(bare))
+    return motions.merge(orbits.rename_dims(branch="curve"))
 
 
 def reached_motions(task, choice, response) -> xr.Dataset:

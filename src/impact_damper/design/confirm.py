@@ -141,14 +141,11 @@ def conclude(task, found, curve, ranges, status) -> xr.Dataset:
         "promise_bare_displacement": bare,
         "unsettled_share": unsettled,
         "settling_late": waits,
-        "balance_displacement": task.bare,
         "searched_displacement": curve.sizes,
-        "searched_frequency": curve.worst,
         "searched_tolerated": _tolerated(task, curve),
         "candidate_gap": [each.gap for each in ranges],
         "candidate_end": np.array([(each.low, each.high) for each in ranges]).reshape(-1, 2),
         "candidate_displacement": [each.size for each in ranges],
-        "range_gap": found.range,
     }
     return labelled(
         values,

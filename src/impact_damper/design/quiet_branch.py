@@ -1,4 +1,4 @@
-"""The quiet orbit of a design: over the gap, and its derivatives by all values."""
+"""The quiet orbit of a design over the gap."""
 
 import numpy as np
 import xarray as xr
@@ -7,35 +7,24 @@ from impact_damper.data.datasets import flag
 from impact_damper.design.cells import Cell, run
 from impact_damper.design.task import SIDES, labelled
 from impact_damper.model.families import family_of
-from impact_damper.model.packed import (
-    CONTACT_STIFFNESS,
-    DESIGN,
-    INVERSE_MASS_RATIO,
-    SIMPLE,
-    design_slopes,
-)
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import STROBE, Orbit
 from impact_damper.orbits.quiet_orbits import is_symmetric_pair
-from impact_damper.orbits.sensitivity import relative_slopes
 from impact_damper.orbits.shooting import find_orbit
 
 # Least and greatest gap of the branch, divided by the nominal one.
 GAP_SPAN = (0.4, 2.0)
-# Names of parameters of `packed.DESIGN` that are called differently for a machine in SI units.
-SAID = {"cubic": "cubic_stiffness", "clearance": "gap", "mass_ratio": "mass"}
 LOST = ("fold", "symmetry_breaking", "neimark_sacker")
 
 
 def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
-    """Return the quiet orbit over the gap, where it is stable, and its derivatives.
+    """Return the quiet orbit over the gap, and where it is stable.
 
     `choice` is the dataset of the decision; the orbit has its `branch_frequency`.
     """
     gap, frequency = float(choice["design_gap"]), float(choice["branch_frequency"])
     orbit = quiet_orbit(task, gap, frequency)
-    keeping = choice["keeping_gap"].values
-    return over_gap(task, gap, frequency, orbit, keeping).merge(dependence(task, orbit))
+    return over_gap(task, gap, frequency, orbit, choice["keeping_gap"].values)
 
 
 def quiet_orbit(task, gap, frequency) -> Orbit | None:
@@ -101,22 +90,3 @@ def _stability_end(branch, start, step):
             return branch.values[k], events[k]
     end = branch.ends[0 if step < 0 else 1]
     return branch.values[k], "range_ends" if end == "range_ends" else "branch_ends"
-
-
-def dependence(task, orbit) -> xr.Dataset:
-    """Return the changes of an orbit, in per cent, if a value grows by 1 per cent.
-
-    NaN without an orbit, or at a kink, which has no derivative.
-    """
-    names = [SAID.get(name, name) for name in DESIGN]
-    displacement = modulus = np.full(len(names), np.nan)
-    if orbit is not None:
-        p = orbit.p
-        values = {name: p[place] for name, place in SIMPLE.items()} | {
-            "restitution": task.restitution,
-            "contact_stiffness": p[CONTACT_STIFFNESS],
-            "mass_ratio": 1 / p[INVERSE_MASS_RATIO],
-        }
-        directions = design_slopes(p).T * np.array([values[name] for name in DESIGN])[:, None]
-        displacement, modulus = np.transpose([relative_slopes(orbit, row) for row in directions])
-    return labelled({"displacement_change": displacement, "modulus_change": modulus}, changed=names)

@@ -28,18 +28,6 @@ NAMES = (
 COUNT = len(NAMES)
 FREQUENCY, DAMPING, STIFFNESS, CUBIC, FORCE, UNBALANCE, SHAKER = range(COUNT - 4)
 CLEARANCE, CONTACT_STIFFNESS, INVERSE_MASS_RATIO, DASHPOT = range(COUNT - 4, COUNT)
-# DESIGN: parameters with respect to which `design_slopes` differentiates; linear_stiffness is
-# omega_l^2. SIMPLE: the parameters among these that the array holds unchanged, each with its index.
-SIMPLE = {
-    "damping": DAMPING,
-    "linear_stiffness": STIFFNESS,
-    "cubic": CUBIC,
-    "force": FORCE,
-    "unbalance": UNBALANCE,
-    "clearance": CLEARANCE,
-    "frequency": FREQUENCY,
-}
-DESIGN = (*SIMPLE, "restitution", "contact_stiffness", "mass_ratio")
 
 
 def pack(oscillator, damper, frequency) -> np.ndarray:
@@ -82,25 +70,3 @@ def cubic_spring(p) -> tuple:
         if value and name != "cubic":
             raise ValueError(f"{name} = {number(value)}: must be 0 in closed forms (cubic springs)")
     return p[STIFFNESS], p[CUBIC]
-
-
-def design_slopes(p) -> np.ndarray:
-    """Return the derivatives of packed parameters by the parameters DESIGN, a column for each."""
-    slopes = np.zeros((COUNT, len(DESIGN)))
-    for column, index in enumerate(SIMPLE.values()):
-        slopes[index, column] = 1.0
-    if not np.isfinite(p[CLEARANCE]):
-        return slopes
-    mass_ratio, stiffness = 1 / p[INVERSE_MASS_RATIO], p[CONTACT_STIFFNESS]
-    # The dashpot coefficient is `critical` times the damping ratio s of the relative motion,
-    # s = -ln e/(pi^2 + ln^2 e)^(1/2).
-    critical = 2 * math.sqrt(stiffness * mass_ratio / (1 + mass_ratio))
-    ratio = p[DASHPOT] / critical
-    rest = 1 - ratio**2
-    restitution = math.exp(-math.pi * ratio / math.sqrt(rest))
-    slopes[DASHPOT, -3] = -critical * rest**1.5 / (math.pi * restitution)
-    slopes[CONTACT_STIFFNESS, -2] = 1.0
-    slopes[DASHPOT, -2] = p[DASHPOT] / (2 * stiffness)
-    slopes[INVERSE_MASS_RATIO, -1] = -1 / mass_ratio**2
-    slopes[DASHPOT, -1] = p[DASHPOT] / (2 * mass_ratio * (1 + mass_ratio))
-    return slopes

@@ -57,7 +57,6 @@ QUANTITIES = {
     "impulse": Quantity("N s", length=1, time=-1, mass=1),
     "energy": Quantity("J", length=2, time=-2, mass=1),
     "power": Quantity("W", length=2, time=-3, mass=1),
-    "impulse_noise": Quantity("N^2 s", length=2, time=-3, mass=2),
 }
 # Text holds a number and units with powers: pint would evaluate any expression, however long.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"

@@ -1,12 +1,4 @@
-"""Basins of attraction in a plane of states, without or with a damper.
-
-An attractor is a stable periodic motion, and its basin the set of all states that lead to it.
-Without a damper the boundaries of basins are the stable manifolds of unstable orbits: curves of
-states that lead to such an orbit.
-
-Z1 is the displacement of the primary mass and Z2 its displacement relative to the loose mass. A
-start is an initial state.
-"""
+"""Basins of attraction in a plane of states, without or with a damper."""
 
 import math
 
@@ -37,13 +29,11 @@ from impact_damper.motions.ensemble import label_states
 from impact_damper.motions.start_states import free_motions
 from impact_damper.orbits.boundary import saddles, stable_manifold
 
-# Half widths of the plane in Z1 and Z1', divided by the largest displacement and speed of the
-# motions without a damper, if the user gives none.
+# Default half widths of the plane, divided by the size of the motions without a damper.
 WIDTH = 1.5
 # Number of states on each axis of the grid of first guesses for unstable orbits.
 NEWTON = 16
-# If states lead to no known attractor, the motions from TRIED of them are run until they settle, to
-# find further attractors.
+# Number of states without a known attractor from which further attractors are searched for.
 TRIED = 64
 # Places of the loose mass over which a plane is averaged, as fractions of the clearance.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
@@ -99,8 +89,8 @@ def basins(
     -------
     xarray.Dataset
         For each state of the grid the number of the attractor to which it leads, or a negative
-        number with the reason why it leads to none. For each attractor its period, size, phase,
-        points at the phase of the plane, and share of the states. Without a damper also the
+        number with the reason why it leads to none. For each attractor its period, size, points
+        at the phase of the plane, and share of the states. Without a damper also the
         unstable orbits that Newton's method finds from a grid of states, with the periods of the
         attractors, and their stable manifolds, which are the boundaries of the basins.
 
@@ -144,16 +134,12 @@ def basins(
         "basin_velocity": grid[1],
         "basin_phase": ((), phase),
         "frequency": ((), p[FREQUENCY]),
-        "without_attractor": list(BASIN_LABEL),
     }
     return dataset(data, coordinates, made, "Basins of attraction", model)
 
 
 def _sides(scales, sizes, displacement, velocity):
-    """Return the least and the greatest value on each axis of the plane, shape (2, 2).
-
-    `sizes` are the largest displacement and speed of the motions without a damper.
-    """
+    """Return the least and the greatest value on each axis of the plane, shape (2, 2)."""
     sides = np.outer(WIDTH * sizes, (-1.0, 1.0))
     given = ("displacement", displacement, FARTHEST), ("velocity", velocity, FASTEST)
     for row, (name, value, most) in zip(sides, given, strict=True):
@@ -167,8 +153,7 @@ def _sides(scales, sizes, displacement, velocity):
 def _free(p, plane, window, reach, phase, cells, settling, running):
     """Return the variables of the plane without a damper, and the records of the attractors.
 
-    `plane` are the states, shape (cells^2, 2), `window` half widths of the plane, and `reach` half
-    widths of the region in which stable manifolds are followed.
+    Stable manifolds are followed within the half widths `reach`.
     """
     attractors = free_attractors(p, reach / 2, settling)
     labels, _ = label_states(
@@ -206,10 +191,7 @@ def _joined(p, attractors, more):
 
 
 def boundary_data(p, attractors, window, reach, phase, cells, settling):
-    """Return a dict of dataset variables of the unstable orbits and of their stable manifolds.
-
-    The arguments are those of `_free`.
-    """
+    """Return the variables of the unstable orbits and of their stable manifolds."""
     # Unstable orbits lie closer together near the origin, so the grid is finer there.
     even = np.linspace(-1, 1, NEWTON)
     grid = [half * even * np.abs(even) for half in reach / 2]
@@ -237,10 +219,7 @@ def boundary_data(p, attractors, window, reach, phase, cells, settling):
 
 
 def _damped(p, plane, damper, phase, cells, loose, settling, running):
-    """Return the variables of the plane with a damper, and the records of the attractors.
-
-    The arguments are those of `_free` and `basins`.
-    """
+    """Return the variables of the plane with a damper, and the records of the attractors."""
     if loose is None:
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:
@@ -263,10 +242,7 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
 
 
 def _attractor_data(p, records, phase, plane):
-    """Return a dict of dataset variables of the attractors.
-
-    `records` are their `records.MOTION`, and `plane` are the variables of the plane.
-    """
+    """Return the variables of the attractors, from their records and the variables of the plane."""
     labels = plane["basin_label"]
     if "basin_share" in plane:
         shares = plane["basin_share"].mean(axis=(1, 2))
@@ -275,14 +251,11 @@ def _attractor_data(p, records, phase, plane):
     points = np.full((len(records), max(records["period"], default=1), 2), np.nan)
     for row, record in zip(points, records, strict=True):
         row[: record["period"]] = orbit_passages(p, record, phase)
-    harmonic = records["harmonic_displacement"]
     return {
         "attractor": np.arange(len(records)),
         "attractor_period": records["period"],
         "attractor_displacement": records["maximum_displacement"],
-        "attractor_phase": np.angle(harmonic),
         "attractor_share": shares,
         "attractor_point": points[..., 0],
         "attractor_speed": points[..., 1],
-        "label_count": [np.sum(labels == value) for value in BASIN_LABEL.values()],
     }

@@ -1,8 +1,4 @@
-"""Locate bifurcations and changes of contact on a step between two points of a branch.
-
-A bifurcation is the zero of a test function along the step, a change of contact the place at which
-the sequence of walls touched changes.
-"""
+"""Locate bifurcations (zeros of test functions) and changes of contact on a step of a branch."""
 
 from functools import partial
 from typing import NamedTuple
@@ -32,12 +28,10 @@ PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 
 
 class Event(NamedTuple):
-    """An event of a branch.
+    """An event of a branch, with the walls touched (`Orbit.sequence`) before and after it.
 
-    kind: fold, symmetry_breaking, period_doubling, neimark_sacker, grazing or merging. At a grazing
-        a contact appears or vanishes in flight; at a merging two contacts with one wall become one.
-    point: Point of the branch at the event.
-    before, after: `Orbit.sequence`, the walls touched, before and after the event along the branch.
+    At a grazing a contact appears or vanishes in flight; at a merging two contacts with one wall
+    become one. The other kinds are those of TESTS.
     """
 
     kind: str
@@ -62,21 +56,14 @@ def _reversal(point, symmetric):
 
 
 def _pairs(point):
-    """Return the product of mu_i mu_j - 1 over all pairs of multipliers.
-
-    It is zero if a conjugate pair has modulus 1.
-    """
+    """Return the product of mu_i mu_j - 1 over all pairs: 0 if a conjugate pair has modulus 1."""
     values = point.orbit.multipliers[: point.orbit.active]
     first, second = PAIRS[len(values)]
     return _product(values[first] * values[second] - 1)
 
 
 def _product(values):
-    """Return a number with the sign of a product of complex numbers.
-
-    Numbers with a modulus above 1 are divided by their modulus, so that the product cannot
-    overflow.
-    """
+    """Return a number with the sign of a product of complex numbers, and no overflow."""
     return float((values / np.maximum(1, np.abs(values))).prod().real)
 
 
@@ -146,10 +133,7 @@ def events_between(start, end, length):
 
 
 def _is_complex_pair(multipliers):
-    """Return whether the pair of multipliers whose product is nearest to 1 is a conjugate pair.
-
-    Other multipliers may be complex while the product of two that are not conjugate passes 1.
-    """
+    """Return whether the two multipliers whose product is nearest to 1 are a conjugate pair."""
     values = multipliers[np.isfinite(multipliers)]
     first, second = PAIRS[len(values)]
     k = np.argmin(np.abs(values[first] * values[second] - 1))
@@ -158,11 +142,7 @@ def _is_complex_pair(multipliers):
 
 
 def _changes_of_contact(point_at, start, end, length):
-    """Locate the changes of the sequence of walls on a step by bisection.
-
-    The arguments are those of `bifurcations_between` and `events_between`. Return a list of pairs:
-    distance along the step, and event.
-    """
+    """Return distance and event of each change of the sequence of walls, found by bisection."""
     located, inner, before = [], 0.0, start.orbit.sequence
     while before != end.orbit.sequence and len(located) < MOST_CHANGES:
         outer, after = length, end.orbit
@@ -187,8 +167,7 @@ def _changes_of_contact(point_at, start, end, length):
 def _contact_event(orbit):
     """Return the kind of event at which the slowest contact of an orbit appeared.
 
-    The kind is "merging" if a very short flight separates the contact from another contact with the
-    same wall, otherwise "grazing".
+    It is a merging if a very short flight follows another contact with the same wall.
     """
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))

@@ -1,7 +1,6 @@
 """Boundaries of the free oscillator's basins, which are stable manifolds of its unstable orbits.
 
-A manifold is computed backwards in time, cycle by cycle, from a short segment at the orbit. All
-nearby curves approach it backwards in time, so errors of interpolation shrink.
+A manifold is computed backwards in time, where all nearby curves approach it, so errors shrink.
 """
 
 import math
@@ -14,18 +13,11 @@ from impact_damper.orbits.shooting import find_orbit
 
 # Distance from the saddle at which the segment begins, in units of Z1 and Z1'.
 NEAR = 1e-5
-# MOST_PERIODS  largest number of forcing cycles over which a curve is computed
-# MOST_POINTS   largest number of points within the window, on each side of the saddle
-# MOST_IN_ALL   largest number of points within the reach, on each side of the saddle
-MOST_PERIODS = 60
-MOST_POINTS = 40_000
-MOST_IN_ALL = 100_000
-# FIRST_POINTS   number of points on the first segment
-# MOST_HALVINGS  largest number of halvings of an interval between two neighbouring points
+# Largest number of forcing cycles; of points within the window, and within the reach, on each side
+# of the saddle; and of halvings of an interval between neighbouring points.
+MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
-MOST_HALVINGS = 12
-# Largest distance of neighbouring points outside the window, divided by the argument `reach` of
-# `stable_manifold`.
+# Largest distance of neighbouring points outside the window, divided by the reach.
 OUTSIDE = 0.01
 # Two orbits are the same if their states differ by less than SAME.
 SAME = 1e-6
@@ -57,8 +49,7 @@ def images(orbit):
 def run_backwards(p, states, phase, tolerance, reach):
     """Return the states one forcing cycle before the given states; NaN for states beyond the reach.
 
-    Backwards in time and with reversed velocity, the oscillator obeys the same equation with
-    negative damping.
+    With reversed velocity, the oscillator obeys the equation with negative damping.
     """
     reverse = p.copy()
     reverse[DAMPING] = -p[DAMPING]
@@ -127,11 +118,9 @@ def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
 
 
 def _wide(states, window, spacing, reach):
-    """Return a mask of the pairs of neighbouring states that are too far apart.
+    """Return the mask of the pairs of neighbouring states that are too far apart.
 
-    At least one state of such a pair lies within the reach. If the other state is unknown (NaN),
-    because its image one cycle later was beyond the reach, the pair is in
-    the mask only if the known state lies in the window or within twice the spacing of it.
+    A pair with an unknown state (NaN) counts only if the known one lies in the window or near it.
     """
     apart = np.abs(np.diff(states, axis=0))
     inside = np.all(np.abs(states) <= window + 2 * spacing, axis=1)

@@ -28,8 +28,7 @@ from impact_damper.orbits.grazing import through_grazing
 
 # Largest number of orbits in one direction.
 MOST_POINTS = 10_000
-# Two orbits at the same parameter are the same if their states at W T = pi/2 differ by less than
-# SAME.
+# Orbits at one parameter are the same if their states at W T = pi/2 differ by less than SAME.
 SAME = 1e-5
 # `Branch.holds` compares an orbit with a step of the branch only if max |Z1| on the step comes
 # within NEARBY of max |Z1| of the orbit.
@@ -51,17 +50,13 @@ CLEAR_STEP = 1e-4
 
 @dataclass(frozen=True)
 class Branch:
-    """A branch of orbits.
+    """A branch of orbits, whose `family` maps the parameter to packed parameters.
 
-    family: Maps the parameter to packed parameters.
-    points: Points in order along the branch, including the points of events.
-    events: Events, each with the index of its point.
-    ends: Reasons why the branch ends before the first and after the last point. "range_ends": at an
-        end of the range of the parameter. "closed": the branch is a closed curve.
-        "symmetry_breaking", "period_doubling": at a branch of more symmetry. "contact_lost": at a
-        motion without contacts. "lost": Newton's method fails. "point_limit": after the largest
-        number of orbits. "unstable": after the largest number of unstable orbits in a row.
-    lost: Number of events that could not be located.
+    `events` have the index of their point. `ends` are the reasons why the branch ends before the
+    first and after the last point: at an end of the range, as a closed curve, at a branch of more
+    symmetry (symmetry_breaking, period_doubling), at a motion without contacts (contact_lost),
+    where Newton's method fails (lost), or after MOST_POINTS or too many unstable orbits. `lost` is
+    the number of events that could not be located.
     """
 
     family: Callable[[float], np.ndarray]
@@ -81,11 +76,7 @@ class Branch:
         return np.array([point.orbit.record["maximum_displacement"] for point in self.points])
 
     def holds(self, orbit, value) -> bool:
-        """Return whether an orbit at a value of the parameter lies on the branch.
-
-        On each step across this value the branch has an orbit at the value. The given orbit is
-        compared with it if max |Z1| on the step is close to max |Z1| of the given orbit.
-        """
+        """Return whether an orbit lies on the branch, on a step across this value."""
         if orbit.periods != self.points[0].orbit.periods:
             return False
         away = self.values - value
@@ -102,10 +93,7 @@ class Branch:
 
 
 def between(point, ahead, value):
-    """Return the point at a value of the parameter on the step between two points.
-
-    The result is None if Newton's method fails.
-    """
+    """Return the point at a value on the step between two points; None if Newton's method fails."""
     if np.array_equal(point.problem.phases, ahead.problem.phases):
         return point_at_value(point, ahead, value)
     return point.problem.at_value(point, value)
@@ -125,17 +113,17 @@ def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
             return replace(walks[-1], ends=("closed", "closed"))
     down, up = walks
     count = len(down.points) - 1
-    events = [(count - k, _reversed(event)) for k, event in reversed(down.events)]
+    events = [
+        (count - k, event._replace(before=event.after, after=event.before))
+        for k, event in reversed(down.events)
+    ]
     events += [(count + k, event) for k, event in up.events]
     points = down.points[:0:-1] + up.points
     return Branch(family, points, events, (down.ends[1], up.ends[1]), down.lost + up.lost)
 
 
 def _extended(family, span):
-    """Return the family, continued linearly by EXTENDED beyond the span where it has no values.
-
-    Steps and differences need these values if the span ends at a bound of the parameter.
-    """
+    """Return the family, continued linearly by EXTENDED beyond the bounds of the parameter."""
 
     def extended(value):
         try:
@@ -152,17 +140,8 @@ def _extended(family, span):
     return extended
 
 
-def _reversed(event):
-    """Return an event with `before` and `after` exchanged, for the other direction of a branch."""
-    return event._replace(before=event.after, after=event.before)
-
-
 def _walk(problem, first, span, beyond) -> Branch:
-    """Follow a branch from the point `first` along its tangent.
-
-    The other arguments are those of `follow_branch`. In the attribute `ends` of the result the
-    reason before the first point is "".
-    """
+    """Follow a branch from the point `first` along its tangent; its first end is ""."""
     points, events, lost, end, idle = [first], [], 0, "", 0
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
         outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0
@@ -207,10 +186,10 @@ def _walk(problem, first, span, beyond) -> Branch:
 
 
 def _next_pieces(point, span, length, search):
-    """Return the pieces (`_through_grazing`) of the next step, of about a given length.
+    """Return the pieces (`_through_grazing`) of the next step; [] if a shorter one must be tried.
 
-    They are empty if a shorter step must be tried. The second result is the factor for the length
-    of the following step, the third whether a grazing was searched for, as allowed by `search`.
+    The second result is the factor for the length of the following step, the third whether a
+    grazing was searched for, as allowed by `search`.
     """
     ahead, factor = next_point(point, span, length)
     changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
@@ -254,11 +233,9 @@ def _ending(piece, first, span):
 
 
 def _through_grazing(point, reach):
-    """Return a list of the pieces of a branch through a grazing; empty if there is no grazing.
+    """Return the pieces of a branch through the grazing within `reach`; [] if there is none.
 
-    The grazing is searched for within the distance `reach` along the tangent of the point. Each
-    piece consists of a point, the next point, the events between them, and the number of events
-    that were not located.
+    A piece has a point, the next point, the events between them, and the number of lost events.
     """
     passage = through_grazing(point, reach)
     if passage is None:
@@ -278,10 +255,8 @@ def _through_grazing(point, reach):
 def _meeting(events, orbit):
     """Return the index of the event at which a branch meets a branch of more symmetry, or None.
 
-    The deviation vanishes at a meeting, which is a fold of the branch. `orbit` is the orbit before
-    the events. Between this orbit and the next one the deviation has changed its sign, but it may
-    also have turned as a vector, without a meeting. If there is no fold among the events, the
-    meeting was not located, and the number of events is returned.
+    The deviation vanishes at a meeting, which is a fold of the branch; it may also have turned as a
+    vector, without a meeting. Without a fold the meeting was not located: the number of events.
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))
@@ -300,10 +275,9 @@ def _loss(last):
 
 
 def _passes(point, ahead, first):
-    """Return the first point of a branch as found again on the step between two points, or None.
+    """Return the first point of a closed branch as found again between two points, or None.
 
-    It is found on the step if the branch is closed. The parameter must change on the step in the
-    same direction as at the beginning of the branch.
+    The parameter must change on the step in the same direction as at the beginning of the branch.
     """
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:

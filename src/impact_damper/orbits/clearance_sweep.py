@@ -1,8 +1,4 @@
-"""Largest displacement as a function of the clearance, and its minimum (figures 6, 7 and 11).
-
-The motion is the quiet motion: of period 1, symmetric, with two contacts per cycle. Of several
-branches the one nearest to the clearance of rule (18), rm W^2 d0 = f, is taken.
-"""
+"""Largest displacement as a function of the clearance, and its minimum (figures 6, 7 and 11)."""
 
 from dataclasses import replace
 
@@ -79,8 +75,7 @@ def clearance_sweep(
         minimum, for the quiet motion and for (7); the clearances of rules (18) and (19), NaN for
         (19) if the response without damper has no peak; rm W^2 d0/f at the optimum; and the shares
         of the excess of this ratio over 1 that pi^2/8 and the theory of straight flight explain.
-        For each `edge` an end of the clearances with max |Z1| within 10 % of its minimum. The
-        attribute `optimum` is a sentence on the optimum.
+        For each `edge` an end of the clearances with max |Z1| within 10 % of its minimum.
 
     Raises
     ------
@@ -140,8 +135,9 @@ def clearance_sweep(
     if anchor is not None:
         part = _stable_part(parameters[anchor], states[anchor], span)
     data |= minimum_table(*part, span)
-    data |= {"largest_displacement": _largest(data)}
+    sizes = np.where(reached(data), data["maximum_displacement"][1], -np.inf)
     data |= {
+        "largest_displacement": np.max(sizes, axis=1),
         "optimum_ratio": inertia * data["optimum_clearance"] / forcing,
         "straight_flight_ratio": least_displacement_ratio(
             Flight(dampers[0].mass_ratio, dampers[0].restitution)
@@ -153,8 +149,7 @@ def clearance_sweep(
         "component": list(COMPONENTS),
         "edge": ["lower", "upper"],
     }
-    found = dataset(data, coordinates, made, title, model)
-    return found.assign_attrs(optimum=_in_words(found))
+    return dataset(data, coordinates, made, title, model)
 
 
 def _peak_rule(oscillator, mass_ratio):
@@ -168,8 +163,8 @@ def _peak_rule(oscillator, mass_ratio):
 def _quiet_motions(data, clearances, rule):
     """Return state and max |Z1| of the quiet motion at each clearance, NaN without one.
 
-    They lie on the branch nearest to the clearance `rule`. The third result is the row nearest to
-    it, None without a quiet motion.
+    A quiet motion has period 1, is symmetric and has two contacts per cycle. The branch is the one
+    nearest to the clearance `rule`; the third result is the row nearest to it, or None.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -190,10 +185,7 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return the stable part of the branch of a quiet motion over the clearance within a span.
-
-    The results are clearance and max |Z1| of its orbits, and max |Z1| as a function of clearance.
-    """
+    """Return clearances and max |Z1| on the stable part of a branch, and max |Z1| as a function."""
 
     def family(clearance):
         changed = p.copy()
@@ -215,60 +207,21 @@ def _stable_part(p, state, span):
     return values, branch.displacements[first:last], size_at
 
 
-def _largest(data):
-    """Return the largest max |Z1| of the motions to which starts lead, for each clearance."""
-    sizes = np.where(reached(data), data["maximum_displacement"][1], -np.inf)
-    return np.max(sizes, axis=1)
-
-
-def _in_words(sweep) -> str:
-    """Return a sentence on the optimum of a sweep of the clearance, or that it has none.
-
-    In SI units it gives the gap, the full play; otherwise the clearance, half of the gap.
-    """
-    unit = sweep["clearance"].attrs["units"]
-    name, factor, suffix, play = "clearance", 1, "", ""
-    if unit != "1":
-        name, factor, suffix, play = "gap", 2, f" {unit}", " (full play)"
-    least, most = factor * sweep["clearance"].values[[0, -1]]
-    swept = f"{name}s from {least:g} to {most:g}{suffix}"
-    kind = int(sweep["optimum_kind"])
-    if kind == flag("optimum_kind", "not_found"):
-        number = sweep.sizes["clearance"]
-        return (
-            f"no quiet motion: none of the starts, {sweep.sizes['start']} of them random, at each "
-            f"of {number} {swept}{play} leads to one"
-        )
-    best, size = factor * float(sweep["optimum_clearance"]), float(sweep["optimum_displacement"])
-    where = {"jump": ", where it ends", "edge": f", the end of the {swept}"}
-    meanings = {flag("optimum_kind", each): text for each, text in where.items()}
-    return (
-        f"quiet motion of {size:.4g}{suffix} at the {name} {best:.4g}{suffix}{play}"
-        f"{meanings.get(kind, '')}"
-    )
-
-
 # The range of clearances near the minimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
 NEAR_MINIMUM = 1.1
-# Step of the derivative at a smooth minimum, and distance within which it changes its sign, both
-# divided by the clearance.
+# Step of the derivative at a smooth minimum, and distance within which it vanishes, divided by the
+# clearance.
 DIFFERENCE, WIDE = 3e-5, 1e-4
 
 
 def minimum_table(values, sizes, size_at, span):
-    """Return the variables of the minimum of max |Z1| over the clearance, a dict.
-
-    The arguments are the results of `_stable_part` and the least and greatest clearance of the
-    sweep. Kinds of minimum: "smooth", "kink", "jump" (at the end of the branch), "edge" (at the end
-    of the sweep) and "not_found".
-    """
+    """Return the variables of the minimum of max |Z1|, from the results of `_stable_part`."""
     if not len(values):
         return {
             "optimum_clearance": np.nan,
             "optimum_displacement": np.nan,
             "optimum_kind": flag("optimum_kind", "not_found"),
             "near_clearance": np.full(2, np.nan),
-            "near_status": np.full(2, flag("near_status", "not_found")),
         }
     k = int(np.argmin(sizes))
     bounds = values[max(k - 1, 0)], values[min(k + 1, len(values) - 1)]
@@ -283,21 +236,17 @@ def minimum_table(values, sizes, size_at, span):
     if kind == "smooth" and room > 2 * WIDE * best:
         best = _stationary(size_at, best)
         least = size_at(best)
-    near = [_near(values[::step], sizes[::step], size_at, best, least, span) for step in (-1, 1)]
+    near = [_near(values[::step], sizes[::step], size_at, best, least) for step in (-1, 1)]
     return {
         "optimum_clearance": best,
         "optimum_displacement": least,
         "optimum_kind": flag("optimum_kind", kind),
-        "near_clearance": np.array([value for value, _ in near]),
-        "near_status": np.array([flag("near_status", event) for _, event in near]),
+        "near_clearance": np.array(near),
     }
 
 
 def _stationary(size_at, best):
-    """Return the zero of the derivative of max |Z1| by the clearance next to a smooth minimum.
-
-    The minimum itself is known to the square root of the rounding error only.
-    """
+    """Return the zero of the derivative of max |Z1|, known better than the minimum itself."""
     step, reach = DIFFERENCE * best, WIDE * best
 
     def slope(clearance):
@@ -312,7 +261,6 @@ def _kind(size_at, best, least, longest):
     """Return "smooth" or "kink" for a minimum, from the rise of max |Z1| after a step away from it.
 
     When the step is halved, the rise falls to a quarter at a smooth minimum and to half at a kink.
-    `longest` is the longest step that stays on the branch.
     """
     rises = [
         size_at(best + step) + size_at(best - step) - 2 * least for step in (longest, longest / 2)
@@ -321,18 +269,14 @@ def _kind(size_at, best, least, longest):
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
 
 
-def _near(values, sizes, size_at, best, least, span):
-    """Return the clearance, on one side of the optimum, where max |Z1| is NEAR_MINIMUM times least.
-
-    `values` run to this side. If it is not reached, return the last one. The second result is
-    "crossed", "sweep_ends" or "branch_ends".
-    """
+def _near(values, sizes, size_at, best, least):
+    """Return the clearance where max |Z1| is NEAR_MINIMUM times least, or the last of `values`."""
     level = NEAR_MINIMUM * least
     inside = best
     for value, size in zip(values, sizes, strict=True):
         if (value - best) * (values[-1] - best) <= 0:
             continue
         if size > level:
-            return brentq(lambda x: size_at(x) - level, inside, value), "crossed"
+            return brentq(lambda x: size_at(x) - level, inside, value)
         inside = value
-    return values[-1], "sweep_ends" if values[-1] in span else "branch_ends"
+    return values[-1]

@@ -1,8 +1,6 @@
 """Pseudo-arclength continuation of periodic orbits in one parameter: its equations and its steps.
 
-The unknowns are the states at the beginnings of the orbit's segments, and the parameter. A step
-goes along the tangent; Newton's method corrects its end orthogonally to the tangent, so that folds
-are passed. Where contacts move close to a section, the orbit is cut into new segments.
+The unknowns are the states at the beginnings of the orbit's segments, and the parameter.
 """
 
 from collections.abc import Callable
@@ -21,54 +19,39 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
 from impact_damper.orbits.shooting import AMPLIFYING
 
-# Newton's method. The size of a correction is the largest change of an unknown.
-# NEWTON: largest number of corrections.
-# LARGEST: largest size of a correction.
-NEWTON = 10
-LARGEST = 0.5
-# Newton's method has converged in one of three cases. In each of them the residual of the orbit
-# must be small too.
-# CLOSE: the size of the last correction is below CLOSE.
-# ROUNDING: it is below ROUNDING and more than half that of the correction before. The corrections
-#   are then rounding errors, which no longer shrink.
-# SURE: the size of the correction before the last is below SURE.
-CLOSE, ROUNDING = 1e-10, 1e-4
-# SHRINKING: Newton's method has failed if a correction exceeds SHRINKING times the one before,
-# unless it is smaller than SURE.
-SURE, SHRINKING = 1e-6, 0.7
+# Newton's method: largest number of corrections, and largest change of an unknown by one.
+NEWTON, LARGEST = 10, 0.5
+# It has converged if the residual is small, and the last correction is below CLOSE, or below
+# ROUNDING and more than half the one before (rounding errors no longer shrink), or if the one
+# before the last is below SURE. It has failed if a correction above SURE exceeds SHRINKING times
+# the one before.
+CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative by the parameter is expensive. It is computed again only after a correction below
 # REFINED, if the corrections since its last computation add up to more than UNMOVED.
 REFINED, UNMOVED = 1e-4, 5e-6
-# A linear system is nearly singular if its solution exceeds the right side by the factor
-# SINGULAR^-0.5. Then singular values below SINGULAR times the largest one are set to zero.
+# A linear system is nearly singular if its solution exceeds the right side by SINGULAR^-0.5. Then
+# singular values below SINGULAR times the largest one are set to zero.
 SINGULAR = 1e-8
 # An orbit is symmetric if its asymmetry, the entry of `records.MOTION`, is below SYMMETRIC.
 SYMMETRIC = 1e-6
 # First and shortest step along a branch, as a distance in the metric of `Problem`.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# Longest step, divided by the length of the vector of unknowns.
-# LONGEST: if the orbits are symmetric or stable.
-# LONGEST_UNSTABLE: if they are neither.
-# SMALLEST: the length of the vector counts as SMALLEST if it is shorter.
+# Longest step, divided by the length of the vector of unknowns (at least SMALLEST), for symmetric
+# or stable orbits and for others.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
 # Largest distance of the first guess of `Problem.at_value`.
 FARTHEST_GUESS = 0.08
-# ASIDE: corrections that add up to more than ASIDE times the step may have led to another branch.
-# FAILING: Newton's method is stopped if the first correction exceeds FAILING times this limit.
+# Corrections that add up to more than ASIDE times the step may have led to another branch. Newton's
+# method stops if the first correction exceeds FAILING times this limit.
 ASIDE, FAILING = 0.2, 2.0
 
 
 class Point(NamedTuple):
-    """A point of a branch.
+    """A point of a branch; vectors have the shape (m n + 1,).
 
-    value: The parameter.
-    orbit: Orbit.
-    x: The unknowns: Z1, Z1' and, with a damper, Z2, Z2' at the beginning of each segment; then the
-        parameter; shape (m n + 1,).
-    tangent: Tangent of the branch, of length 1 in the metric of the problem; shape (m n + 1,).
-    problem: The equations that the unknowns solve.
-    bend, twist: Estimates of the first and second derivative of the tangent with respect to the
-        length of the branch, for the first guess of the next point; shape (m n + 1,).
+    The unknowns `x` are Z1, Z1' and, with a damper, Z2, Z2' at the beginning of each segment, and
+    the parameter. The tangent has the length 1 in the metric of the problem. `bend` and `twist` are
+    its first and second derivative by the length of the branch, to guess the next point.
     """
 
     value: float
@@ -87,15 +70,10 @@ class Problem:
     The square of the distance of two points is the mean over the segments of the squared distance
     of their states, plus the squared difference of the parameter.
 
-    family: Maps the parameter to packed parameters.
-    periods, phases: As in `Orbit`.
-    loose: Z2 - Z1 and Z2' - Z1'. Without a damper they have no effect and are kept constant; shape
-        (2,).
-    damped: Whether there is a damper.
-    symmetric: If True, only symmetric orbits are found, by the map over half the period. This map
-        is regular where an orbit loses its symmetry; the map over the whole period is singular
-        there.
-    rough: Largest norm of the derivative of a segment at the time when the orbit was cut.
+    `family` maps the parameter to packed parameters. `loose` is Z2 - Z1 and Z2' - Z1', constant
+    without a damper. If `symmetric`, only symmetric orbits are found, by the map over half the
+    period, which is regular where an orbit loses its symmetry. `rough` is the largest norm of the
+    derivative of a segment when the orbit was cut.
     """
 
     family: Callable[[float], np.ndarray]
@@ -189,9 +167,7 @@ class Problem:
     def correct(self, x, border, most=np.inf):
         """Return the point that Newton's method reaches from the unknowns x, or None if it fails.
 
-        The corrections are orthogonal to `border`, a vector of the shape of x. The method fails if
-        the first correction is longer than `most`, or if the corrections do not shrink while the
-        residual is large, for example where a contact appears or vanishes on the way.
+        The corrections are orthogonal to the vector `border`, and the first at most `most` long.
         """
         x, size, moved, row = x.copy(), np.inf, 0.0, self.metric * border
         rate, slopes = None, None
@@ -236,10 +212,9 @@ class Problem:
         return self.near(point.x + length * point.tangent + bent, point.tangent, length)
 
     def near(self, x, border, length):
-        """Return the point that Newton's method finds close to a guess x of the unknowns, or None.
+        """Return the point close to a guess x, at most about ASIDE steps of `length` away, or None.
 
-        The distance of the point from the guess must be at most about ASIDE times `length`, the
-        length of the step. The corrections are orthogonal to `border`.
+        The corrections are orthogonal to `border`.
         """
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
         point = self.correct(x, border, FAILING * aside)
@@ -261,10 +236,7 @@ class Problem:
         return near._replace(tangent=near.tangent * turned)
 
     def begin(self, orbit, value, direction):
-        """Return the point of an orbit at a value of the parameter; None if Newton's method fails.
-
-        `direction` is the sign of the parameter's change along the tangent of the point, -1 or 1.
-        """
+        """Return the point of an orbit, or None; `direction` is the parameter's change along it."""
         x = self.unknowns(orbit, value)
         return self.correct(x, direction * np.eye(len(x))[-1])
 
@@ -279,10 +251,7 @@ def point_at_distance(origin, point, ahead, distance):
 
 
 def point_at_value(point, ahead, value):
-    """Return the point of a branch at a value of the parameter between two points of one problem.
-
-    The result is None if Newton's method fails.
-    """
+    """Return the point at a value between two points of one problem, or None if this fails."""
     problem, chord = point.problem, ahead.x - point.x
 
     def beyond(fraction):
@@ -315,23 +284,18 @@ def _cubic(point, ahead, fraction):
     return point.x + fraction * length * point.tangent + bent
 
 
-# A step is accepted if both bounds hold. Otherwise it may have led to another branch nearby.
-# TURNED: largest angle between the tangents at its ends, radian.
-# SKEW: largest difference between the directions of the chord and of the mean tangent.
+# A step is accepted, since it has not led to another branch, if the angle between the tangents at
+# its ends is below TURNED, and the directions of chord and mean tangent differ by less than SKEW.
 TURNED, SKEW = 0.5, 0.03
-# Length of the next step.
-# AIM: the step is chosen to use about this fraction of the bounds TURNED and SKEW.
-# GROWTH: largest ratio of its length to the length before.
-# SHRINKAGE: least ratio after a step that was not accepted.
+# The next step aims at the fraction AIM of these bounds. Its length divided by the length before is
+# at most GROWTH, and at least SHRINKAGE after a step that was not accepted.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
     """Return the next point of a branch, and the factor for the length of the following step.
 
-    If the step would leave the range `span` of the parameter, the point lies at the end of the
-    range. The point is None if Newton's method fails, or if the step is not accepted (TURNED,
-    SKEW).
+    The point lies within the range `span` of the parameter. It is None if the step fails.
     """
     problem = point.problem
     ahead = problem.step(point, length)
@@ -375,18 +339,15 @@ def folds_twice(point, ahead):
 def passes_unseen(point, ahead, located):
     """Return whether a step crosses a branch of more symmetry without a located fold.
 
-    The orbits of that branch are symmetric or have half the period. Where the two branches meet,
-    the parameter has an extremum along the branch, hence a fold among the events `located`.
+    Where the two branches meet, the parameter has an extremum along the branch.
     """
     folds = any(event.kind == "fold" for event in located)
     return not folds and point.orbit.deviation @ ahead.orbit.deviation < 0
 
 
-# An orbit is cut into new segments in three cases.
-# NEAR_SECTION: a contact is closer to a section than this (radian).
-# ROUGHER: a segment amplifies more than this factor times the largest amplification of a segment
-#   when the orbit was cut.
-# MILD: the whole orbit amplifies less than MILD * AMPLIFYING. It then becomes a single segment.
+# An orbit is cut into new segments if a contact is closer to a section than NEAR_SECTION (radian),
+# if a segment amplifies ROUGHER times as much as when the orbit was cut, or if the whole orbit
+# amplifies less than MILD * AMPLIFYING.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
@@ -403,11 +364,7 @@ def holds_still(point):
 
 
 def recut(point, between=()):
-    """Return a point with new segments, or the same point if Newton's method fails with them.
-
-    The new tangent points to the states, at the new sections, of a motion that begins displaced
-    along the old tangent. `between` is the argument of `segments.cut`.
-    """
+    """Return a point with new segments (`segments.cut`), or the same if Newton's method fails."""
     before, orbit = point.problem, point.orbit
     phases, rough = segments.cut(orbit, before.cycle, between), 1.0
     if not between and orbit.amplification <= AMPLIFYING:

@@ -1,8 +1,7 @@
 """Follow a branch through a grazing, at which a contact appears, vanishes, or parts in two.
 
-Beside a grazing the branch turns sharply, often while the parameter changes by less than 1e-8.
-There it is followed in steps of the height |Z2| - d0 of the extremum of Z2 that reaches its wall:
-as functions of the height the orbits are smooth up to a term of power 3/2.
+There the branch turns sharply, but as functions of the height |Z2| - d0 of the extremum of Z2 that
+reaches its wall the orbits are smooth up to a term of power 3/2.
 """
 
 from typing import NamedTuple
@@ -18,18 +17,15 @@ from impact_damper.orbits.continuation import NEWTON, Point, recut
 # On the side with more contacts the heights of successive points are LEAST, RATIO * LEAST, ... up
 # to MOST in modulus.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# If a step to the next height fails, or leads to another branch, it is divided.
-# HALVINGS: largest number of such divisions on the way through a grazing.
-# HALVINGS_BETWEEN: the same between two points found before.
+# Largest number of divisions of steps that fail, on the way through a grazing, and between two of
+# its points.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# `Orbit.deviation` is 0 for an orbit of more symmetry. The branch was left for a branch of more
-# symmetry if the deviation of an orbit is less than FALLEN times that of the orbit before.
+# The branch was left for one of more symmetry if `Orbit.deviation` falls below FALLEN times the one
+# before.
 FALLEN = 0.01
 # Heights of the points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
-# Newton's method.
-# LARGEST: largest size of a correction.
-# CLOSE, ROUNDING: largest relative and absolute error of the height.
+# Newton's method: largest correction, and largest relative and absolute error of the height.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
@@ -59,15 +55,10 @@ def at_height(problem, x, turn, height, direction):
 
 
 class Passage(NamedTuple):
-    """Points of a branch through a grazing.
+    """Points of a branch through a grazing, with the heights and records of the extremum there.
 
-    points: In order along the branch. The first point is the one before the grazing, with the orbit
-        cut into new segments.
-    heights: Heights of the extremum at the points.
-    turns: The extremum at the points.
-    grazing: Index of the point closest to the grazing, on the side with more contacts.
-    kind: "grazing" if a contact appears or vanishes in flight, "merging" if it parts in two or two
-        contacts become one.
+    `grazing` is the index of the point closest to the grazing, on the side with more contacts; the
+    kind is "grazing", or "merging" if a contact parts in two or two become one.
     """
 
     points: list
@@ -97,10 +88,7 @@ class Passage(NamedTuple):
 
 
 def guess(point, turn, height):
-    """Return the unknowns on the tangent of a point at which an extremum has a given height.
-
-    The height is extrapolated linearly.
-    """
+    """Return the unknowns on the tangent of a point where an extremum has about this height."""
     return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
 
 
@@ -150,10 +138,9 @@ def _along(point, turn, targets, direction, contacts):
 
 
 def _before(height, target):
-    """Return a height between two heights, at which a failed step is divided.
+    """Return the height at which a failed step is divided.
 
-    If both heights have the same sign, it is their geometric mean. Otherwise it is close to the
-    grazing.
+    It is the geometric mean, or close to the grazing if the heights have different signs.
     """
     if height * target > 0:
         return height * (target / height) ** 0.5
@@ -181,14 +168,10 @@ MOVED = 0.1
 
 
 class Turn(NamedTuple):
-    """An extremum of Z2.
+    """An extremum of Z2 in a segment of an orbit, at a phase W T, with the height |Z2| - d0.
 
-    segment: Index of the segment of the orbit.
-    phase: W T, radian.
-    outer: True if |Z2| has a maximum, False if it has a minimum.
-    height: |Z2| - d0.
-    gradient: Derivative of the height by the unknowns: the states at the beginnings of the m
-        segments, and the parameter; shape (4 m + 1,). None if unknown.
+    `outer` means a maximum of |Z2|. `gradient` is the derivative of the height by the unknowns (see
+    `continuation.Point`), shape (4 m + 1,), if known.
     """
 
     segment: int
@@ -206,7 +189,7 @@ def turns_of(orbit):
 def with_gradient(problem, x, orbit, turn):
     """Return an extremum of the orbit at the unknowns x of a `continuation.Problem`, with gradient.
 
-    The velocity of Z2 is zero there, so the height changes like Z2 at a constant phase.
+    The height changes like Z2 at a constant phase, since Z2' is zero.
     """
     k, rate = turn.segment, problem.rate(x[-1])
     phases, begin = np.array([orbit.phases[k], turn.phase]), orbit.states[k]
@@ -220,11 +203,7 @@ def with_gradient(problem, x, orbit, turn):
 
 
 def nearest(turns, turn):
-    """Return the extremum in the same segment that corresponds to a given one, or None.
-
-    It is the closest in phase, at a distance of less than MOVED. A maximum of |Z2| is preferred for
-    a maximum, a minimum for a minimum.
-    """
+    """Return the extremum closest in phase to a given one, preferably of its kind, or None."""
     near = [each for each in turns if each.segment == turn.segment]
     near = [each for each in near if abs(each.phase - turn.phase) < MOVED]
     near = [each for each in near if each.outer == turn.outer] or near

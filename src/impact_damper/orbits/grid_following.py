@@ -31,15 +31,9 @@ def follow_line(
 
 
 class Grid:
-    """The orbits found so far in the cells of a grid.
+    """The orbits found so far in the cells (tuples of indices) of a grid of parameters `points`.
 
-    points: Parameters of the cells; shape (*shape, m).
-    correct, shortest: As in `follow_line`.
-    axes: Axes of the grid in the order in which orbits are followed along them; by default the
-        first axis first.
-    extrapolating: As in `follow_line`. Its argument `behind` is the orbit of the neighbouring cell
-        on the opposite side, if this orbit is known.
-    orbits: Orbits, keyed by cell, a tuple of indices.
+    They are followed by `follow_line` along the `axes` in this order.
     """
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
@@ -56,11 +50,7 @@ class Grid:
         self.orbits[cell] = orbit
 
     def spread(self):
-        """Follow orbits into neighbouring cells until no further cell is reached.
-
-        Cells are visited in the order in which their orbits were entered, so that cells close to
-        known orbits are reached first.
-        """
+        """Follow orbits into neighbouring cells, the closest first, until none is reached."""
         queue = deque(self.orbits)
         while queue:
             cell = queue.popleft()

@@ -23,8 +23,8 @@ from impact_damper.orbits import segments
 # Phases W T, radian: a forcing cycle, and the strobe, at which states are compared.
 TURN = 2 * math.pi
 STROBE = math.pi / 2
-# Largest residual of a converged orbit, relative to its states.
-# STIFF_RESIDUAL: divided by the natural frequency of contacts, which multiplies rounding errors.
+# Largest residual of a converged orbit, relative to its states; and the same divided by the natural
+# frequency of contacts, which multiplies rounding errors.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # The phase of an orbit is kept if the nearest contact is further away than MARGIN (radian).
 MARGIN = 0.15
@@ -36,14 +36,11 @@ CONTACTS, TURNS = 64, 256
 class Orbit:
     """A periodic orbit, or an approximation of one, in m segments that begin and end in flight.
 
-    p: Packed parameters; shape (packed.COUNT,).
-    periods: Period n in forcing cycles.
+    p, periods: Packed parameters, and period n in forcing cycles.
     phases: Phases W T at which the segments begin, and at which the last one ends; shape (m + 1,).
-    states: Z1, Z1', Z2, Z2' at the beginnings of the segments; shape (m, 4).
+    states, ends: States at the beginnings and, by integration, at the ends; shape (m, 4).
     sign: -1 if the segments cover half the period of a symmetric orbit, else 1.
-    ends: States at the ends of the segments, by integration from `states`; shape (m, 4).
-    factors: Derivatives of the ends by the states; the last one is multiplied by `sign`;
-        shape (m, 4, 4).
+    factors: Derivatives of ends by states, the last one times `sign`; shape (m, 4, 4).
     contact_time: Time in contact in all segments.
     maps: How often Newton's method integrated over the segments.
     """
@@ -97,10 +94,7 @@ class Orbit:
 
     @cached_property
     def matrix(self):
-        """Derivative over a cycle, times the sign, shape (4, 4).
-
-        Rounding errors are relative to its largest entry; `multipliers` does not use it.
-        """
+        """Derivative over a cycle, times the sign, shape (4, 4); less exact than `multipliers`."""
         return reduce(lambda product, factor: factor @ product, self.factors)
 
     @property
@@ -151,8 +145,8 @@ class Orbit:
     def liouville_error(self):
         """Relative error of the determinant of the monodromy matrix.
 
-        By Liouville's theorem it is exp(-h t - c (1 + 1/rm) t_c), with the damping h, the period t,
-        the dashpot's coefficient c, the mass ratio rm and the time in contact t_c.
+        By Liouville's theorem it is exp(-h t - c (1 + 1/rm) t_c) for the period t, the time in
+        contact t_c and the dashpot's coefficient c.
         """
         p = self.p
         rate = p[DAMPING] * self.cycle / p[FREQUENCY]
@@ -180,10 +174,7 @@ class Orbit:
 
     @cached_property
     def contacts(self):
-        """Contacts in the order of time, shape (k, 5).
-
-        A row holds the wall (-1 or 1), the times of beginning and end, and Z2' at both.
-        """
+        """Contacts, shape (k, 5): wall (-1 or 1), times of beginning and end, and Z2' at both."""
         log = self._surveyed[0]
         if self.sign > 0:
             return log
@@ -192,10 +183,7 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls touched in the order of time, such as "+-" for one contact with each wall.
-
-        Of all cyclic shifts the first in alphabetical order, whichever contact is the first.
-        """
+        """Walls touched in the order of time, such as "+-"; the first cyclic shift by alphabet."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
@@ -221,10 +209,9 @@ class Orbit:
         return self.sign**turns * state
 
     def turns(self):
-        """Return a row for each extremum of Z2 in a cycle, shape (n, 4).
+        """Return segment, phase, kind and height |Z2| - d0 of each extremum of Z2, shape (n, 4).
 
-        A row holds the segment, the phase, 1 for a maximum of |Z2| or 0 for a minimum, and |Z2|
-        minus the clearance.
+        The kind is 1 for a maximum of |Z2| and 0 for a minimum.
         """
         room = TURNS * len(self.states)
         while True:
@@ -236,11 +223,10 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """Difference, shape (4,), between the state and its image half a period later.
+        """State minus its image half a period later, for odd n mirrored; shape (4,).
 
-        For odd n the image is mirrored, so the difference is 0 for a symmetric orbit; for even n
-        it is 0 for an orbit of half the period. It changes sign where a branch of orbits meets a
-        branch of such orbits of more symmetry. For a symmetric orbit it is replaced by ones.
+        It changes sign where a branch meets a branch of symmetric orbits or of half the period. For
+        a symmetric orbit it is replaced by ones.
         """
         if self.sign < 0:
             return np.ones(4)
@@ -290,11 +276,7 @@ class Orbit:
         return np.min(distances, axis=-1, initial=np.inf)
 
     def flight_phase(self):
-        """Return a phase (radian) far from contacts, less than a period after the orbit's phase.
-
-        This is the orbit's phase if it is further than MARGIN from all contacts, otherwise the
-        phase in the middle of the longest flight.
-        """
+        """Return the orbit's phase, or the middle of the longest flight if a contact is near."""
         if not self.touching or self.margin(self.phase) > MARGIN:
             return self.phase
         ends = self.p[FREQUENCY] * self.contacts[:, 2]

@@ -30,9 +30,8 @@ from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import follow_others, met_by
 
-# A branch of period 1 is followed to its ends. Any other branch is left once its unstable orbits in
-# a row last BEYOND forcing cycles together: farther on, branches wind through chaos for up to 20000
-# orbits, and the stable parts there are narrower than 0.01 in frequency.
+# A branch of another period than 1 is left once its unstable orbits in a row last BEYOND forcing
+# cycles together: farther on it winds through chaos, with stable parts narrower than 0.01 in W.
 BEYOND = 300
 
 
@@ -85,9 +84,7 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     model = read_forced(system, damper, frequency)
     state, orbit = _checked_orbit(model, state, period, phase)
     if orbit.repeats_sooner():
-        warn(
-            f"period = {period}: the orbit found already repeats after a divisor of {period}",
-        )
+        warn(f"period = {period}: the orbit found already repeats after a divisor of {period}")
     log = orbit.contacts
     data = orbit_variables([(model.frequency, orbit)]) | {
         "orbit_branch": np.zeros(1, int),
@@ -268,9 +265,8 @@ def _seeds(motions, damper):
             )
 
 
-# A contact counts as near grazing if the relative speed at its beginning is below SLOW. Floquet
-# multipliers then describe very small disturbances only: the effect of a disturbance d also has a
-# term with the power 3/2 of d, whose coefficient grows near grazing.
+# A contact is near grazing if it begins slower than SLOW. Multipliers then hold for very small
+# disturbances d only: a term d^(3/2) grows near grazing.
 SLOW = 0.01
 
 
@@ -283,10 +279,7 @@ def _status(orbit):
 
 
 def orbit_variables(pairs):
-    """Return the variables with the dimension `point`, a dict.
-
-    `pairs` is a list of pairs of a value of the parameter and an `Orbit`.
-    """
+    """Return the variables with the dimension `point`, from pairs of parameter and `Orbit`."""
     values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
     records = [orbit.record for orbit in orbits]
     first, second = (

@@ -1,8 +1,7 @@
 """The quiet orbit, stable or unstable, on a grid of parameters.
 
-It has period 1, touches each wall once in a cycle, and is its own mirror image half a cycle later:
-a fixed point of the map over half a cycle followed by a change of sign, whose derivative is called
-the root.
+It is a fixed point of the map over half a cycle followed by a change of sign, whose derivative is
+called the root.
 """
 
 from typing import NamedTuple
@@ -22,12 +21,9 @@ SYMMETRIC = 1e-6
 
 
 class CompliantOrbit(NamedTuple):
-    """A symmetric orbit with two contacts in a forcing cycle, stable or unstable.
+    """A symmetric orbit with two contacts in a forcing cycle: state at W T = pi/2, and max |Z1|.
 
-    parameters: Packed parameters; shape (COUNT,).
-    state: Z1, Z1', Z2, Z2' at the strobe, W T = pi/2, where W is the forcing frequency; shape (4,).
-    multiplier: Dominant Floquet multiplier, with an imaginary part that is not negative.
-    displacement: max |Z1|.
+    The dominant multiplier has an imaginary part that is not negative.
     """
 
     parameters: np.ndarray
@@ -48,29 +44,23 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
 
 
-# Phase W T of the states, far from contacts. Contacts lie between about -0.2 and pi/2, and half a
-# cycle later.
+# Phase W T of the states, far from contacts, between about -0.2 and pi/2, and half a cycle later.
 PHASE = 0.75 * np.pi
 # Largest distance of the state of an orbit from the guess.
 REACH = 0.05
 # Shortest step between cells, divided by their distance.
 SHORTEST = 2.0**-12
-# The orbits of a row end at a fold if extrapolation predicts a fold closer to the last orbit than
-# NEAR shortest steps (`_end`).
+# A fold predicted closer to the last orbit of a row than NEAR shortest steps ends the row (`_end`).
 NEAR = 4
 
 
 class QuietOrbits(NamedTuple):
-    """Quiet orbits on a grid of rows and columns; NaN in cells without one.
+    """Quiet orbits on a grid, NaN in cells without one; shape (rows, columns).
 
-    multiplier: Multiplier of the root with the largest modulus; its imaginary part is not negative;
-        shape (rows, columns).
-    displacement, harmonic: max |Z1|, and amplitude of the first harmonic of Z1; shape (rows,
-        columns).
-    end: Smallest and largest column at which each row has an orbit, as a fractional number if the
-        orbits end between two columns; shape (rows, 2).
-    end_event: Reasons why the orbits end there: "map_ends", "no_orbit", "fold", "contacts_change"
-        or "not_converged"; shape (rows, 2).
+    multiplier: Multiplier of the root with the largest modulus and an imaginary part >= 0.
+    displacement, harmonic: max |Z1|, and amplitude of the first harmonic of Z1.
+    end: Fractional columns at which the orbits of each row end; shape (rows, 2).
+    end_event: Why they end: map_ends, no_orbit, fold, contacts_change or not_converged.
     """
 
     multiplier: np.ndarray
@@ -83,9 +73,7 @@ class QuietOrbits(NamedTuple):
 def straight_flight_end(oscillator, clearance, restitution) -> float:
     """Return the frequency W at which the quiet orbit folds, in the limit of straight flight.
 
-    In this limit, of rigid walls and high frequency, W^2 d0/f = k sin(s) - cos(s) for any mass
-    ratio, with the phase s of the impacts and k = (pi/2) (1 + e)/(1 - e). The fold, at which this
-    is sqrt(1 + k^2), is a root of a quadratic equation in W^2, since f = F + U W^2 + V/W^2.
+    There W^2 d0/f is sqrt(1 + k^2) with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2 + V/W^2.
     """
     if restitution == 1:
         return np.inf
@@ -106,7 +94,7 @@ def is_symmetric_pair(records):
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
     """Return the quiet orbits of a grid, followed from known orbits as far as possible.
 
-    `states` at the strobe, shape (rows, columns, 4), are NaN in cells without a known orbit.
+    The known `states` are given at the strobe, shape (rows, columns, 4); other cells are NaN.
     """
     grid = Grid(parameters, find_quiet_orbit, shortest=SHORTEST, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
@@ -159,13 +147,10 @@ def _row_ends(grid, row):
 def _end(followed):
     """Return where between two cells the orbit ends, as a fraction, and the event at which it ends.
 
-    `followed` is the result of an attempt to follow the orbit from one cell to the next. Towards a
-    fold, det(1 - root) decreases with the square root of the distance from the fold. The event is a
-    fold if this law, extrapolated from the last two orbits, predicts a fold close to the last
-    orbit.
+    Towards a fold, det(1 - root) decreases with the square root of the distance. The event is a
+    fold if this law predicts one close to the last orbit.
     """
-    # The attempt may succeed although `Grid.spread` failed earlier, when it did not yet know the
-    # orbit of the cell behind and predicted less accurately.
+    # Now the orbit of the cell behind is known, so that the prediction is better than in `spread`.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values

@@ -1,7 +1,6 @@
 """Multiple shooting: where an orbit is cut into segments, and the algebra of their derivatives.
 
-A strongly unstable orbit amplifies rounding errors over a period by its largest multiplier. Cut
-into segments that amplify little, it keeps its accuracy.
+Segments that amplify rounding errors little keep the accuracy of a strongly unstable orbit.
 """
 
 from functools import reduce
@@ -15,10 +14,8 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
 # Multipliers whose moduli differ by more than the factor APART are separated by orthogonal
-# iteration. Multipliers of similar moduli are eigenvalues of products of small blocks.
-# SWEEPS: largest number of iterations.
-# SETTLED: the iteration ends if its basis changes by less than this.
-# COUPLED: multipliers are not separated if the basis still changes by more than this at the end.
+# iteration of at most SWEEPS sweeps. It ends if its basis changes by less than SETTLED; multipliers
+# stay together if it still changes by more than COUPLED at the end.
 APART = 30.0
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # A segment ends before the norm of its derivative exceeds AMPLIFIED.
@@ -28,19 +25,13 @@ CLEAR = 0.05
 
 
 def run(p, state, tangents, begin, end):
-    """Integrate a state and solutions `tangents` of the variational equations between two phases.
-
-    Both are changed in place.
-    """
+    """Integrate a state and variational `tangents`, both in place, between two phases."""
     times = begin / p[FREQUENCY], end / p[FREQUENCY]
     advance(p, state, tangents, side_of(p, state), *times, POLISH_TOLERANCE, workspace())
 
 
 def cyclic(factors):
-    """Return the derivative of `Orbit.defects` by the states, shape (m n, m n).
-
-    `factors` are those of the orbit, or their leading n by n blocks, shape (m, n, n).
-    """
+    """Return the derivative of `Orbit.defects` by the states, shape (m n, m n)."""
     m, n = factors.shape[:2]
     matrix, k = np.zeros((m, n, m, n)), np.arange(m)
     matrix[k, :, k] = factors
@@ -51,9 +42,8 @@ def cyclic(factors):
 def multipliers(factors):
     """Return the eigenvalues of the product of matrices, without forming it.
 
-    Orthogonal iteration makes the product block triangular. Each diagonal block has eigenvalues of
-    similar moduli. The two vectors of a complex pair keep turning in their plane, so they stay in
-    one block.
+    Orthogonal iteration makes the product block triangular; each diagonal block has eigenvalues of
+    similar moduli, such as a complex pair.
     """
     m, n = factors.shape[:2]
     if m == 1:
@@ -80,9 +70,8 @@ def multipliers(factors):
 def sweep(factors, basis, triangles):
     """Compute QR factors of a product of matrices A_k, A_k Q_(k-1) = Q_k R_k, by Gram-Schmidt.
 
-    `triangles` receives the R_k, and `basis` Q_0 is replaced by the last Q_k. Each vector is made
-    orthogonal twice, because the first time leaves rounding errors. NumPy's function takes ten
-    times as long for such small matrices.
+    `triangles` receives the R_k, and `basis` Q_0 becomes the last Q_k. Each vector is made
+    orthogonal twice, because the first time leaves rounding errors.
     """
     m, n = factors.shape[:2]
     moved = np.empty((n, n))
@@ -113,9 +102,8 @@ def sweep(factors, basis, triangles):
 def cut(orbit, cycle, between=()):
     """Return the phases at which an orbit is cut into segments, shape (m + 1,).
 
-    Possible phases are the middles of flights. A segment ends at the last of these phases at which
-    the norm of its derivative is below AMPLIFIED, or at the first if there is none. A flight is
-    always cut before and after the phases `between`, at which the loose mass comes close to a wall.
+    They lie amid flights; the norm of a segment's derivative is below AMPLIFIED if possible. A
+    flight is always cut before and after the phases `between`.
     """
     if not orbit.touching:
         return np.array([orbit.phase, orbit.phase + cycle])
@@ -133,10 +121,7 @@ def cut(orbit, cycle, between=()):
 
 
 def _sections(orbit, cycle, between):
-    """Return the possible phases of cuts, shape (k,), and a list of those at which to cut always.
-
-    They ascend from the middle of the longest flight.
-    """
+    """Return the possible phases of cuts, from the longest flight on, and the forced ones."""
     log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
     following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)
@@ -151,8 +136,8 @@ def _sections(orbit, cycle, between):
                 forced += [middle] * (len(marks) > 2)
             longest = max(longest, (high - low, middle))
     start = longest[1]
-    # The contacts cover the whole period. If the cycle is half of it, each phase occurs twice, so
-    # duplicates are removed. The shift by 1e-9 keeps `start` first in spite of rounding errors.
+    # Each phase occurs twice if the cycle is half the period. The shift by 1e-9 keeps `start` first
+    # in spite of rounding errors.
     places = np.sort(start + (np.array([*middles, start]) - start + 1e-9) % cycle - 1e-9)
     places = places[np.append(True, np.diff(places) > 1e-6)]
     places = places[places < start + cycle - 1e-6]

@@ -7,18 +7,14 @@ import numpy as np
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import STROBE, TURN, Orbit, integrate
 
-# Newton's method.
-# ITERATIONS: largest number of corrections.
-# FAR: largest size of a correction.
-ITERATIONS = 20
-FAR = 10.0
+# Newton's method: largest number of corrections, and their largest size.
+ITERATIONS, FAR = 20, 10.0
 # If the residual is below NEAR, the state of an orbit can be integrated to another phase.
 NEAR = 1e-6
-# If the norm of the derivative of the map over the period exceeds AMPLIFYING, Newton's method on
-# this map (single shooting) is not accurate enough, and multiple shooting is used.
+# If the derivative of the map over the period has a larger norm, multiple shooting is used.
 AMPLIFYING = 100.0
-# Multiple shooting: while the derivative of the map over a segment has a norm of more than
-# ROUGH * `segments.AMPLIFIED`, the orbit is cut again into segments, at most CUTS times.
+# While a segment amplifies more than ROUGH * `segments.AMPLIFIED`, the orbit is cut again, at most
+# CUTS times.
 CUTS, ROUGH = 4, 4.0
 
 
@@ -32,25 +28,10 @@ def shoot(p, state, periods, phase, *, symmetric=False) -> Orbit:
 
 
 def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
-    """Find the orbit near a state by Newton's method, and move its phase into a flight.
+    """Find the orbit near a state at a phase W T by Newton's method; see `Orbit.converged`.
 
-    If no wall is touched, only Z1 and Z1' are unknown, and the loose mass rests. An orbit that
-    amplifies disturbances by more than AMPLIFYING is found by multiple shooting.
-
-    Parameters
-    ----------
-    p : array, shape (packed.COUNT,)
-        Packed parameters.
-    state : array, shape (4,)
-    periods : int
-        Period n in forcing cycles.
-    phase : float
-        Phase W T of the state, radian.
-
-    Returns
-    -------
-    Orbit
-        Its attribute `converged` states whether Newton's method converged.
+    If no wall is touched, only Z1 and Z1' are unknown, and the loose mass rests. Unless it fails,
+    the phase of the orbit lies in a flight.
     """
     orbit = newton(shoot(p, state, periods, phase))
     if orbit.amplification > AMPLIFYING:
@@ -69,8 +50,7 @@ def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
 def newton(orbit, reach=None) -> Orbit:
     """Return the orbit with the smallest residual among the iterates of Newton's method.
 
-    With `reach` it stops at the first converged orbit, or where a component of the state is further
-    than this from the guess.
+    With `reach` it stops at the first converged orbit, or further than this from the guess.
     """
     states, best, maps = orbit.states, orbit, 1
     for _ in range(ITERATIONS):

@@ -15,16 +15,13 @@ from impact_damper.orbits.continuation import SYMMETRIC, Point, Problem
 from impact_damper.orbits.grazing import at_height, through_grazing, turns_of, with_gradient
 from impact_damper.orbits.shooting import shoot
 
-# Search for an orbit of the other branch at a distance from the bifurcation.
-# DISTANCES: distances that are tried, one after the other.
-# ASIDE: largest distance of the orbit found from the first guess, divided by its distance from the
-#   bifurcation.
+# Orbits of the other branch are searched for at DISTANCES from the bifurcation, and must lie within
+# ASIDE times this distance of the first guess.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
 # Search for an orbit of the other branch close to a grazing.
-# SHARES: changes of the height, divided by the height at the bifurcation, that are tried.
-# MISSED: largest relative error of the predicted distance of the orbit from the bifurcation.
-# REACH: largest such distance, and largest distance within which the grazing must follow.
-# PASSAGES: number of orbits from which the branch is followed past the grazing, until one succeeds.
+# SHARES: relative changes of the height that are tried.
+# MISSED, REACH: largest relative error, and largest value, of the distance from the bifurcation.
+# PASSAGES: largest number of orbits from which the branch is followed past the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch leaves.
 LEAVING = ("symmetry_breaking", "period_doubling")
@@ -34,12 +31,7 @@ MEETING = 1e-3
 
 
 class _Leaving(NamedTuple):
-    """The beginning of the other branch.
-
-    problem: Equations of the other branch.
-    x: Unknowns of the problem at the bifurcation.
-    direction: Direction in which the other branch begins.
-    """
+    """The equations of the other branch, with its unknowns and direction at the bifurcation."""
 
     problem: Problem
     x: np.ndarray
@@ -109,11 +101,7 @@ def _at_distance(leaving, distance):
 
 
 def _at_heights(leaving):
-    """Yield points of the other branch at several heights of an extremum of Z2.
-
-    Of all extrema it is the one that first reaches its wall along the other branch. The motion has
-    it in each cycle of the first branch; on the other branch one of both rises, the other falls.
-    """
+    """Yield points of the other branch at several heights of the extremum next to its wall."""
     problem, x, direction = leaving
     # Only the first half of the segments is searched, because the second half has the same extrema.
     half = (len(problem.phases) - 1) // 2 if problem.damped else 0
@@ -143,10 +131,8 @@ def _is_other(orbit, doubled):
     return not orbit.repeats_sooner() if doubled else orbit.record["asymmetry"] > SYMMETRIC
 
 
-# Longest period, in forcing cycles, of a branch that is followed from another branch.
-# WHOLE: of the first branch, if the other one is followed also where it begins unstable.
-# STABLE: of a branch whose orbits are stable where it begins.
-# MET: of a branch whose end is a branch that is followed too.
+# Branches that begin unstable are followed only from branches of the periods WHOLE. Others have at
+# most the period STABLE. A branch of more symmetry is followed from periods up to MET.
 WHOLE, STABLE, MET = (1, 3), 9, 4
 # Two branches meet at an event if the parameter and max |Z1| at the event and at the end of the
 # other branch agree within these tolerances. The end is a fold, located to 1e-7 in branch length.
@@ -158,10 +144,7 @@ NEAR = 1e-9
 def follow_others(branches, follow):
     """Append the branches that leave other branches, or at which they end, to the list `branches`.
 
-    A branch that leaves next to stable orbits is followed if its first branch has a period of
-    WHOLE, or if it begins stable and its period is at most STABLE. Elsewhere it begins unstable,
-    and is followed only where a branch of a period of WHOLE loses its symmetry. `follow` returns
-    the `Branch` of an orbit at a value of the parameter.
+    `follow` returns the `Branch` of an orbit at a value of the parameter.
     """
     for branch in branches:
         for edge in (0, -1):
@@ -186,7 +169,8 @@ def _more_symmetric(branches, branch, edge):
 def _new_branch(branches, branch, place, event):
     """Return a point of a new branch that leaves at an event, or None.
 
-    `place` is the index of the event's point on its branch.
+    Next to stable orbits it is followed if the first branch has a period of WHOLE, or if it begins
+    stable with a period up to STABLE; elsewhere only where a period of WHOLE loses its symmetry.
     """
     if event.kind not in LEAVING or _is_end(branch, place, event):
         return None
@@ -225,10 +209,7 @@ def ends_at(branches, number, edge, event):
 
 
 def met_by(branches, number, edge):
-    """Return the index of the branch that a branch meets at one end, or -1 if there is none.
-
-    The arguments are those of `ends_at`.
-    """
+    """Return the index of the branch that a branch meets at one end (0 or 1), or -1."""
     for other, candidate in enumerate(branches):
         if other == number:
             continue
@@ -243,11 +224,7 @@ def _size(orbit):
 
 
 def _passes(branch, kind, point):
-    """Return whether a branch passes through a point.
-
-    It does if it holds the orbit of the point, or if it has an event of the given kind at the value
-    of the point and orbits of the same period.
-    """
+    """Return whether a branch holds the orbit of a point, or has an event of this kind there."""
     periods = point.orbit.periods
     there = [each.point for _, each in branch.events if each.kind == kind]
     near = any(abs(each.value - point.value) < NEAR for each in there)

@@ -45,7 +45,7 @@ def analytical_table(oscillator, dampers, frequency):
     """Return |a| by harmonic balance (7) over a sweep of the clearance, and where it is zero."""
     found = [_analytical(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
-    best, kind = np.nan, "not_found"
+    best = np.nan
 
     def amplitude(clearance):
         return _analytical(oscillator, replace(dampers[0], clearance=clearance), frequency)[0]
@@ -55,12 +55,11 @@ def analytical_table(oscillator, dampers, frequency):
         # The sign also changes at a jump, where another solution becomes the smallest. There the
         # amplitude does not vanish.
         if abs(amplitude(clearance)) < ZERO_AMPLITUDE * clearance:
-            best, kind = clearance, "kink"
+            best = clearance
     return {
         "analytical_amplitude": np.abs(signed),
         "analytical_status": np.array([flag("analytical_status", each) for each in status]),
         "analytical_optimum": best,
-        "analytical_kind": flag("optimum_kind", kind),
     }
 
 

@@ -13,17 +13,6 @@ class Tuning(NamedTuple):
     damping_ratio: float
 
 
-def den_hartog(mass_ratio) -> Tuning:
-    """Return the tuning with equally high fixed points, and the damping of Brock.
-
-    f = 1/(1 + m): Den Hartog, Mechanical Vibrations, 4th ed. 1956, sections 3.2 and 3.3. z^2 = 3 m/
-    (8 (1 + m)): Brock, "A note on the damped vibration absorber", J. Appl. Mech. 13, A-284, 1946.
-    """
-    return Tuning(
-        mass_ratio, 1 / (1 + mass_ratio), np.sqrt(3 * mass_ratio / (8 * (1 + mass_ratio)))
-    )
-
-
 def exact_optimum(mass_ratio) -> Tuning:
     """Return the tuning and damping for which the maximum of the response is smallest.
 

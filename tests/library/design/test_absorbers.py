@@ -12,7 +12,6 @@ from scipy.integrate import solve_ivp
 from impact_damper.data.datasets import flag
 from impact_damper.design.absorbers import (
     absorber_responses,
-    den_hartog_absorber,
     exact_absorber,
     linear_machine,
     maxima,
@@ -74,23 +73,6 @@ def test_peaks_are_equal_and_no_other_tuning_has_lower_ones(name):
             absorber, stiffness=stiffness * absorber.stiffness, damping=damping * absorber.damping
         )
         assert response(machine, other, frequencies).max() >= best * (1 - 1e-6)
-
-
-def test_den_hartogs_fixed_points():
-    """Response curves for two dampings cross at sqrt(1 + 2/m) static deflections."""
-    absorber, frequencies = den_hartog_absorber(UNDAMPED, 0.6), np.linspace(15, 26, 20001)
-    first, second = (
-        response(UNDAMPED, replace(absorber, damping=d), frequencies)[:, 0] for d in (10.0, 30.0)
-    )
-    crossed = np.flatnonzero(np.diff(np.sign(first - second)))
-    assert_allclose(first[crossed] / (40 / 2e5), math.sqrt(1 + 2 / 0.05), rtol=1e-3)
-
-
-def test_den_hartogs_tuning_and_brocks_damping():
-    """Tuning 1/(1 + m) and damping ratio z with z^2 = 3 m/(8 (1 + m)) for the mass ratio m."""
-    found, angular = den_hartog_absorber(LINEAR, 1.2), math.sqrt(2e5 / 12) / 1.1
-    damping = 2 * math.sqrt(3 * 0.1 / (8 * 1.1)) * 1.2 * angular
-    assert_allclose([found.stiffness, found.damping], [1.2 * angular**2, damping], rtol=1e-12)
 
 
 def test_in_a_band_an_end_is_as_high_as_another_place():
