@@ -44,10 +44,8 @@ meets_accuracy | run | | | whether the run meets the accuracy required by the sc
     """
 )
 
-# Length of the reference run of a chaotic motion, divided by the length of the compared runs.
-LONGER = 4
-# The number of contacts per cycle of a chaotic motion is right if it differs from the number of the
-# reference by at most the fraction CONTACTS_OFF plus SURE standard errors of the compared run.
+LONGER = 4  # length of the reference run of a chaotic motion over the length of the compared runs
+# Relative difference and number of standard errors by which contacts per cycle of chaos may differ.
 CONTACTS_OFF, SURE = 0.1, 2
 
 

@@ -15,11 +15,9 @@ MODELS = {
     "many_harmonics": "many harmonics",
     "shooting": "shooting",
 }
-# Highest harmonic of the balance from which Newton's method for an exact orbit starts.
-START_HARMONICS = 15
+START_HARMONICS = 15  # highest harmonic of the balance from which Newton's method starts
 
-# Keys of the section `comparison` of the configuration, lists of tolerances among which an
-# integrator chooses one (`Integrator.tolerances`).
+# Lists of tolerances in the section `comparison`, of which an integrator names one.
 TOLERANCE_KEYS = ("taylor", "merson", "scipy")
 
 

@@ -34,8 +34,7 @@ from impact_damper.theory.many_harmonics import Balance, Solution, solve, state_
 
 # Operations of the search for all solutions of the full balance (7), and of the rigid balance (14).
 FULL_WORK, RIGID_WORK = 100 * 130 + 10 * 32**3, 10 * (6**3 + 5**3) + 6 * 10 * 12
-# Largest distance of the state of a rigid orbit from the first guess.
-REACH = 10.0
+REACH = 10.0  # largest distance of the state of a rigid orbit from the first guess
 
 
 class Model(NamedTuple):

@@ -10,10 +10,8 @@ from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, polynomial, step, workspace
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
-# Number of parts of a step. In each part one extremum of Z2 can be found.
-PIECES = 16
-# Tolerance of the Taylor series.
-TOLERANCE = 1e-15
+PIECES = 16  # parts of a step, in each of which one extremum of Z2 can be found
+TOLERANCE = 1e-15  # of the Taylor series
 
 
 class Passage(NamedTuple):

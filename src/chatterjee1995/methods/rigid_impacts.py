@@ -25,13 +25,10 @@ from impact_damper.motions.records import extremum
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE, strobe_time
 from impact_damper.theory.contact_law import damping_ratio, natural_frequency
 
-# Number of impacts in a forcing cycle at which the integration stops. With e < 1 an infinite number
-# of impacts can follow each other in a finite time.
+# Impacts in a cycle at which the integration stops; with e < 1 infinitely many can follow.
 MOST_IMPACTS = 200
-# Largest number of steps of Newton's method.
-ITERATIONS = 12
-# Largest relative difference of the approach speeds of the two impacts of a symmetric orbit.
-SAME_SPEED = 1e-6
+ITERATIONS = 12  # most steps of Newton's method
+SAME_SPEED = 1e-6  # largest relative difference of both approach speeds in a symmetric orbit
 
 
 @kernel

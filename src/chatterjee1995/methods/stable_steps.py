@@ -41,20 +41,12 @@ contact_frequency | contact_stiffness | | omega_c | natural frequency of an unda
     """
 )
 
-# A run keeps the quiet motion with an accuracy if max |Z1| of every cycle differs relatively by at
-# most this number from the exact orbit.
-ACCURACIES = (0.01, 0.1)
-# Orbits are followed in r1 in steps of at most this factor, to states at most REACH away from the
-# prediction.
+ACCURACIES = (0.01, 0.1)  # relative differences of max |Z1| of every cycle from the exact orbit
+# Largest factor between values of r1 at which orbits are followed, and distance from a prediction.
 FACTOR, REACH = 10.0**0.0625, 0.2
-# Local error allowed in the exact orbits, the reference of the runs.
-EXACT = 1e-13
-# A stable step is reported only if at least this number of the smallest steps tested keep the quiet
-# motion.
-CONFIRMED = 4
-# The exponent with which the largest stable step falls is fitted from this r1 on, where contacts
-# are much shorter than a cycle.
-STIFF = 1e3
+EXACT = 1e-13  # local error allowed in the exact orbits, the reference of the runs
+CONFIRMED = 4  # smallest steps that must all keep the motion before a stable step is reported
+STIFF = 1e3  # r1 above which contacts are short, for the fit of the exponent of the stable step
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:

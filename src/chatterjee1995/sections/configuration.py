@@ -52,11 +52,6 @@ COUNTS = (
 SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
 
 TEXT = text("in Markdown or reStructuredText without links")
-SEED = count("seed of all random draws", **SEED_RANGE)
-RESULTS = text(
-    "folder below the working directory, without spaces or leading dots",
-    pattern="[A-Za-z0-9_][A-Za-z0-9_.-]*(/[A-Za-z0-9_][A-Za-z0-9_.-]*)*",
-)
 
 
 class Points(Section):
@@ -181,8 +176,11 @@ def _curve_not_drawable(path, name, kind, config):
 class Settings(Section):
     """Settings that hold for all stages."""
 
-    results: RESULTS
-    seed: SEED
+    results: text(
+        "folder below the working directory, without spaces or leading dots",
+        pattern="[A-Za-z0-9_][A-Za-z0-9_.-]*(/[A-Za-z0-9_][A-Za-z0-9_.-]*)*",
+    )
+    seed: count("seed of all random draws", **SEED_RANGE)
     contact_stiffness: CONTACT_STIFFNESS
     chunks: count("number of jobs into which a study is divided", least=1, most=100000)
     points: Points

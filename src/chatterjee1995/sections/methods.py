@@ -36,13 +36,10 @@ from impact_damper.model.bounds import (
     STEPS_RANGE,
 )
 
-STEPS = range_of(count("steps in a forcing cycle", **STEPS_RANGE))
-TOLERANCES = range_of(number("tolerance of a method", **METHOD_TOLERANCE_RANGE), points=True)
 GEOMETRIC = range_of(number("end of a geometric grid", least=1e-14, most=1e9), points=True)
+TOLERANCE = number("tolerance of a method", **METHOD_TOLERANCE_RANGE)
+DECREASING = several(TOLERANCE, "decreasing tolerances", least=1)
 COMPONENT = number("component of a state", least=-FARTHEST, most=FARTHEST)
-DECREASING = several(
-    number("tolerance of a method", **METHOD_TOLERANCE_RANGE), "decreasing tolerances", least=1
-)
 ORDER = count("order of the series", least=6, most=60)
 
 
@@ -131,8 +128,8 @@ class MissedContacts(WithOscillator):
     passages: count("random flights without contact, each over one forcing cycle", **RUNS_RANGE)
     radius: RADIUS
     depths: GEOMETRIC
-    tolerances: TOLERANCES
-    steps: STEPS
+    tolerances: range_of(TOLERANCE, points=True)
+    steps: range_of(count("steps in a forcing cycle", **STEPS_RANGE))
 
     counts: ClassVar = ("passages", "depths.points", "tolerances.points")
 

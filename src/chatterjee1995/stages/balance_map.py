@@ -81,11 +81,8 @@ high_verdict | map_value frequency_ratio | | | high motion: result of harmonic b
     OUTCOME=OUTCOME,
 )
 
-# A settled motion is near a predicted one if max |Z1| differs relatively by at most NEAR.
-NEAR = 0.2
-# A motion is high if its amplitude is at least HIGH times the free resonance amplitude, and quiet
-# if its amplitude is below this limit.
-HIGH = 0.5
+NEAR = 0.2  # largest relative difference of max |Z1| from the predicted one of a near motion
+HIGH = 0.5  # share of the free resonance amplitude from which on a motion is high, not quiet
 
 
 class Cells(NamedTuple):
@@ -204,7 +201,11 @@ def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers
     known = np.where(landed[..., None], quiet_runs["state"], np.nan)
     orbits = follow_quiet_orbits(parameters, known)
     data = {
-        "straight_flight_end": [_rigid_end(row) for row in rows],
+        "straight_flight_end": [
+            straight_flight_end(row.oscillator, row.damper.clearance, row.damper.restitution)
+            / peak_frequency(row.oscillator)
+            for row in rows
+        ],
         "balance_quiet": balance.quiet,
         "balance_quiet_amplitude": balance.quiet_amplitude,
         "quiet_run_motion": quiet_kind,
@@ -316,10 +317,3 @@ def _high_verdict(balance, kinds, displacement):
     }
     flags = [flag("high_verdict", name) for name in cases]
     return np.select(list(cases.values()), flags, flag("high_verdict", "unresolved"))
-
-
-def _rigid_end(row):
-    """Return W/Wp at which the quiet orbit ends by the theory of straight flight."""
-    peak = peak_frequency(row.oscillator)
-    end = straight_flight_end(row.oscillator, row.damper.clearance, row.damper.restitution)
-    return end / peak

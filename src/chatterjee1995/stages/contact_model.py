@@ -37,13 +37,9 @@ contact_load | contact | | | load at the beginning of a contact
     """
 )
 
-# The loads of the map are evenly spaced up to |G| of about LINEAR, and logarithmically above it.
-LINEAR = 1e-3
-# The restitution of a contact is "close" to the intended e if its relative error is at most CLOSE,
-# and "fair" if it is at most FAIR.
-CLOSE, FAIR = 0.01, 0.05
-# Simulated motions at each restitution and frequency.
-SIZES = ("smallest", "largest")
+LINEAR = 1e-3  # |G| up to about which loads of the map are evenly spaced
+CLOSE, FAIR = 0.01, 0.05  # largest relative errors of a "close" and of a "fair" restitution
+SIZES = ("smallest", "largest")  # simulated motions at each restitution and frequency
 
 
 def contact_model(

@@ -41,22 +41,16 @@ rule_excess | mass_ratio restitution contact_stiffness frequency rule | | | rela
 )
 
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
-# Number of values of Z1 in a cycle for the integral of the first harmonic.
-SAMPLES = 1024
-# Largest asymmetry of a symmetric orbit, divided by the clearance.
-SAME = 1e-4
-# Search for the minimum over the ratio rm W^2 d0/f.
-# STEP, MOST_STEPS: relative step of the search downhill, and largest number of steps.
-# PRECISION: accuracy of the ratio at the minimum.
+SAMPLES = 1024  # values of Z1 in a cycle for the integral of the first harmonic
+SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
+# Relative step and largest number of steps of the search downhill, and accuracy of the ratio.
 STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
 # A minimum is smooth or a kink. A step away from the minimum, by CLOSE, decides: when the step is
 # halved, the rise of the displacement falls to a quarter at a smooth minimum and to half at a kink.
 # KINK is the limit between these two fractions.
 CLOSE, KINK = 1e-3, 0.36
-# Displacement assigned where the motion does not exist, because the search needs a number.
-ABSENT = 1e3
-# Number of impulses of a contact for which the theory of straight flight is evaluated.
-IMPULSES = 400
+ABSENT = 1e3  # displacement where the motion does not exist, because the search needs a number
+IMPULSES = 400  # impulses of a contact for which the theory of straight flight is evaluated
 
 
 def design_rules(

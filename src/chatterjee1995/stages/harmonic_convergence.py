@@ -41,17 +41,13 @@ decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmon
     """
 )
 
-# MEASURES   error of max |Z1|; root mean squares of the errors of the retained harmonics of Z1 and
-#            of the omitted harmonics of Z1; error of a Floquet multiplier
-# ELASTIC    powers of 1/N of these errors for elastic contacts
-# INELASTIC  powers of 1/N of these errors for contacts with a dashpot
-# ANALYTIC   rates of exponential decrease of these errors without contacts, in units of s W
+# Errors, and their predicted powers of 1/N for elastic contacts and for contacts with a dashpot, or
+# without contacts their rates of exponential decrease in units of s W.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
 ANALYTIC = (1.0, 1.0, 1.0, 2.0)
-# Search for a singularity (`singularity_distance`), with the forcing amplitude f and
-# x = (f/|k3|)^(1/3):
+# Search for a singularity, with the forcing amplitude f and x = (f/|k3|)^(1/3):
 # STARTS: number of start times in half a forcing cycle.
 # LARGE: |Z1| at which an integration towards the singularity stops, in units of x.
 # LAST_CHANGE: largest last change of the estimated position, in units of 1/(x sqrt|k3|).
@@ -137,14 +133,10 @@ def singularity_distance(p, state) -> float:
     return float(min(heights, default=np.nan))
 
 
-# Number of values of Z1 in a cycle of the exact orbit for its Fourier coefficients.
-SAMPLES = 2**14
-# Two solutions are the same if their coefficients differ relatively by less than SAME.
-SAME = 1e-6
-# Errors below this value are due to rounding; fits of the decrease leave them out.
-ROUNDING = 1e-12
-# Tolerance with which the exact orbit is integrated.
-FINEST = 1e-14
+SAMPLES = 2**14  # values of Z1 in a cycle of the exact orbit for its Fourier coefficients
+SAME = 1e-6  # largest relative difference of the coefficients of equal solutions
+ROUNDING = 1e-12  # smallest error that fits of the decrease use
+FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 
 def ladder(highest) -> np.ndarray:
@@ -220,8 +212,7 @@ def errors(solutions, multipliers, exact):
         **{"periods": 1, "samples": SAMPLES, "tolerance": FINEST},
         start=np.pi / (2 * balance.frequency),
     )
-    # The samples begin at W T = pi/2, a quarter of a forcing cycle after T = 0, so they are shifted
-    # by a quarter.
+    # The samples begin at W T = pi/2, so they are shifted by a quarter of a forcing cycle.
     coefficients = np.fft.rfft(np.roll(orbit["displacement"].values[:-1], SAMPLES // 4)) / SAMPLES
     for k, solution in enumerate(solutions):
         if solution.status == "converged":

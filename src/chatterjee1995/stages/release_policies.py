@@ -48,10 +48,8 @@ policy_phase | case frequency policy | angle | | phase Omega T of the release th
 POLICIES = ["settled", "hold", "phase", "state"]
 # Fixed numbers of cycles that are tried, each about 1.6 times the one before.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
-# Quantiles of the cycles until the goal that are stored.
-QUANTILES = [0.5, 0.95]
-# The results of one hold: forcing cycles and contacts with the damper on, Z1 and Z1' at the next
-# strobe, and forcing cycles from the release to this strobe.
+QUANTILES = [0.5, 0.95]  # of the cycles until the goal
+# Results of a hold: cycles and contacts, Z1 and Z1' at the next strobe, and cycles until this one.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
@@ -68,16 +66,7 @@ class Outcome(NamedTuple):
 
 
 def release_policies(
-    oscillator,
-    dampers,
-    frequencies,
-    *,
-    trials=200,
-    cells=64,
-    seed=1995,
-    settling,
-    workers=1,
-    progress=None,
+    oscillator, dampers, frequencies, *, trials=200, cells=64, seed=1995, settling, workers=1
 ):
     """Compare rules of release for several dampers, over frequency.
 
@@ -148,8 +137,7 @@ class Trials(NamedTuple):
         impacts, released = np.zeros((2, trials), int)
         reached, running = np.zeros(trials, bool), np.arange(trials)
         while len(running):
-            # Numbers for the phase of switching on, the place of the loose mass, the phase of the
-            # release, and the state at which the hold begins if the free motion has several.
+            # For phase and place of switching on, phase of release, and state of the free motion.
             draws = generator.random((trials, 4))[running]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first

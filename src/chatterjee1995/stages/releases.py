@@ -36,13 +36,9 @@ from impact_damper.motions.sweep import Catalogue
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-# Number of cycles within which, by the paper, its controller reaches the non-resonance branch.
-PAPER_CYCLES = 350
-# An orbit captures a run after the last strobe at which the run differs from the orbit by more than
-# CAPTURE in Z1 or Z1'.
-CAPTURE = 0.1
-# One release: phase in forcing cycles after a strobe, Z1 and Z1', and the flag of the free motion
-# to which the release leads.
+PAPER_CYCLES = 350  # within which, by the paper, its controller reaches the non-resonance branch
+CAPTURE = 0.1  # largest difference in Z1 or Z1' of a run from the orbit that has captured it
+# One release: phase in forcing cycles after a strobe, Z1 and Z1', and the resulting free motion.
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
 )
@@ -145,8 +141,7 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
     Return the record of each motion and its RELEASE. The strobe of the release lies between strobe
     LEAD, before which the run depends on its start, and the capture by an orbit or `lifetime`.
     """
-    # The phase at which the damper is switched on, the place of the loose mass, the strobe of the
-    # release, and the phase after this strobe.
+    # Phase and place of switching on, strobe of the release, and phase after this strobe.
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     motions = np.zeros(len(draws), MOTION)
     entries = np.full(len(draws), np.array((np.nan,) * 3 + (FREE_MOTION["none"],), RELEASE))
@@ -215,8 +210,7 @@ def release_data(case, motions, entries, settling):
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
     """Return the settled motions of records, random states and (7), by ascending max |Z1|."""
     on = pack(oscillator, damper, frequency)
-    # Harmonic balance is solved for elastic contact. As first states of runs these solutions also
-    # serve for an inelastic damper.
+    # As starts these solutions, for elastic contact, also serve for an inelastic damper.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
     angle = balance.phase + np.pi / 2
     columns = [

@@ -40,12 +40,9 @@ own_mended_error | | | | relative error of own_displacement with corrected rigid
     """
 )
 
-# Relative errors of max |Z1|. The dataset says from which stiffness the error is smaller.
-THRESHOLDS = (0.01, 0.1)
-# Largest distance of an orbit's state from the state predicted for it.
-REACH = 0.1
-# The order of the error in r1 is fitted from this r1 on, where contacts are short.
-STIFF = 1e4
+THRESHOLDS = (0.01, 0.1)  # relative errors of max |Z1| for which the needed stiffness is stored
+REACH = 0.1  # largest distance of an orbit's state from the state predicted for it
+STIFF = 1e4  # r1 above which contacts are short, for the fit of the order of the error
 
 
 def rigid_limit(

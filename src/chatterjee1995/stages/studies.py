@@ -32,8 +32,7 @@ best_clearance | mass_ratio frequency restitution | | d0 | clearance of the grid
 
 AXES = ("mass_ratio", "clearance", "frequency", "restitution")
 OUTCOMES = tuple(name for name, value in OUTCOME.items() if value >= 0)
-# Results of a cell: number of random starts with each outcome and of those that lead to the quiet
-# orbit; largest displacement of all motions, and smallest one on a quiet orbit.
+# Numbers of starts of a cell by outcome and that lead to the quiet orbit, and max |Z1| of motions.
 CELL = np.dtype(
     [
         ("outcome_count", "i4", len(OUTCOMES)),
@@ -71,8 +70,7 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
-    # The axes are sorted, so a value out of range is at an end of its axis. It is found here, not
-    # after hours of work.
+    # A value out of range is at an end of its sorted axis, and is found here before hours of work.
     for end in (0, -1):
         random_states(0, radius, system([end] * len(AXES))[1], seed)
     warn_if_narrow(oscillator, axes["frequency"], radius)
@@ -88,8 +86,7 @@ def study_chunk(
         for k, of_cell in enumerate(runs.reshape(-1, starts), part.start):
             found[k] = _condensed(of_cell)
 
-    # Number of cells that are run together. They have about `ensemble.CHUNK` random starts.
-    together = max(1, ensemble.CHUNK // starts)
+    together = max(1, ensemble.CHUNK // starts)  # number of cells that are run together
     ensemble.run_chunks(work, last - first, workers, progress, stop, size=together)
     data = {
         name: (("cell", "counted_outcome")[: found[name].ndim], found[name]) for name in CELL.names

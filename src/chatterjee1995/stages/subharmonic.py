@@ -32,11 +32,8 @@ switched_share | frequency | | | share of starts on the free subharmonic that le
     """
 )
 
-# Number of frequencies at which the free subharmonic is searched for.
-SEARCHED = 81
-# The frequencies extend beyond each end of the free subharmonic by BEYOND times the width of its
-# range of frequencies.
-BEYOND = 0.1
+SEARCHED = 81  # frequencies at which the free subharmonic is searched for
+BEYOND = 0.1  # share of its range of W by which the frequencies extend beyond each end
 
 
 def subharmonic_suppression(

@@ -11,8 +11,7 @@ from impact_damper.kernel.equation import external_force
 from impact_damper.model.packed import FREQUENCY
 
 VERLET, RUNGE_KUTTA_4, MERSON = range(3)
-# A run has diverged once |Z1| + |Z1'| + |Z2'| exceeds BEYOND.
-BEYOND = 1e3
+BEYOND = 1e3  # |Z1| + |Z1'| + |Z2'| above which a run has diverged
 
 
 @kernel

@@ -12,15 +12,11 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
 # Floating-point operations of a step: five evaluations of the rate, and their combinations.
 STEP_OPERATIONS = 366
-# A run fails if a step would have to be shorter than SHORTEST, or if one call of `advance_merson`
-# takes more than MOST_STEPS steps.
+# A run fails if a step is shorter than SHORTEST, or with more steps than these: in one call of
+# `advance_merson`, in a forcing cycle, and in a flight.
 SHORTEST = 1e-12
-MOST_STEPS = 10**6
-# Largest number of steps whose ends are kept, in a forcing cycle and in a flight. A run with more
-# fails.
-MOST_ENDS, MOST_FLIGHT_ENDS = 400_000, 10**5
-# Length of the first step, in forcing cycles.
-FIRST = 1e-3
+MOST_STEPS, MOST_ENDS, MOST_FLIGHT_ENDS = 10**6, 400_000, 10**5
+FIRST = 1e-3  # length of the first step in forcing cycles
 
 
 @kernel
@@ -130,8 +126,7 @@ class Merson(FixedStep):
         times, states, status, work = [np.array([begin])], [start[None]], "ended", 0
         ends, period = np.empty((MOST_ENDS, 5)), 2 * math.pi / p[FREQUENCY]
         y, side, h = start.copy(), side_of(p, start), FIRST * period
-        # Each cycle is integrated from the same time, since rounding errors of a growing time would
-        # grow too.
+        # Each cycle is integrated from the same time, whose rounding errors then do not grow.
         for k in range(periods):
             side, h, steps, tries = advance_merson(
                 p, y, side, begin, begin + period, h, tolerance, locate, ends

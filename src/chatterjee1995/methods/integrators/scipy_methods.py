@@ -11,10 +11,8 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import side_of
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
-# Value of the argument `side` with which the position Z2 determines the wall in contact.
-BY_POSITION = 2
-# Largest number of evaluations of the rate in a flight.
-UNLIMITED = 2**62
+BY_POSITION = 2  # argument `side` with which the position Z2 determines the wall in contact
+UNLIMITED = 2**62  # evaluations of the rate in a flight
 
 
 @kernel

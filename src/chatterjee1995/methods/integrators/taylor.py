@@ -28,8 +28,7 @@ ORDERS = FLIGHT_ORDER, CONTACT_ORDER
 # (-1, 1, or 0 for none), and from column SERIES on the coefficients of the series of Z1. ROWS:
 # largest number of steps in one call of `take_steps`.
 ROWS, SERIES = 4096, 4
-# Number of parts of a step. In each part a velocity is assumed to vanish at most once.
-PARTS = 8
+PARTS = 8  # parts of a step, in each of which a velocity is assumed to vanish at most once
 
 
 @kernel
