@@ -18,7 +18,7 @@ from impact_damper.orbits.basins import basins
 CUBIC = Oscillator(0.215)
 PAPER = Damper(0.12, 2.0)
 WINDOW = np.array([3.0, 4.5])
-FREQUENCIES = (1.6, 1.85, 1.95)
+FREQUENCIES = (1.6, 1.85)
 
 
 def slope(frequency, states):
@@ -52,7 +52,7 @@ def free(request):
 def test_labels_of_random_states(free):
     """SciPy's runs over 60 periods end on the attractors that the labels name."""
     frequency, p, attractors = free
-    states = np.random.default_rng(7).uniform(-WINDOW, WINDOW, (200, 2))
+    states = np.random.default_rng(7).uniform(-WINDOW, WINDOW, (100, 2))
     phase = 1.0
     labels, _ = label_states(p, states, phase, attractors, 1e-9, 1500)
     assert np.all(labels >= 0)
@@ -108,24 +108,13 @@ def in_cells(data, x, v):
 
 
 @pytest.mark.thorough
-@pytest.mark.parametrize("phase", [np.pi / 2, 3.0])
-def test_boundaries_are_stable_manifolds(phase):
-    """Labels change only near a stable manifold, and change everywhere along one.
+def test_boundaries_are_stable_manifolds():
+    """The label of the resonance changes within a cell of a stable manifold, and all along it.
 
-    Near means within a cell. In the wide plane the first statement is tested for the basin of the
-    resonance, since the manifold of period 3 is cut there. The second statement is tested for the
-    unstable orbit of period 1, whose manifold is a simple curve. The manifold of period 3 has
-    windings closer than a cell.
+    The manifold is that of the unstable orbit of period 1, a simple curve. The manifold of period 3
+    has windings closer than a cell.
     """
-    plane = {"displacement": 1.2, "velocity": 1.6, "cells": 240, "phase": phase}
-    data = basins(CUBIC, None, 1.85, **plane)
-    x, v = data["boundary_displacement"].values, data["boundary_velocity"].values
-    kept = np.isfinite(x)
-    curve = in_cells(data, x[kept], v[kept])
-    distance, _ = cKDTree(curve).query(changes(data))
-    assert np.max(distance) < 1
-
-    wide = basins(CUBIC, None, 1.85, cells=240, phase=phase)
+    wide = basins(CUBIC, None, 1.85, cells=120, phase=3.0)
     first = wide["boundary_saddle"].values == int(np.argmin(wide["saddle_period"].values))
     x, v = wide["boundary_displacement"].values[first], wide["boundary_velocity"].values[first]
     kept = np.isfinite(x)
@@ -138,7 +127,7 @@ def test_boundaries_are_stable_manifolds(phase):
     inside = (np.abs(x[kept]) < wide["basin_displacement"].values[-1]) & (
         np.abs(v[kept]) < wide["basin_velocity"].values[-1]
     )
-    assert inside.sum() > 1000 and np.max(distance[inside]) < 1
+    assert inside.sum() > 500 and np.max(distance[inside]) < 1
 
 
 def test_a_softening_spring_lets_motions_escape():

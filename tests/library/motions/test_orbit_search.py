@@ -26,7 +26,7 @@ RARE = [
 
 
 @pytest.mark.parametrize(("oscillator", "damper", "frequency", "rare"), RARE)
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1])
 def test_a_search_finds_an_orbit_to_which_no_start_leads(
     oscillator, damper, frequency, rare, seed, monkeypatch
 ):

@@ -50,7 +50,7 @@ def test_auto_finds_the_stored_points(tmp_path, run):
 
 
 @pytest.mark.parametrize("branch", BRANCHES)
-@pytest.mark.parametrize("damping", folds.DAMPINGS)
+@pytest.mark.parametrize("damping", folds.DAMPINGS[::2])
 def test_continuation_finds_the_points_of_auto(damping, branch):
     """Both programs find the same points; the frequencies of folds agree to 1e-10."""
     own = followed(damping, branch)

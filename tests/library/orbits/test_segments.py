@@ -73,7 +73,7 @@ def test_strongly_unstable_orbit_in_80_bit(saddle):
     """In 80-bit arithmetic each segment ends where the next begins, and has the same derivative."""
     if extended.obstacle():
         pytest.skip(extended.obstacle())
-    chain, factors = saddle, []
+    chain, factors, largest, begun = saddle, [], 0.0, 0
     for k, state in enumerate(chain.states):
         begin, end = chain.phases[k : k + 2] / chain.p[FREQUENCY]
         run = extended.run(chain.p, state, begin, [end])
@@ -81,5 +81,8 @@ def test_strongly_unstable_orbit_in_80_bit(saddle):
         assert np.max(np.abs(run.states[-1] - ahead)) < 2e-12
         assert_allclose(chain.factors[k], run.flow.astype(float), rtol=0, atol=1e-8)
         factors.append(run.flow.astype(float))
+        largest, begun = max(largest, np.max(np.abs(run.extremes))), begun + run.begun
+    assert_allclose(chain.record["maximum_displacement"], float(largest), rtol=1e-9)
+    assert chain.record["contacts"] == begun / 12  # in a forcing cycle
     again = segments.multipliers(np.array(factors))
     assert_allclose(np.sort(abs(again)), np.sort(abs(saddle.multipliers)), rtol=1e-8)

@@ -6,7 +6,7 @@ from helpers.known_orbits import DESIGN, PAPER, STARTS, polished_orbit
 from numpy.testing import assert_allclose
 from references import extended
 
-from impact_damper.model.packed import pack
+from impact_damper.model.packed import DAMPING, DASHPOT, INVERSE_MASS_RATIO, pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import TURN
@@ -25,7 +25,13 @@ def test_residual_and_phase(orbit):
 
 
 def test_liouville(orbit):
-    """The determinant of the map's derivative is known from the damping and the time in contact."""
+    """The product of the multipliers is known from the damping and the time in contact."""
+    h, inverse_mass, dashpot = orbit.p[[DAMPING, INVERSE_MASS_RATIO, DASHPOT]]
+    touching = np.sum(orbit.contacts[:, 2] - orbit.contacts[:, 1])
+    expected = np.exp(
+        -h * TURN * orbit.periods / orbit.p[0] - dashpot * (1 + inverse_mass) * touching
+    )
+    assert_allclose(np.prod(orbit.multipliers[: orbit.active]).real, expected, rtol=1e-9)
     assert orbit.liouville_error < 1e-11
 
 

@@ -16,7 +16,7 @@ from impact_damper.theory.straight_flight import (
     least_harmonic_ratio,
 )
 
-PHASES = np.linspace(0, np.pi, 40001)
+PHASES = np.linspace(0, np.pi, 8001)
 
 
 def straight(mass_ratio, restitution, impulse):
@@ -29,7 +29,7 @@ def straight(mass_ratio, restitution, impulse):
     return primary, mass_ratio * (primary - loose)[0], lag
 
 
-CASES = [(0.05, 1.0), (0.12, 1.0), (0.4, 1.0), (0.12, 0.97), (0.25, 0.9), (0.12, 0.75), (0.4, 0.5)]
+CASES = [(0.05, 1.0), (0.4, 1.0), (0.12, 0.97), (0.12, 0.75), (0.4, 0.5)]
 
 
 @pytest.mark.parametrize(("mass_ratio", "restitution"), CASES)
