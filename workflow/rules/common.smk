@@ -183,10 +183,7 @@ def target_files(stage):
 def page_files(stage):
     """Return the files of the pages of a stage's entries; none for a stage without pages."""
     names = data_names(stage) if STAGES[stage].page else []
-    files = [f"{figure}.png" for figure in STAGES[stage].page]
-    return expand(
-        f"<results>/{stage}/{{name}}/{{file}}", name=names, file=["index.html", "report.md", *files]
-    )
+    return expand(f"<results>/{stage}/{{name}}/index.html", name=names)
 
 
 def in_report(chapter, folder, name, kind):

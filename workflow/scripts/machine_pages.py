@@ -1,4 +1,4 @@
-"""The pages of all machines, in HTML and Markdown, with their figures."""
+"""The pages of all machines, with their figures."""
 
 from chatterjee1995.workflow.job import Job
 from impact_damper.plot.pages.render import write_page

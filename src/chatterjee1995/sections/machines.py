@@ -4,9 +4,6 @@ from chatterjee1995.sections.records import Kind, Table, stage
 from chatterjee1995.sections.system import too_many
 from impact_damper.command import machine_file
 
-# Names of the figures of a machine's page, the keys of `plot.machine_figures.figures.FIGURES`.
-PAGE = tuple("answer forces transients".split())
-
 
 class Machine(machine_file.MachineEntry):
     """Machines for which a damper is designed, in SI units: numbers, or texts with units."""
@@ -20,7 +17,7 @@ class Machine(machine_file.MachineEntry):
         "A damper for the machine {name}",
         priority=1,
         paper=False,
-        page=PAGE,
+        page=True,
     )
     def machines(self, config) -> dict:
         damper, ball = self.damper.values(), self.contact.values()

@@ -27,8 +27,8 @@ class Stage(NamedTuple):
     priority: int = 0
     # Whether `snakemake` without a target computes it.
     paper: bool = True
-    # Names of the figures on the page of an entry, if it has one.
-    page: tuple[str, ...] = ()
+    # Whether each entry has a page.
+    page: bool = False
 
 
 def stage(function, message, **options):

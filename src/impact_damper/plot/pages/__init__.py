@@ -1,1 +1,1 @@
-"""Pages in HTML and Markdown: text, numbers with their sources, and figures."""
+"""Pages in HTML: text, numbers with their sources, and figures."""

@@ -1,4 +1,4 @@
-"""The page of a design in HTML and Markdown with its figures, and its conclusion in sentences."""
+"""The page of a design in HTML with its figures, and its conclusion in sentences."""
 
 import base64
 import io
@@ -18,8 +18,6 @@ from impact_damper.plot.style import style
 
 # Dots per inch: 1540 pixels for a figure of 7 inches, so that pages never enlarge it.
 DPI = 220
-# Files of a page, with the templates that lay them out.
-LAYOUTS = {"index.html": "html.jinja", "report.md": "markdown.jinja"}
 # Begin of the line by which a page of this package is recognised.
 GENERATOR = '<meta name="generator" content="impact-damper'
 
@@ -30,38 +28,19 @@ def conclusion(data) -> list[str]:
 
 
 def write_page(name, data, folder, file=None, date="", figures=FIGURES) -> None:
-    """Write the page of the machine `name` and its figures into a folder.
+    """Write the page of the machine `name`, `index.html`, into a folder.
 
-    Parameters
-    ----------
-    name : str
-    data : xarray.Dataset
-        Result of `design_damper` or `evaluate_damper`.
-    folder : str or pathlib.Path
-    file : str, optional
-        Name of the file of `data`, by default that of the pipeline.
-    date : str
-        Date of the design.
-    figures : dict of callable
-        Functions that return a figure of `data` or None, keyed by name.
+    `file` is the name of the file of `data`, by default that of the pipeline. `figures` has
+    functions that return a figure of `data` or None.
     """
-    folder = Path(folder)
     drawn = {each: draw(data) for each, draw in figures.items()}
     pictures = {each: as_png(figure) for each, figure in drawn.items() if figure is not None}
-    files = {f"{each}.png": picture for each, picture in pictures.items()}
-    encoded = {each: base64.b64encode(picture).decode() for each, picture in pictures.items()}
-    for place, text in pages(name, data, encoded, file, date).items():
-        files[place] = text.encode()
-    for place, content in files.items():
-        with whole(folder / place) as part:
-            part.write_bytes(content)
+    with whole(Path(folder) / "index.html") as part:
+        part.write_bytes(page_of(name, data, pictures, file, date).encode())
 
 
-def pages(name, data, pictures, file=None, date="") -> dict[str, str]:
-    """Return the page in each form, keyed by the name of its file.
-
-    `pictures` are the figures as PNG, encoded in base64, keyed by name.
-    """
+def page_of(name, data, pictures, file=None, date="") -> str:
+    """Return the page in HTML; `pictures` are the figures as PNG by name."""
     numbers = numbers_of(data)
     numbers |= {
         "title": f"Impact damper for the machine {name.replace('_', ' ')}",
@@ -71,14 +50,10 @@ def pages(name, data, pictures, file=None, date="") -> dict[str, str]:
         "version": version("impact-damper"),
         "date": date,
         "generator": Markup(GENERATOR),
-        "pictures": pictures,
+        "pictures": {each: base64.b64encode(png).decode() for each, png in pictures.items()},
+        "sources": [],
     }
-    found = {}
-    for place, layout in LAYOUTS.items():
-        template = _environment(layout == "html.jinja").get_template("design.jinja")
-        text = template.render(numbers | {"layout": layout, "sources": []})
-        found[place] = re.sub(r"\n{3,}", "\n\n", text).lstrip()
-    return found
+    return _environment(True).get_template("design.jinja").render(numbers).lstrip()
 
 
 def as_png(figure) -> bytes:
