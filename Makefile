@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
 .PHONY: reproduce smoke slurm kernels test quick same-bytes benchmark faults lint format docs lock \
-	lowest clean
+	lowest release citation archive archive-check clean
 
 reproduce: $(READY)
 	$(BIN)/snakemake --cores $(CORES)
@@ -96,6 +96,34 @@ lowest:
 	$(LOWEST)/bin/pip install --requirement $(LOWEST)/requirements.txt
 	PYTHONPATH=src $(LOWEST)/bin/python -m pytest --numprocesses auto --dist loadfile \
 		--ignore tests/paper $(PYTEST)
+
+# Build a wheel and an sdist, check them, and run the tests of the library from the wheel, in a new
+# environment and a folder without the sources of the package. Needs the network.
+RELEASE := .venv-release
+release:
+	rm -rf dist build
+	$(PYTHON) -m venv --clear $(RELEASE)
+	$(RELEASE)/bin/pip install --quiet build twine
+	$(RELEASE)/bin/python -m build
+	$(RELEASE)/bin/twine check --strict dist/*
+	$(PYTHON) -m venv --clear $(RELEASE)
+	$(RELEASE)/bin/pip install --quiet "$$(ls dist/*.whl)[command,test]"
+	rm -rf dist/tried && mkdir dist/tried && cp -r benchmarks pyproject.toml tests dist/tried
+	cd dist/tried && ../../$(RELEASE)/bin/python -m pytest --numprocesses auto --dist loadfile \
+		tests/library tests/literature $(PYTEST)
+
+# CITATION.cff and codemeta.json, from pyproject.toml.
+citation: $(READY)
+	$(BIN)/python workflow/citation.py
+
+# One zip with the results of a run of the paper and all that computed them, as an RO-Crate; the
+# check compares all digests and runs one of its jobs again.
+ARCHIVE ?= impact-damper.zip
+archive: reproduce
+	$(BIN)/python workflow/archive.py write $(ARCHIVE)
+
+archive-check: $(READY)
+	$(BIN)/python workflow/archive.py check $(ARCHIVE)
 
 clean:
 	rm -rf results-smoke .snakemake

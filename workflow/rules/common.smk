@@ -21,7 +21,7 @@ from impact_damper.kernel.sources import KERNEL, module_file, sources
 # than by default saves a fifteenth of the time of a dry run.
 gc.set_threshold(100_000)
 
-ROOT = Path(workflow.basedir)
+ROOT = Path(str(workflow.current_basedir)).parents[1]
 ENVIRONMENT = str(ROOT / "workflow/envs/impact-damper.yaml")
 # Jobs that need compiled kernels (functions compiled by numba) wait for this marker file. With
 # `ancient` a new date of the file reruns no job.

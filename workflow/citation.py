@@ -1,0 +1,103 @@
+"""Write CITATION.cff and codemeta.json from pyproject.toml: `make citation`.
+
+The table [tool.citation] of pyproject.toml holds what [project] has no key for. An address goes
+there into [project.urls], a DOI and a date into [tool.citation], once they exist.
+"""
+
+import json
+import sys
+import tomllib
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).parents[1]
+# Names of [project.urls], and what CITATION.cff and codemeta.json call them.
+ADDRESSES = {
+    "Repository": ("repository-code", "codeRepository"),
+    "Documentation": ("url", "url"),
+    "Issues": (None, "issueTracker"),
+}
+
+
+def citation(project, cited):
+    """Return the content of CITATION.cff."""
+    urls = project.get("urls", {})
+    return {
+        "cff-version": "1.2.0",
+        "message": cited["message"],
+        "type": "software",
+        "title": cited["title"],
+        "abstract": project["description"],
+        "version": project["version"],
+        "license": project["license"],
+        "keywords": project["keywords"],
+        "authors": project["authors"],
+        **{key: cited[key] for key in ("doi", "date-released") if key in cited},
+        **{ADDRESSES[name][0]: urls[name] for name in urls if ADDRESSES[name][0]},
+        "references": cited["references"],
+    }
+
+
+def codemeta(project, cited):
+    """Return the content of codemeta.json."""
+    urls, extras = project.get("urls", {}), project["optional-dependencies"]
+    published = {"identifier": "doi", "datePublished": "date-released"}
+    return {
+        "@context": "https://w3id.org/codemeta/3.0",
+        "@type": "SoftwareSourceCode",
+        "name": project["name"],
+        "description": project["description"],
+        "version": project["version"],
+        "license": f"https://spdx.org/licenses/{project['license']}",
+        "keywords": project["keywords"],
+        "author": [{"@type": "Organization", "name": each["name"]} for each in project["authors"]],
+        "programmingLanguage": "Python",
+        "runtimePlatform": f"Python {project['requires-python']}",
+        "softwareRequirements": project["dependencies"],
+        "softwareSuggestions": sorted({name for each in extras.values() for name in each}),
+        **{key: cited[name] for key, name in published.items() if name in cited},
+        **{ADDRESSES[name][1]: urls[name] for name in urls},
+        "referencePublication": [article(each) for each in cited["references"]],
+    }
+
+
+def article(reference):
+    """Return a reference of CITATION.cff as an article of schema.org."""
+    return {
+        "@type": "ScholarlyArticle",
+        "name": reference["title"],
+        "author": [
+            {
+                "@type": "Person",
+                "givenName": each["given-names"],
+                "familyName": each["family-names"],
+            }
+            for each in reference["authors"]
+        ],
+        "datePublished": str(reference["year"]),
+        "isPartOf": {"@type": "Periodical", "name": reference["journal"]},
+        "pagination": f"{reference['start']}-{reference['end']}",
+    }
+
+
+def files(pyproject):
+    """Return the text of each file, by its name, for the text of a pyproject.toml."""
+    table = tomllib.loads(pyproject)
+    project, cited = table["project"], table["tool"]["citation"]
+    head = "# Made from pyproject.toml by `make citation`.\n"
+    plain = {"sort_keys": False, "allow_unicode": True, "width": 100}
+    return {
+        "CITATION.cff": head + yaml.safe_dump(citation(project, cited), **plain),
+        "codemeta.json": json.dumps(codemeta(project, cited), indent=2) + "\n",
+    }
+
+
+def main(folder):
+    """Write the files into a folder."""
+    for name, text in files((ROOT / "pyproject.toml").read_text()).items():
+        (Path(folder) / name).write_text(text)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:] or [ROOT])
