@@ -28,12 +28,9 @@ from impact_damper.command.values import choice, count, number, points_of, sever
 from impact_damper.model.bounds import (
     FARTHEST,
     HARMONIC_RANGE,
-    LOAD_RANGE,
     METHOD_TOLERANCE_RANGE,
-    MOST_STEPS_RANGE,
     PERIODS_RANGE,
     RUNS_RANGE,
-    STEPS_RANGE,
 )
 
 GEOMETRIC = range_of(number("end of a geometric grid", least=1e-14, most=1e9), points=True)
@@ -59,7 +56,9 @@ class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON
     cells: ContactCells
     smallest_restitution: number("smallest e of the map", **BOUNDS["restitution"] | {"most": 0.99})
     largest_load: number(
-        "largest load: acceleration divided by natural frequency and approach speed", **LOAD_RANGE
+        "largest load: acceleration divided by natural frequency and approach speed",
+        above=0.0,
+        most=1e3,
     )
 
     counts: ClassVar = ("cells.restitutions", "cells.loads")
@@ -129,7 +128,7 @@ class MissedContacts(WithOscillator):
     radius: RADIUS
     depths: GEOMETRIC
     tolerances: range_of(TOLERANCE, points=True)
-    steps: range_of(count("steps in a forcing cycle", **STEPS_RANGE))
+    steps: range_of(count("steps in a forcing cycle", least=1, most=10**5))
 
     counts: ClassVar = ("passages", "depths.points", "tolerances.points")
 
@@ -156,7 +155,8 @@ class StableSteps(WithDamper):
     scaled_steps: GEOMETRIC
     most_steps: count(
         "largest number of steps in a forcing cycle; cells with more are not run",
-        **MOST_STEPS_RANGE,
+        least=1,
+        most=10**7,
     )
     periods: RUN_PERIODS
 

@@ -16,13 +16,7 @@ from chatterjee1995.sections.system import (
 )
 from impact_damper.command.section import increasing
 from impact_damper.command.values import count, entries, number, several
-from impact_damper.model.bounds import (
-    FARTHEST,
-    FASTEST,
-    PERIODS_RANGE,
-    RUNS_RANGE,
-    SCAN_LIFETIME_RANGE,
-)
+from impact_damper.model.bounds import FARTHEST, FASTEST, LIFETIME_RANGE, PERIODS_RANGE, RUNS_RANGE
 
 
 class Migration(WithDamper):
@@ -47,7 +41,7 @@ class ReleaseScan(WithDamper):
     frequencies: FREQUENCIES
     lifetime: count(
         "forcing cycles within which motions that have not settled are released",
-        **SCAN_LIFETIME_RANGE,
+        **LIFETIME_RANGE | {"least": 40},
     )
 
     @stage(

@@ -12,7 +12,6 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.data.shares import BOUNDS, wilson
 from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION, VARIABLES
-from impact_damper.model.bounds import LEAD
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.motions import ensemble, legs
@@ -36,6 +35,7 @@ from impact_damper.motions.sweep import Catalogue
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.single_harmonic import impacting_solutions
 
+LEAD = 20  # first cycles of a run, which depend on its start; no release lies in them
 PAPER_CYCLES = 350  # within which, by the paper, its controller reaches the non-resonance branch
 CAPTURE = 0.1  # largest difference in Z1 or Z1' of a run from the orbit that has captured it
 # One release: phase in forcing cycles after a strobe, Z1 and Z1', and the resulting free motion.

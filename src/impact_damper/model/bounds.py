@@ -19,21 +19,15 @@ FREQUENCY_RANGE = {"least": 0.01, "most": 1e3, "why": "beyond, cycles are too lo
 DAMPING_RANGE = {"least": 1e-9, "most": 10.0, "why": "motions must settle"}
 MASS_RATIO_RANGE = {"least": 1e-6, "most": 10.0}
 CLEARANCE_RANGE = {"least": 1e-6, "most": 1e3}
-RESTITUTION_RANGE = {
-    "least": 0.05,
-    "most": 1.0,
-    "why": "below, the dashpot nears critical damping",
-}
+RESTITUTION_RANGE = {"least": 0.05, "most": 1.0, "why": "below, the dashpot nears critical damping"}
 AMPLITUDE_RANGE = {"least": 0.0, "most": 1e6}
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
-# Largest ratio of the natural frequency of the contact to the forcing frequency: about the number
-# of integration steps in a forcing cycle while the loose mass stays in contact.
+# Largest natural frequency of the contact divided by the forcing frequency.
 MOST_STIFF = 1e6
-# Radius of the ball of random initial states, and its largest ratio to the clearance, beyond which
-# hardly any state lies within the gap.
+# Radius of the ball of random initial states, and its largest ratio to the clearance.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 MOST_RADIUS = 1e3
-# Bounds of the fields of `settling.Settling`. All but the tolerance are in forcing cycles.
+# Bounds of the fields of `settling.Settling`.
 TOLERANCE_RANGE = {"least": 1e-14, "most": 1e-3, "why": "rounding errors exceed smaller ones"}
 PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "motions rarely settle in fewer cycles"}
 LIMIT_RANGE = {"least": 100, "most": 10**8}
@@ -42,15 +36,9 @@ FURTHER_RANGE = {"least": 0, "most": 10**7}
 # Largest number of runs of one call, whose results are all in memory.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# PERIODS_RANGE        forcing cycles of a run
-# LIFETIME_RANGE       forcing cycles of a run that measures the lifetime of a chaotic transient
-# LEAD                 first cycles of such a run, in which it reaches the transient; runs that end
-#                      in these cycles are not counted
-# SCAN_LIFETIME_RANGE  LIFETIME_RANGE for runs at many frequencies, which may be shorter
+# Forcing cycles of a run, and of a run that measures the lifetime of a chaotic transient.
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
-LEAD = 20
-SCAN_LIFETIME_RANGE = LIFETIME_RANGE | {"least": 2 * LEAD}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
 # Largest displacement and velocity of an initial state; beyond, a forcing cycle takes minutes.
 FARTHEST, FASTEST = 1e3, 1e6
@@ -59,15 +47,8 @@ HARMONIC_RANGE = {"least": 1, "most": 2**14}
 PACKAGE = f"{__name__.partition('.')[0]}."
 # Number of points of a grid.
 POINTS_RANGE = {"least": 2, "most": 10**5}
-# Loads (constant accelerations during a contact) for which `contact.contact_law` is evaluated.
-LOAD_RANGE = {"above": 0.0, "most": 1e3}
-# Settings of the comparison of integrators:
-# METHOD_TOLERANCE_RANGE  tolerance
-# STEPS_RANGE             steps in a forcing cycle
-# MOST_STEPS_RANGE        most steps in a forcing cycle that the search for a stable step size tries
-METHOD_TOLERANCE_RANGE = {"least": 1e-14, "most": 0.1, "why": "rounding errors exceed smaller ones"}
-STEPS_RANGE = {"least": 1, "most": 10**5}
-MOST_STEPS_RANGE = {"least": 1, "most": 10**7}
+# Tolerance of an integrator in a comparison.
+METHOD_TOLERANCE_RANGE = TOLERANCE_RANGE | {"most": 0.1}
 
 
 def warn(text) -> None:
