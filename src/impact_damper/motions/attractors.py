@@ -19,12 +19,8 @@ from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 
-# STEPS     number of steps in a forcing cycle in the proof
-# FACTOR    largest ratio |R| r(P)/r0 that is accepted as a contraction
-# HALVINGS  number of bisections that determine the size r0 of the ellipse
-STEPS = 256
-FACTOR = 0.98
-HALVINGS = 30
+# The proof: steps in a forcing cycle, largest contraction |R| r(P)/r0, and bisections of r0.
+STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # Two free orbits are the same if their states at a strobe differ by less than ALIKE; two settled
 # motions with contacts and the same period if max |Z1| differs relatively by less than SAME.
 ALIKE, SAME = 1e-6, 1e-5
@@ -41,9 +37,8 @@ LABELS = {
     records.DRIFTING: BASIN_LABEL["no_contact"],
     records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
 }
-# The release set: PHASES in a forcing cycle at which a controller observes the state, even; WIDTH
-# is the half width of the grid in Z1 and in Z1'/W, divided by max |Z1| of the resonance motion;
-# REFINED cells of the fine grid in a cell of the coarse grid, along an axis, a power of 2.
+# The release set: phases in a forcing cycle, even; half width of the grid divided by max |Z1| of
+# the resonance motion; fine cells in a coarse cell along an axis, a power of 2.
 PHASES, WIDTH, REFINED = 16, 1.6, 4
 
 

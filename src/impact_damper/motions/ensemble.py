@@ -27,8 +27,7 @@ from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.motions.undecided import name_undecided
 from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
-# Number of motions that one call of a kernel settles, and number of states that one call labels.
-# Ctrl-C waits for the end of a call, which takes a fraction of a second.
+# Motions settled and states labelled in one call of a kernel, for whose end Ctrl-C waits.
 CHUNK, LABELLED = 128, 4096
 # Labels of states that lead to no known orbit, as in the registered flags of `basin_label`.
 GONE, UNKNOWN = -2, -1

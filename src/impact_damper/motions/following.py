@@ -15,10 +15,8 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which a step grows after success.
 GROWTH = 1.5
-# Largest corrections by Newton's method in `follow_stable`. A larger correction could lead to
+# Largest corrections of a predicted state and of the first state; larger ones could lead to
 # another orbit.
-# REACH  of a predicted state
-# NUDGE  of the first state
 REACH, NUDGE = 0.03, 1e-3
 # Accuracy, in units of the parameter, to which the end of a branch of stable orbits is located.
 RESOLUTION = 1e-8

@@ -23,15 +23,12 @@ from impact_damper.motions.records import NEVER
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.free_oscillator import main_solutions
 
-# `course` returns Z1 against time from MARGIN forcing cycles before a run to MARGIN cycles after.
-MARGIN = 10
-# Number of values of Z1 in a forcing cycle.
-SAMPLES = 40
+# Forcing cycles before and after a run in `course`, and its values of Z1 in a forcing cycle.
+MARGIN, SAMPLES = 10, 40
 # Two free motions are the same if their max |Z1| differs by less than ALIKE.
 ALIKE = 1e-6
-# One entry of a log: the damper is switched on and off once, and at `end_time` the free motion has
-# settled. Times are in forcing cycles from the first strobe. released_*: the motion with the
-# damper; destination: flag (`FREE_MOTION`) of the free motion afterwards.
+# The damper is switched on and off once, and at `end_time` the free motion has settled. Times are
+# in forcing cycles from the first strobe. released_*: the motion with the damper.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
     + [("released_period", "i2"), ("released_displacement", "f8"), ("destination", "i1")]

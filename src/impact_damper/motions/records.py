@@ -16,10 +16,9 @@ from impact_damper.motions.traces import record_beginning, series_of_step
 PHASELESS = 1e-9
 # Number of samples in a forcing cycle, from which harmonics are computed.
 SAMPLES = 64
-# Number of pieces of an interval. In each piece a polynomial is assumed to have at most one turning
-# point.
+# Pieces of a step, in each of which a polynomial is assumed to have at most one turning point.
 PIECES = 8
-# Number of windows of an envelope in one call of the kernel. Ctrl-C waits for the end of a call.
+# Windows of an envelope in one call of the kernel, for whose end Ctrl-C waits.
 AT_ONCE = 1024
 # Argument `stop` of runs that no other thread stops.
 NEVER = np.zeros(1, bool)
@@ -36,16 +35,12 @@ NEVER = np.zeros(1, bool)
     QUASI_PERIODIC,
     DRIFTING,
 ) = range(9)
-# `watch.watch` fills the fields from `outcome` to `reach`, and `measure` the other fields. Some
-# fields:
-# period           period of the orbit in forcing cycles, 0 without an orbit
-# periods_run      forcing cycles until the outcome was known
-# multiplier       dominant Floquet multiplier of the orbit
-# residual         largest difference between the state and the state a period later
-# first_frequency, second_frequency: the two frequencies of a quasi-periodic motion
-# frequency_error  error of second_frequency
-# state            last state at the strobe, of a settled motion the state on the orbit
-# reach            largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
+# `watch.watch` fills the fields from `outcome` to `reach`, and `measure` the other fields.
+# period       period of the orbit in forcing cycles, 0 without an orbit
+# periods_run  forcing cycles until the outcome was known
+# residual     largest difference between the state and the state a period later
+# state        last state at the strobe, of a settled motion the state on the orbit
+# reach        largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
 MOTION = np.dtype(
     [
         ("outcome", "i1"),

@@ -36,14 +36,10 @@ from impact_damper.motions.strobe_map import STROBE
 from impact_damper.motions.sweep import sweep
 from impact_damper.motions.watch import NEAR
 
-# Z1 and Z1' of the first state of a run that measures a life differ by at most APART from the state
-# of the motion.
-APART = 1e-4
-# A transient ends when the distance of its state from an orbit falls below CAPTURE.
-CAPTURE = 0.1
-# A run that has not ended is continued for CHECKED forcing cycles, to decide whether it is still
-# chaotic.
-CHECKED = 300
+# Runs that measure a life: largest difference in Z1 and Z1' of the first state from the motion;
+# distance from an orbit at which a transient ends; forcing cycles after a run that has not ended,
+# to decide whether it is still chaotic.
+APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 
 @names_arguments

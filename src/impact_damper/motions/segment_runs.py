@@ -18,10 +18,8 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
 from impact_damper.motions.records import PIECES, turning_time
 
-# NUDGE       change of the parameter forward and backward in the central difference
-# BENT        largest difference of the forward and the backward difference, divided by their sum.
-#             If it is larger, a contact has appeared or vanished within the change.
-# FINE_NUDGE  change of the parameter in this case
+# Change of a parameter in a central difference, and a finer one if forward and backward difference
+# differ by more than BENT times their sum: then a contact has appeared or vanished in between.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 

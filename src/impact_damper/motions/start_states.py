@@ -22,34 +22,22 @@ from impact_damper.motions.simulate import random_states
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-# Free motions:
-# PHASES       number of phases at which starts with the amplitudes of harmonic balance are placed
-# SAMPLES      number of samples in a forcing cycle, which give the largest speed of a motion
-# MOST_STATES  largest number of states stored of one motion; a chaotic motion has no period
+# Free motions: phases of starts with the amplitudes of harmonic balance, samples in a forcing
+# cycle, and largest number of states stored of one motion.
 PHASES, SAMPLES, MOST_STATES = 6, 256, 5
-# SPREAD    size of the largest random start divided by the size of the largest free motion
-# SMALLEST  size of the smallest random start divided by the size of the largest
+# Largest random start divided by the largest free motion, smallest divided by the largest start.
 SPREAD, SMALLEST = 3.0, 0.01
 # Placed starts: Z2 divided by the clearance, and Z2' divided by the speed that crosses the gap in
-# half a forcing cycle or, with the primary mass in motion, by the largest speed of the free motions
-# if that is larger.
+# half a forcing cycle, or by the speed of the free motion if this is larger.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
-# Number of states of the loose mass from which Newton's method searches for orbits
-# (`sweep.stable_orbits`), and their largest speed |Z1' - Z2'|, divided like VELOCITIES.
+# States of the loose mass for `sweep.stable_orbits`, and largest |Z1' - Z2'|, like VELOCITIES.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# With a softening spring a random start has at most WITHIN times the displacement of the barrier
-# and the speed that reaches it, since with more energy it would cross it even without forcing.
+# Largest random start divided by the barrier of a softening spring, with the speed that reaches it.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
-# Ramps:
-# STEP     relative change of a parameter in one step, of PERIODS forcing cycles
-# BELOW    an upward ramp begins at most at BELOW times the frequency of the lowest fold, a downward
-#          ramp at least at the frequency of the highest fold divided by BELOW
-# RAISED   first force of a ramp divided by its last force
+# Ramps: relative change of a parameter in a step of PERIODS forcing cycles; first frequency divided
+# by the lowest fold, or highest fold divided by it; first force divided by the last.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
-# If none of n random starts leads to a motion, the share of starts that lead to it is, with 95 %
-# confidence, at most RULE_OF_THREE/n.
-RULE_OF_THREE = 3.0
 
 
 class Search(NamedTuple):
@@ -102,8 +90,8 @@ def describe_search(starts, radius, seed) -> dict:
 
 
 def missed_share(starts) -> float:
-    """Return the 95 % upper bound on the share of starts that lead to a motion not found."""
-    return min(1.0, RULE_OF_THREE / starts) if starts else 1.0
+    """Return the 95 % bound of the rule of three on the share of starts to a missed motion."""
+    return min(1.0, 3.0 / starts) if starts else 1.0
 
 
 def warn_if_narrow(oscillator, frequencies, radius) -> dict:

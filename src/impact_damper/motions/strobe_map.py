@@ -16,13 +16,8 @@ from impact_damper.model.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MAS
 
 # Phase W T of the strobe.
 STROBE = math.pi / 2
-# Newton's method:
-# ITERATIONS  largest number of corrections
-# CONVERGED   the method has converged once a correction is below this size
-# REGULAR     smallest determinant of a matrix that counts as regular
-ITERATIONS = 10
-CONVERGED = 1e-9
-REGULAR = 1e-12
+# Newton's method: most corrections, size of the last one, smallest determinant of a regular matrix.
+ITERATIONS, CONVERGED, REGULAR = 10, 1e-9, 1e-12
 # Largest local error of a step in the integration of orbits.
 POLISH_TOLERANCE = 1e-12
 # In `repeats_sooner` two states are the same if they differ by less than SAME_STATE.

@@ -21,28 +21,18 @@ from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
 # Records of equal outcome, period and contacts per cycle are one motion if max |Z1| differs by less
-# than SAME, relatively, or ROUNDING, near rest. With an asymmetry below SAME they are symmetric.
-SAME, ROUNDING = 1e-6, 1e-11
-# Motions of equal outcome and period that have not settled can be the same if the ratio of their
-# sizes is below SIMILAR.
-SIMILAR = 1.5
-# Two records of equal period are one motion if both have the same of these outcomes, in which the
-# displacement is infinite or 0.
+# than SAME, relatively, or ROUNDING, near rest; motions that have not settled if the ratio of their
+# sizes is below SIMILAR. With an asymmetry below SAME they are symmetric.
+SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
+# Outcomes with an infinite displacement or 0, by which records of equal period are one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
-# Newton's method for further orbits:
-# LONGEST     longest period of an orbit, in forcing cycles
-# REACH       largest distance of an orbit from its start, divided by the largest |Z1| or |Z1'| of
-#             the known motions at the strobe or the clearance; a larger one finds hardly more
-# SAME_ORBIT  two orbits are the same if their states differ by less
+# Newton's method for further orbits: longest period in forcing cycles; distance from the start, in
+# units of the known motions or the clearance; difference below which two orbits are the same.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
-# Events at the end of a branch:
-# CRITICAL  smallest modulus of a multiplier of the last orbit before a bifurcation
-# COMPLEX   a multiplier is complex if its imaginary part exceeds this
-# CLOSE     largest difference in max |Z1| between a symmetric motion and the asymmetric motion that
-#           branches off
-CRITICAL = 0.98
-COMPLEX = 1e-3
-CLOSE = 0.05
+# Events at the end of a branch: smallest modulus of a multiplier before a bifurcation, smallest
+# imaginary part of a complex one, and largest difference in max |Z1| between a symmetric motion and
+# the asymmetric motion that branches off.
+CRITICAL, COMPLEX, CLOSE = 0.98, 1e-3, 0.05
 
 
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):

@@ -19,36 +19,28 @@ from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR
 
-# Largest number of forcing cycles of the first block.
-FIRST = 1500
+# Forcing cycles of the first block, and batches of a block for the standard error of the exponent.
+FIRST, BATCHES = 1500, 30
 # Smallest growth of the tangent of a chaotic motion in a block, as a natural logarithm. While a
 # motion leaves an unstable orbit the tangent grows by ln(1e16) = 37, from rounding errors.
 GROWN = 40.0
-# Number of batches of a block, from which the standard error of the exponent is computed.
-BATCHES = 30
 # An exponent counts as 0 if it is within NEUTRAL standard errors of 0.
 NEUTRAL = 3.0
-# Longest period of an orbit, in forcing cycles.
-LONGEST = 256
-# Largest distance that Newton's method may move a state onto an orbit.
-REACH = 1e-2
+# Longest period of an orbit in forcing cycles, and its largest distance from a state.
+LONGEST, REACH = 256, 1e-2
 # A motion lies on known closed curves if its distance from them is below NEIGHBOUR.
 NEIGHBOUR = 1e-3
 # Fields that a motion on known closed curves takes over from the known motion.
 TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
-# The rotation number counts as known if the results for parts of an orbit differ by at most
-# AGREEMENT.
-AGREEMENT = 1e-8
+# Largest error of a rotation number, and smallest number of points of an orbit.
+AGREEMENT, FEWEST = 1e-8, 100
 # The advances of the angle from point to point, as points on a circle, must leave an interval of at
 # least INTERVAL revolutions empty. The circle is cut in this interval.
 INTERVAL = 0.02
-# The points of an orbit are sorted by their phases. TURN: largest change of the angle between
-# neighbouring points. WANDERING: largest sum of the moduli of all changes. Both in revolutions.
-TURN = 0.05
-WANDERING = 3.0
-# Smallest number of points of an orbit.
-FEWEST = 100
+# Largest change of the angle between points that are neighbours by phase, and largest sum of the
+# moduli of all changes, in revolutions.
+TURN, WANDERING = 0.05, 3.0
 
 
 @kernel

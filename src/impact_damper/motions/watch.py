@@ -22,30 +22,22 @@ from impact_damper.motions.strobe_map import (
     speed_weight,
 )
 
-# LONGEST_PERIOD  longest period of an orbit that is searched for, in forcing cycles
-# RING            number of strobe states that are stored for this search
+# Longest period of an orbit in forcing cycles, and number of strobe states stored to find it.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# A motion is chaotic if its Lyapunov exponent exceeds CONFIDENCE standard errors. The exponent is
-# weak if it is below WEAK per unit of time.
-CONFIDENCE = 4.0
-WEAK = 0.05
-# BLOCK   forcing cycles of a batch, over which the logarithm of the growth of a tangent is summed
-# RECENT  number of last batches in which the tangent of a chaotic motion must grow
-BLOCK = 10
-RECENT = 5
-# NEAR     distance from an orbit at which Newton's method is first tried
-# NEAREST  smallest distance at which Newton's method is tried
-NEAR = 1e-4
-NEAREST = 1e-9
+# Standard errors by which the Lyapunov exponent of a chaotic motion exceeds 0, and a weak exponent
+# per unit of time.
+CONFIDENCE, WEAK = 4.0, 0.05
+# Forcing cycles of a batch, over which the logarithm of the growth of a tangent is summed, and
+# number of last batches in which the tangent of a chaotic motion must grow.
+BLOCK, RECENT = 10, 5
+# Distances from an orbit at which Newton's method is tried first and last.
+NEAR, NEAREST = 1e-4, 1e-9
 # Without forcing a motion is at rest once its energy is below REST times the first energy.
 REST = 1e-9
-# Data of one motion while it runs, among them
-# untouched  number of successive forcing cycles without contact
-# near       distance from an orbit at which Newton's method is tried next
-# periods    number of cycles over which the tangent has been followed
-# batch      logarithm of its growth in the present batch
-# mean, squares, recent: mean, sum of squares and last values of complete batches
+# Data of one motion while it runs: number of last forcing cycles without contact (`untouched`);
+# distance at which Newton's method is tried next (`near`); cycles over which the tangent has been
+# followed (`periods`), its growth in this batch, and mean, squares and last complete batches.
 SEEN = np.dtype(
     [
         ("index", "i8"),

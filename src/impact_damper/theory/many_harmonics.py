@@ -127,13 +127,9 @@ def _real(by_value, by_conjugate):
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
 
 
-# Newton's method (`solve`):
-# TOLERANCE      largest change of a coefficient in the last step, relative to the largest one
-# ITERATIONS     largest number of steps
-# LEAST_DAMPING  smallest factor by which a step is multiplied
-TOLERANCE = 1e-11
-ITERATIONS = 40
-LEAST_DAMPING = 1e-4
+# Newton's method: largest change of a coefficient in the last step, relative to the largest one;
+# most steps; and smallest factor by which a step is multiplied.
+TOLERANCE, ITERATIONS, LEAST_DAMPING = 1e-11, 40, 1e-4
 
 
 class Solution(NamedTuple):

@@ -17,7 +17,7 @@ from impact_damper.theory.straight_flight import (
 )
 
 # rm W^2 d0 at which the first harmonic of Z2, 8 d0/pi^2 in a straight flight between rigid walls,
-# equals f/(rm W^2). This amplitude keeps the primary mass at rest, and rule (18) requires it.
+# equals f/(rm W^2), with which the primary mass is at rest, as rule (18) requires.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # A solution of the harmonic balance, equation (7) of the paper, counts as a = 0 if the amplitude
 # |a| of Z1 is below ZERO_AMPLITUDE times the clearance.

@@ -11,12 +11,12 @@ from scipy.optimize import minimize_scalar
 
 from impact_damper.model.bounds import check_number
 from impact_damper.model.parameters import check_damper
+from impact_damper.theory.contact_law import damping_ratio, natural_frequency
 
 # Number of impulses q that are compared before the minimum of max |x| is refined.
 GRID = 65
-# IMPULSE q and phase TURN of the turning point, such that |x| at the impact equals |x| at the
-# turning point, for elastic rigid walls without damping and stiffness. They solve q - 1 = cos(phi)
-# - q + 2 q phi/pi with sin(phi) = 2 q/pi.
+# Impulse q and phase of the turning point for equal |x| there and at the impact, with elastic rigid
+# walls, without damping and stiffness: q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 NEWTON_STEPS = 3
 # If the two characteristic roots coincide (critical damping), each is moved by APART, so that their
@@ -56,14 +56,9 @@ class Flight(NamedTuple):
         return 2 / np.pi * (impact - damping) / self.forced
 
     @property
-    def contact_damping(self):
-        """Damping ratio z of the relative motion in contact, appendix B."""
-        return -np.log(self.restitution) / np.hypot(np.pi, np.log(self.restitution))
-
-    @property
     def contact_phase(self):
         """Phase theta that a contact lasts."""
-        return np.pi * self.contact / np.sqrt(1 - self.contact_damping**2)
+        return np.pi * self.contact / np.sqrt(1 - damping_ratio(self.restitution) ** 2)
 
     @property
     def reach(self):
@@ -74,7 +69,7 @@ class Flight(NamedTuple):
     def setback(self):
         """Reduction of the lag s by a contact of finite duration."""
         asymmetry = (1 - self.restitution) / (1 + self.restitution)
-        return self.contact_phase * asymmetry - 2 * self.contact_damping * self.contact
+        return self.contact_phase * asymmetry - 2 * damping_ratio(self.restitution) * self.contact
 
     @property
     def largest_impulse(self):
@@ -140,7 +135,7 @@ def flight_of(oscillator, damper, frequency) -> Flight:
     return Flight(
         damper.mass_ratio,
         damper.restitution,
-        frequency / np.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio)),
+        frequency / natural_frequency(damper),
         oscillator.damping / frequency,
         oscillator.linear_frequency / frequency,
     )
