@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.stats import qmc
 
 import impact_damper as idm
 from impact_damper.data.datasets import flag
@@ -51,6 +52,21 @@ EXTREMES += [
     for each in parameters_in(idm.Oscillator)
     for bound in ("least", "most")
     if each.name not in _NAMED
+]
+
+
+# Ends of the ranges of parameters that are extreme together.
+TOGETHER = {
+    "mass_ratio": (1e-3, 1.0),
+    "clearance": (1e-3, 1e3),
+    "restitution": (0.05, 1.0),
+    "contact_stiffness": (1.0, 1e5),
+    "damping": (1e-5, 0.5),
+}
+_LEAST, _MOST = np.log(list(TOGETHER.values())).T
+_LEVELS = np.clip(1.5 * qmc.LatinHypercube(len(TOGETHER), rng=18).random(16) - 0.25, 0, 1)
+EXTREMES += [
+    dict(zip(TOGETHER, row, strict=True)) for row in np.exp(_LEAST + (_MOST - _LEAST) * _LEVELS)
 ]
 
 

