@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -24,3 +25,18 @@ def copy_of_project(folder):
         copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
         copy(ROOT / part, folder / part)
     return folder
+
+
+@contextmanager
+def edits(folder):
+    """Give a function that edits a file of a folder, and restore all files at the end."""
+    originals = {}
+
+    def change(name, edited):
+        path = folder / name
+        originals[path] = path.read_text()
+        path.write_text(edited(originals[path]))
+
+    yield change
+    for path, text in originals.items():
+        path.write_text(text)

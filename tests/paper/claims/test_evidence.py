@@ -179,16 +179,3 @@ def test_runs_that_could_arrive_by_the_better_way(within, by_hold, expected, dat
     values = BY_NUMBER["14"].evidence(data)
     assert values["worst"] == 1.7 and values["best"] == pytest.approx(max(within, by_hold or 0))
     assert BY_NUMBER["14"].verdict(values) == expected
-
-
-@pytest.mark.parametrize(("third", "expected"), [(11, REPRODUCED), (9, NOT_REPRODUCED)])
-def test_early_releases_reach_period_3(third, expected, data):
-    """Of 1000 early releases `third` lead to period 3 and 500 back to resonance."""
-    case = data["migration"]["figure_16"].copy(deep=True)
-    counts = {"subharmonic": third, "resonance": 500, "non_resonance": 500 - third}
-    for motion, count in counts.items():
-        case.destination_count.loc[{"damped_motion": "unsettled", "free_motion": motion}] = count
-    data["migration"]["figure_16"] = case
-    values = BY_NUMBER["19"].evidence(data)
-    assert values["early"] == pytest.approx(third / 1000)
-    assert BY_NUMBER["19"].verdict(values) == expected

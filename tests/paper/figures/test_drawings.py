@@ -139,15 +139,6 @@ DRAWINGS = {
     ),
     "branches": (lambda: draw_branches(**DAMPED), []),
     "shares": (lambda: draw_shares(response=[matched_sweep(), matched_sweep()]), []),
-    "inelastic": (
-        lambda: draw_response(
-            response=[response(restitution=0.75), response()],
-            harmonic_balance=[balance()],
-            subharmonic=[response()],
-            branches=[orbits(restitution=0.75), orbits(), FREE],
-        ),
-        FREE_ROLES + BALANCE_ROLES + [*STATUSES, "unstable_orbit"],
-    ),
     "motion": (lambda: draw_motion(motion=[motion()]), []),
     "optimum": (
         lambda: draw_optimum(optimum=[sweep(0.215, 0.12), sweep(0.215, 0.18)]),
@@ -204,18 +195,17 @@ def test_axes_are_labelled_and_the_drawing_is_as_wide_as_a_column(drawing):
 
 def looks(drawn, labels):
     """Return what distinguishes each line without its colour, by its label."""
-    found = {}
-    for line in drawn.axes[0].lines:
-        if line.get_label() in labels:
-            hollow = line.get_markerfacecolor() == "none"
-            found[line.get_label()] = (
-                line.get_linestyle(),
-                str(line._unscaled_dash_pattern[1]),
-                line.get_marker(),
-                hollow,
-                line.get_linewidth() > 2,
-            )
-    return found
+    return {
+        line.get_label(): (
+            line.get_linestyle(),
+            str(line._unscaled_dash_pattern[1]),
+            line.get_marker(),
+            line.get_markerfacecolor() == "none",
+            line.get_linewidth() > 2,
+        )
+        for line in drawn.axes[0].lines
+        if line.get_label() in labels
+    }
 
 
 def test_what_differs_in_colour_differs_in_grey_too():
@@ -230,14 +220,3 @@ def test_the_stored_run_is_drawn_with_its_own_switchings():
     whole, part = draw_migration(migration=[migration()]).axes
     assert [patch.get_x() for patch in whole.patches] == [0, 120]
     assert part.get_xlim()[0] < 180 < part.get_xlim()[1]
-
-
-def test_of_the_subharmonic_runs_only_periods_of_three_are_drawn():
-    """The other motions of the runs are in the response too, and would be drawn twice."""
-    made = {"response": [response()], "harmonic_balance": [balance()]}
-    without, added = (
-        draw_response(**made, subharmonic=subharmonic, **DAMPED).axes[0].lines
-        for subharmonic in ([], [response()])
-    )
-    (new,) = added[len(without) :]
-    assert new.get_marker() == ROLES["subharmonic_damped"]["marker"]

@@ -51,26 +51,15 @@ def drawing():
         yield drawn
 
 
-def test_every_class_is_named(drawing):
+def test_every_flag_has_a_name_and_a_look_of_its_own(drawing):
     for legend, classes in zip(drawing.legends, (QUIET, VIOLENT), strict=True):
         words = [text.get_text() for text in legend.get_texts() if text.get_text()]
         assert {label for label, _, _ in classes.values()} <= set(words)
         assert len(set(words)) == len(words)
-
-
-def test_classes_have_names_for_all_flags_and_looks_of_their_own():
     for classes, name in ((QUIET, "quiet_verdict"), (VIOLENT, "high_verdict")):
         flags = VARIABLES[name].flags
         assert set(classes) == set(flags)
         assert len({(color, hatch) for _, color, hatch in classes.values()}) == len(flags)
-
-
-def test_ends_of_the_map_are_not_ends_of_the_orbit(drawing):
-    quiet, _ = drawing.axes
-    shown = [line.get_xdata() for line in quiet.lines if np.size(line.get_xdata()) == 3]
-    lower, upper, rigid = shown
-    assert np.isfinite(lower).all() and np.isnan(upper).all()
-    assert rigid[0] == 0.9
 
 
 def study(frequencies, restitutions):

@@ -95,9 +95,8 @@ def test_models_of_the_orbit_have_errors_in_the_expected_order(inelastic):
     }
     assert errors["shooting"] < 1e-8 < errors["rigid_mended"] < errors["rigid"]
     assert errors["rigid"] < errors["many_harmonics"]
-    assert (
-        of(inelastic, "full_balance")["run_status"] == flag("run_status", "not_applicable")
-    ).all()
+    status = of(inelastic, "full_balance")["run_status"]
+    assert (status == flag("run_status", "not_applicable")).all()
 
 
 def test_contacts_near_grazing_are_missed_by_methods_that_check_the_ends_of_steps():

@@ -12,7 +12,6 @@ from impact_damper.model.settling import Settling
 from impact_damper.motions.response import steady_motion
 from impact_damper.motions.simulate import simulate
 from impact_damper.theory.design_rule import peak_frequency
-from impact_damper.theory.free_oscillator import free_folds
 
 FIXED = {"damping": 0.215, "mass_ratio": 0.12, "clearance": 2.0}
 RATIOS = np.linspace(0.4, 1.2, 9)
@@ -48,13 +47,6 @@ def test_displacement_is_that_of_a_simulation(over_restitution):
     motion = simulate(PAPER, damper, frequency, steady["state"].values, **begin)
     found = float(over_restitution["quiet_orbit_displacement"][row, column])
     assert np.abs(motion["displacement"].values).max() == pytest.approx(found, rel=1e-5)
-
-
-def test_free_resonance_is_followed_to_its_end_only(over_restitution):
-    end = free_folds(PAPER)[-1].frequency
-    frequency = np.tile(RATIOS * peak_frequency(PAPER), (3, 1))
-    missing = names(over_restitution, "high_run_motion") == "not_run"
-    assert np.array_equal(missing, frequency > end)
 
 
 def test_counts_add_up(over_restitution):

@@ -20,13 +20,10 @@ def test_verdicts_follow_from_the_restitution():
     error = np.abs(found["realised_restitution"] / restitutions - 1)
     verdict = found["contact_verdict"]
     assert np.array_equal(verdict == flag("contact_verdict", "close"), error <= 0.01)
-    assert np.array_equal(
-        verdict == flag("contact_verdict", "fair"), (error > 0.01) & (error <= 0.05)
-    )
-    stays = np.isin(
-        verdict, [flag("contact_verdict", each) for each in ("falls_back", "no_release")]
-    )
-    assert np.array_equal(np.isnan(found["realised_restitution"]), stays)
+    fair = (error > 0.01) & (error <= 0.05)
+    assert np.array_equal(verdict == flag("contact_verdict", "fair"), fair)
+    stays = [flag("contact_verdict", each) for each in ("falls_back", "no_release")]
+    assert np.array_equal(np.isnan(found["realised_restitution"]), np.isin(verdict, stays))
     middle = len(loads) // 2
     assert loads[middle] == 0
     assert (verdict[0, middle] == flag("contact_verdict", "close")).all()

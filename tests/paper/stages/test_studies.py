@@ -83,11 +83,10 @@ def test_chunks_come_back_to_their_cells_however_they_are_cut(tmp_path):
         lambda paths, folder: paths[::-1],
         lambda paths, folder: [paths[0], paths[2]],
         lambda paths, folder: paths[:2],
-        lambda paths, folder: [*paths, paths[2]],
         lambda paths, folder: [*paths[:2], saved(folder / "b", (2, 3, 2, 1), [8, 12], seed=8)[0]],
         lambda paths, folder: [*paths[:2], saved(folder / "b", (2, 3, 1, 2), [8, 12])[0]],
     ],
-    ids=["out of order", "one lost", "last lost", "one twice", "other parameters", "other grid"],
+    ids=["out of order", "one lost", "last lost", "other parameters", "other grid"],
 )
 def test_chunks_that_do_not_make_a_study_are_told(spoil, tmp_path):
     paths = spoil(saved(tmp_path, (2, 3, 2, 1), [0, 4, 8, 12]), tmp_path)

@@ -4,11 +4,13 @@ import numpy as np
 import pandas as pd
 import pytest
 from helpers.made_up import policies, world
+from helpers.made_up_design import made_up_design
 from helpers.made_up_orbits import branch, branches
 
 from chatterjee1995.tables import balance, clearance, migration, responses
 from chatterjee1995.tables import branches as table_branches
 from chatterjee1995.tables.files import save_table
+from chatterjee1995.tables.machines import machines
 from impact_damper.data.datasets import flag
 
 
@@ -67,18 +69,13 @@ def test_an_end_that_is_left_open_has_its_reason():
     assert table["one end"]["left"].startswith("left among unstable orbits, since")
 
 
-def test_motions_without_contact_are_told_from_others(data):
-    case = data["migration"]["figure_16"]
-    data["migration"]["figure_16"] = case.assign(damped_contacts=("damped", [np.nan, 0.0]))
-    table = migration.migration(data).set_index("case")
-    assert list(table["released from"]["figure_16"]) == ["unsettled", "quiet, without contact"]
-    assert list(table["released from"]["figure_13"]) == ["unsettled", "quiet"]
-
-
 def test_migration(data):
-    table = migration.migration(data)
-    assert len(table) == 2 * len(data["migration"])
-    row = table[(table.case == "figure_15") & (table["released from"] == "quiet")].iloc[0]
+    case = data["migration"]["figure_16"].assign(damped_contacts=("damped", [np.nan, 0.0]))
+    cases = data["migration"] | {"figure_16": case}
+    table = migration.migration({"migration": cases}).set_index(["case", "released from"])
+    assert len(table) == 2 * len(cases)
+    assert set(table.loc["figure_16"].index) == {"unsettled", "quiet, without contact"}
+    row = table.loc["figure_15", "quiet"]
     assert row["share to the subharmonic"] == 0.5
     assert row["runs that arrive"] == 1
     assert row["median time [cycles]"] == pytest.approx(150)
@@ -116,3 +113,25 @@ def test_files(tmp_path):
     save_table(table, csv, markdown)
     assert csv.read_bytes() == b"name,number,count\na|b,0.333333,10\nc,,2000000\n"
     assert markdown.read_text().splitlines()[2].split() == r"| a\|b | 0.3333 | 10 |".split()
+
+
+def test_a_row_of_a_machine_states_what_to_build_and_what_it_promises():
+    def row(**changed):
+        made = {"made_up": made_up_design(**changed)}
+        return machines({"machines": made}).to_dict("records")[0]
+
+    assert row() == {
+        "machine": "made_up",
+        "loose mass [kg]": 0.6,
+        "band [Hz]": "26 to 34",
+        "gap, full play [mm]": "7 ± 10 %",
+        "advice": "build it",
+        "largest displacement without damper [mm]": 10.0,
+        "promised displacement [mm]": 1.0,
+        "promised for the share of starts": 0.95,
+        "largest with the best tuned absorber [mm]": 0.5,
+        "largest with this absorber detuned by 10 % [mm]": 0.6,
+    }
+    other = row(decision="do_not_build", promised_displacement=np.inf)
+    assert other["advice"] == "do not build it"
+    assert other["promised displacement [mm]"] == "escapes"

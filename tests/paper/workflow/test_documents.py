@@ -1,7 +1,9 @@
-"""The documents name every stage, and only files that exist."""
+"""Documents name every stage and only files that exist; the environment of jobs is complete."""
 
 import re
+import tomllib
 
+import yaml
 from helpers.running import ROOT
 
 from chatterjee1995.sections.registry import STAGES
@@ -19,3 +21,18 @@ def test_the_walk_throughs_name_files_that_exist():
     assert len(named) > 10
     # `quintic` is an example of a parameter that does not exist.
     assert not [name for name in named if not (ROOT / name).exists() and "quintic" not in name]
+
+
+def bounds(lines):
+    """Return the lower bound of each package, by its name in lower case."""
+    found = dict(re.match(r"([\w-]+) *>=(.*)", line).groups() for line in lines)
+    return {name.lower().replace("-", "_"): bound for name, bound in found.items()}
+
+
+def test_the_environment_of_jobs_has_the_packages_of_the_project():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    listed = project["dependencies"] + project["optional-dependencies"]["workflow"]
+    wanted = bounds(listed) | {"python": project["requires-python"].removeprefix(">=")}
+    given = yaml.safe_load((ROOT / "workflow/envs/impact-damper.yaml").read_text())
+    del wanted["snakemake"]  # it runs the jobs, and is no part of their environment
+    assert bounds(given["dependencies"]) == wanted

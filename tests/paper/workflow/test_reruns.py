@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import yaml
 from helpers import configurations
-from helpers.running import ROOT, copy_of_project, snakemake
+from helpers.running import ROOT, copy_of_project, edits, snakemake
 from netCDF4 import Dataset
 
 from chatterjee1995.sections import selection
@@ -90,17 +90,8 @@ def config(project):
 
 @pytest.fixture
 def edit(project):
-    """Return a function that changes the text of a file until the test ends."""
-    originals = {}
-
-    def change(name, text):
-        path = project / name
-        originals.setdefault(path, path.read_text())
-        path.write_text(text)
-
-    yield change
-    for path, text in originals.items():
-        path.write_text(text)
+    with edits(project) as change:
+        yield change
 
 
 def to_do(project):
@@ -127,7 +118,7 @@ def test_an_edit_of_values_concerns_what_reads_them(project, edit, config):
     for (*path, value), *jobs in VALUES:
         edited = configurations.changed(edited, path, value)
         concerned.update(jobs)
-    edit("config/config.yaml", yaml.safe_dump(edited, sort_keys=False))
+    edit("config/config.yaml", lambda _: yaml.safe_dump(edited, sort_keys=False))
     planned, known = to_do(project)
     assert planned == matching(known, concerned)
 
@@ -135,7 +126,7 @@ def test_an_edit_of_values_concerns_what_reads_them(project, edit, config):
 def test_an_edit_of_files_concerns_what_runs_them(project, edit):
     """The edits concern a table, claims, a template, and modules of one and of several stages."""
     for path in FILES:
-        edit(path, (project / path).read_text() + "\n")
+        edit(path, lambda text: text + "\n")
     planned, known = to_do(project)
     assert planned == matching(known, set().union(*FILES.values()))
 
@@ -171,7 +162,8 @@ def test_touched_files_comments_and_order_rerun_nothing(project, edit, config):
             return value
         return {key: turned(part) for key, part in reversed(value.items())}
 
-    edit("config/config.yaml", f"# A word.\n{yaml.safe_dump(turned(config), sort_keys=False)}")
+    again = f"# A word.\n{yaml.safe_dump(turned(config), sort_keys=False)}"
+    edit("config/config.yaml", lambda _: again)
     marker = project / "results/kernels.compiled"
     text = marker.read_text()
     marker.unlink()

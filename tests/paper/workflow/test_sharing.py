@@ -6,7 +6,7 @@ import json
 import pytest
 import yaml
 from helpers import configurations
-from helpers.running import ROOT, copy_of_project, snakemake
+from helpers.running import ROOT, copy_of_project, edits, snakemake
 from netCDF4 import Dataset
 
 from chatterjee1995.workflow import job
@@ -68,17 +68,8 @@ def shared(tmp_path_factory):
 
 @pytest.fixture
 def edit(shared):
-    """Edit a file of the second checkout until the test ends."""
-    originals = {}
-
-    def change(name, edited):
-        path = shared[1] / name
-        originals[path] = path.read_text()
-        path.write_text(edited(originals[path]))
-
-    yield change
-    for path, text in originals.items():
-        path.write_text(text)
+    with edits(shared[1]) as change:
+        yield change
 
 
 def test_a_checkout_takes_what_another_computed(shared):
