@@ -38,7 +38,7 @@ def test_rigid_walls_are_the_limit_of_stiff_contacts(restitution, mass, gap, fre
     for stiffness in STIFFNESSES:
         p = pack(LINEAR, replace(damper, contact_stiffness=stiffness), frequency)
         orbit = _symmetric(p, state, phase)
-        multiplier = np.max(np.abs(np.linalg.eigvals(orbit.root)))
+        multiplier = np.max(np.abs(np.linalg.eigvals(orbit.matrix)))
         found.append((orbit.record["maximum_displacement"], multiplier))
     published = np.array([motion.displacement, abs(motion.multipliers[0])])
     known = slice(None) if motion.stable else slice(1)
@@ -53,7 +53,7 @@ def _symmetric(p, state, phase):
     """Return the symmetric orbit near a state, by Newton's method."""
     for _ in range(15):
         orbit = shoot(p, state, 1, phase, symmetric=True)
-        state = state + np.linalg.solve(np.eye(4) - orbit.root, orbit.defects[0])
+        state = state + np.linalg.solve(np.eye(4) - orbit.matrix, orbit.defects[0])
     assert orbit.residual < 1e-9 * np.max(np.abs(state))
     return orbit
 

@@ -70,11 +70,11 @@ def design(
 
     A design takes minutes. The same command continues an interrupted design.
     """
+    from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.design_damper import design_damper
 
     given = read(machine_file)
-    values = asked(given) | promised(given, workers)
-    decide = partial(design_damper, machine(given), **values)
+    decide = partial(design_damper, machine(given), **design_arguments(given, workers))
     answer(decide, machine(given), machine_file, output / "design.nc", force, as_json)
 
 
@@ -91,10 +91,13 @@ def evaluate(
 
     The answer and its tests are those of `impact-damper design`.
     """
+    from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.design_damper import evaluate_damper
 
     given = read(machine_file)
-    values = {key: asked(given)[key] for key in ("band", "absorber")} | promised(given, workers)
+    names = ("band", "share", "tolerances", "absorber", "displacement_limit", "effort")
+    values = design_arguments(given, workers)
+    values = {name: values[name] for name in names}
     decide = partial(evaluate_damper, machine(given), damper(given, gap), **values)
     answer(decide, machine(given), machine_file, output / "evaluation.nc", force, as_json)
 
@@ -187,10 +190,7 @@ def response(
 
 
 def different(sizes, alike=1e-4):
-    """Return ascending sizes that differ, each with the places of the motions that have it.
-
-    A motion and its mirror image have the same size.
-    """
+    """Return ascending sizes that differ, each with the places of its motions (mirror images)."""
     found = []
     for place in sorted(range(len(sizes)), key=lambda i: sizes[i]):
         if not found or sizes[place] > found[-1][0] * (1 + alike):
@@ -209,22 +209,17 @@ def migrate(
     """Find gaps with which a release of the damper leads to the small motion of the machine."""
     import numpy as np
 
+    from impact_damper.command.machine_file import design_arguments
     from impact_damper.data.datasets import save
     from impact_damper.design.migration import migration
-    from impact_damper.design.task import Effort
     from impact_damper.plot.migration_map import migration_map
     from impact_damper.plot.style import save_figure
 
     given = read(machine_file)
-    effort = {key: given[key] for key in ("candidates", "starts")}
-    values = {key: value for key, value in asked(given).items() if key != "absorber"}
-    found = migration(
-        machine(given),
-        **values,
-        share=given["share"],
-        effort=Effort(frequencies=given["band"]["points"], workers=workers, **effort),
-        progress=None if as_json else "Releases",
-    )
+    values = design_arguments(given, workers)
+    for name in ("tolerances", "absorber", "displacement_limit"):
+        del values[name]
+    found = migration(machine(given), **values, progress=None if as_json else "Releases")
     output.mkdir(parents=True, exist_ok=True)
     save(found, output / "migration.nc")
     save_figure(migration_map(found), output / "migration")
@@ -290,22 +285,8 @@ def machine(given):
     return Machine(**given["machine"])
 
 
-def promised(given, workers):
-    """Return tolerances, limit, share and effort of a file's content, arguments of a design."""
-    from impact_damper.design.task import Effort
-
-    effort = {key: given[key] for key in ("candidates", "starts")}
-    return {key: given.get(key) for key in ("share", "tolerances", "displacement_limit")} | {
-        "effort": Effort(frequencies=given["band"]["points"], workers=workers, **effort)
-    }
-
-
 def answer(decide, made, machine_file, file, force, as_json):
-    """Compute a design or an evaluation, keep it in a file with its page, and tell the answer.
-
-    The folder is checked first, and finished steps are kept in it. Progress bars are shown on a
-    terminal only.
-    """
+    """Compute a design or an evaluation, keep it in a file with its page, and tell the answer."""
     from impact_damper.command.folders import check_folder
     from impact_damper.data.datasets import decode, save
     from impact_damper.model.machine import describe_si
@@ -325,38 +306,20 @@ def answer(decide, made, machine_file, file, force, as_json):
     )
     numbers = {f"{name}_mm": float(found[name]) for name in sizes}
     numbers |= {name: decode(found[name]).item() for name in ("decision", "limit_status")}
-    numbers |= {
-        "conclusion": words,
-        "page": str(page),
-        "data": str(file),
-    }
+    numbers |= {"conclusion": words, "page": str(page), "data": str(file)}
     tell(as_json, [*words, f"The page: {page}"], numbers)
-
-
-def hertz_contact(given):
-    """Return the contact after Hertz's theory, or None if the file has no key `contact`."""
-    from impact_damper.model.hertz import HertzContact
-
-    ball = given.get("contact")
-    return HertzContact(**ball) if ball else None
-
-
-def asked(given):
-    """Return mass, restitution, contact, band and absorber of a file, arguments of a design."""
-    values, band = dict(given["damper"]), given["band"]
-    stiffness = values.pop("contact_stiffness", None)
-    contact = hertz_contact(given) or stiffness
-    values |= {"contact": contact, "band": (band["first"], band["last"])}
-    return values | {"absorber": given.get("absorber")}
 
 
 def damper(given, gap):
     """Return the damper with a gap, and the stiffness of the contact as in a design, or None."""
+    from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.task import Task
 
     if gap is None:
         return None
-    task = Task(machine=machine(given), **asked(given), gap=quantity(gap))
+    values = design_arguments(given)
+    values = {name: values[name] for name in ("mass", "restitution", "contact", "band")}
+    task = Task(machine=machine(given), **values, gap=quantity(gap))
     return task.damper(task.gap)
 
 

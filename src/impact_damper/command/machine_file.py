@@ -186,7 +186,10 @@ class MachineEntry(Section):
             return
         try:
             if not lacking:
-                task = self._task(machine)
+                from impact_damper.design.task import Task
+
+                arguments = design_arguments(self.model_dump(exclude_none=True))
+                task = Task(machine=machine, **arguments)
                 if self.damper.inclination is not None:
                     task.check_inclination(self.damper.inclination)
         except (TypeError, ValueError) as error:
@@ -209,25 +212,25 @@ class MachineEntry(Section):
             reason = "needed here, or radius and material of a ball under contact in its place"
             yield missing((*path, "damper", "contact_stiffness"), reason)
 
-    def _task(self, machine):
-        """Return the task of the design; its modules are imported here because they load SciPy."""
-        from impact_damper.design.task import Effort, Task
 
-        ball = self.contact.values()
-        return Task(
-            machine=machine,
-            mass=self.damper.mass,
-            restitution=self.damper.restitution,
-            contact=HertzContact(**ball) if ball else self.damper.contact_stiffness,
-            band=(self.band.first, self.band.last),
-            share=self.share,
-            tolerances=self.tolerances.values(),
-            absorber=self.absorber.values() or None,
-            displacement_limit=self.displacement_limit,
-            effort=Effort(
-                frequencies=self.band.points, candidates=self.candidates, starts=self.starts
-            ),
-        )
+def design_arguments(content, workers=1) -> dict:
+    """Return the arguments of `design_damper` in the content of a file, without the machine."""
+    # Imported here because it loads SciPy.
+    from impact_damper.design.task import Effort
+
+    damper, ball, band = content["damper"], content.get("contact"), content["band"]
+    effort = {key: content[key] for key in ("candidates", "starts")}
+    return {
+        "mass": damper["mass"],
+        "restitution": damper["restitution"],
+        "contact": HertzContact(**ball) if ball else damper.get("contact_stiffness"),
+        "band": (band["first"], band["last"]),
+        "share": content["share"],
+        "tolerances": content["tolerances"],
+        "absorber": content.get("absorber") or None,
+        "displacement_limit": content.get("displacement_limit"),
+        "effort": Effort(frequencies=band["points"], workers=workers, **effort),
+    }
 
 
 class _Loader(LOADER):
@@ -273,5 +276,4 @@ def read_machine_file(path) -> dict:
     problems = list(entry.contradictions((), None))
     if problems:
         raise ConfigurationError("\n".join(problems))
-    content["damper"] = {key: x for key, x in content["damper"].items() if key != "inclination"}
     return content

@@ -40,9 +40,9 @@ def variable(name, data, dims=None) -> xr.Variable:
     return xr.Variable(entry.dims if dims is None else dims, data, attributes)
 
 
-def shown_variable(name, values, dims=None):
+def shown_variable(name, values):
     """Return a registered variable with values in mm, or in the SI unit of another kind."""
-    found = variable(name, values, dims)
+    found = variable(name, values)
     found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
     return found
 
@@ -50,9 +50,7 @@ def shown_variable(name, values, dims=None):
 def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
     """Return a dataset of registered variables, in SI units if the `model` is a machine.
 
-    `data` and `coordinates` hold dimensionless arrays by registered name, or pairs (dims, array)
-    with other dimensions than the registered ones. `parameters`, from which the data were computed,
-    are stored as a JSON attribute.
+    `data` and `coordinates` hold dimensionless arrays by registered name, or pairs (dims, array).
     """
 
     def labelled(items):
@@ -83,9 +81,8 @@ def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
 def in_si(data, machine, damper=None) -> xr.Dataset:
     """Return a dataset of the dimensionless equations in the units of a machine.
 
-    Displacements are in mm, states in m and m/s so that functions accept them; clearances are on
-    each side. The attribute `machine` holds machine and damper in SI units, with the full play
-    `gap`; `parameters` stay dimensionless.
+    Displacements are in mm, but states in m and m/s so that functions accept them. The attribute
+    `machine` holds machine and damper in SI units; `parameters` stay dimensionless.
     """
     scales = machine.scales
     found = _converted(data, lambda values, unit: values * unit, scales)
@@ -234,29 +231,15 @@ def has_damper(data) -> bool:
 
 def save(data, path) -> None:
     """Write a dataset to NetCDF with the attributes of `seal`; the file appears when complete."""
+    whole_numbers = [name for name in data.data_vars if data[name].dtype.kind in "iub"]
+    encoding = {name: {"_FillValue": None} for name in (*data.coords, *whole_numbers)}
     with whole_netcdf(path) as part:
-        write(data.assign_attrs(seal(data.variables, path)), part)
-
-
-def write(data, path) -> None:
-    """Write a dataset to a NetCDF file `path` directly, without the protection of `save`."""
-    encoding = {name: {"_FillValue": None} for name in data.coords}
-    encoding |= {
-        name: {"_FillValue": None} for name in data.data_vars if data[name].dtype.kind in "iub"
-    }
-    data.to_netcdf(path, engine="netcdf4", encoding=encoding)
+        sealed = data.assign_attrs(seal(data.variables, path))
+        sealed.to_netcdf(part, engine="netcdf4", encoding=encoding)
 
 
 def load(path) -> xr.Dataset:
-    """Read a dataset into memory and close the file, so that it can be overwritten.
-
-    Raises
-    ------
-    FileNotFoundError
-        If the file does not exist.
-    BrokenFileError
-        If `save` did not write this file under this path.
-    """
+    """Read a dataset that `save` wrote under this path, else raise BrokenFileError."""
     check_length(path)
     try:
         data = xr.load_dataset(path, engine="netcdf4")
@@ -276,11 +259,7 @@ def load(path) -> xr.Dataset:
 
 
 def seal(variables, path) -> dict:
-    """Return the attributes by which `load` detects that a file was replaced or damaged.
-
-    These are `id`, the names of folder and file, and `sha256` of the variables, a dictionary;
-    variables of an open file are read in pieces.
-    """
+    """Return the attributes by which `load` detects that a file was replaced or damaged."""
     path = Path(path).absolute()
     return {"id": f"{path.parent.name}/{path.stem}", "sha256": _digest(variables)}
 

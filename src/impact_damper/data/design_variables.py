@@ -2,6 +2,9 @@
 
 from impact_damper.data.variables import STABILITY, register
 
+# Gaps around the chosen one keep the promised displacement up to the factor KEEPS. A damper that
+# takes less than the share WORTH off the largest displacement is not worth building.
+KEEPS, WORTH = 1.1, 0.25
 # Why a quiet orbit ceases to be stable.
 ENDS = {
     "no_orbit": -1,
@@ -24,8 +27,7 @@ detuning | detuning | | | fraction by which the absorber's springs are stiffer t
 force_share | force_share | | | factor of the machine's excitation
 competitor_displacement | competitor detuning frequency force_share | displacement | | largest
   displacement of the machine
-competitor_status | competitor | | | whether the displacements are exact, for a linear machine, or
-  the balance of one harmonic
+competitor_status | competitor | | | whether the displacements are exact (linear) or of one harmonic
   : not_possible -1, exact 0, one_harmonic 1
 absorber_stiffness | competitor detuning | stiffness | | stiffness of the absorber's spring
 absorber_damping | competitor detuning | damping | | coefficient of the absorber's dashpot
@@ -52,12 +54,9 @@ record_status | | | | whether records of motions that do not settle still grew b
   : known 0, still_grows 1
 largest_bare_displacement | | displacement | | largest displacement without damper over the band
 largest_bare_frequency | | frequency | | frequency of the largest displacement without damper
-tuned_displacement | | displacement | | largest displacement over the band with a tuned absorber of
-  the same mass
-detuned_displacement | | displacement | | largest displacement over the band with this absorber
-  detuned by 10 per cent
-own_absorber_displacement | | displacement | | largest displacement over the band with
-  the absorber given
+tuned_displacement | | displacement | | largest displacement with a tuned absorber of this mass
+detuned_displacement | | displacement | | the same with this absorber detuned by 10 per cent
+own_absorber_displacement | | displacement | | largest displacement with the absorber given
 least_ratio | | | | least displacement with the damper divided by the one without it, over the band
 worst_ratio | | | | greatest displacement with the damper divided by the one without it
 worst_ratio_frequency | | frequency | | frequency of worst_ratio
@@ -76,19 +75,14 @@ promise_factor | factor_set varied | | | value divided by the nominal one; the f
 promise_frequency | promise_frequency | frequency | | forcing frequency of the confirmation
 promise_displacement | factor_set promise_frequency | displacement | | displacement below which the
   machine stays from a share of the starts; NaN where the frequency was not run
-promise_bare_displacement | promise_frequency | displacement | | largest displacement without
-  damper
+promise_bare_displacement | promise_frequency | displacement | | largest displacement without damper
 unsettled_share | promise_frequency | | | share of motions at nominal values that do not settle
-  to an orbit
 settling_late | promise_frequency | | | cycles in which 95 % of the motions that settle have settled
 # search
 searched_gap | searched | displacement | | gap of the search
-searched_displacement | searched | displacement | | largest displacement of the starts over some
-  frequencies
-searched_tolerated | searched | displacement | | largest of searched_displacement within the
-  tolerance of the gap
-candidate_gap | candidate | displacement | | middle of a range of nominal gaps that do nearly as
-  well as the best
+searched_displacement | searched | displacement | | largest displacement of the starts
+searched_tolerated | searched | displacement | | largest displacement within the gap tolerance
+candidate_gap | candidate | displacement | | middle of a range of gaps nearly as good as the best
 candidate_end | candidate side | displacement | | ends of this range
 candidate_displacement | candidate | displacement | | least of searched_tolerated in this range
 # additions
@@ -97,8 +91,7 @@ addition_status | addition | | | whether it was computed
   : computed 0, failed 1
 branch_frequency | | frequency | | frequency at which the quiet orbit is followed
 gap_of_orbit | gap_point | displacement | | gap of an orbit
-displacement_by_gap | gap_point | displacement | | largest displacement of the orbit at
-  gap_of_orbit
+displacement_by_gap | gap_point | displacement | | largest displacement of the orbit
 modulus_by_gap | gap_point | | | modulus of the largest multiplier of the orbit at gap_of_orbit
 stability_gap | side | displacement | | gap at which the quiet orbit ceases to be stable
 stability_gap_event | side | | | why the quiet orbit ceases to be stable at stability_gap
@@ -122,11 +115,9 @@ ring_status | equipment | | | how the unforced decay ended
   : escaped 1, at_rest 2, limit 3
 sweep_frequency | direction sweep_window | frequency | | forcing frequency
 # motions of the design
-motion_rms | frequency | displacement | | r.m.s. displacement of the largest motion that starts
-  lead to
+motion_rms | frequency | displacement | | r.m.s. displacement of the largest motion
 motion_peak_high | frequency | displacement | | 95th percentile of the peaks of this motion
-reached_displacement | frequency | displacement | | largest displacement of all motions that
-  starts lead to
+reached_displacement | frequency | displacement | | largest displacement that starts lead to
 untouched_displacement | frequency | displacement | | largest displacement of a motion in which
   the loose mass touches no wall and to which no random start leads
 impact_rate_by_frequency | frequency | rate | | impacts per time
@@ -149,8 +140,7 @@ migration_bound | released_gap released_frequency | time | | time within which t
 migration_status | released_gap released_frequency | | | whether the required share of releases lead
   to the small motion
   : one_motion -1, not_sure 0, sure 1
-sure_frequency | released_gap | frequency | | lowest frequency from which releases are sure at all
-  higher ones with two motions
+sure_frequency | released_gap | frequency | | lowest frequency from which on releases are sure
 migration_gap | | displacement | | gap with the lowest sure_frequency
 migration_required | | | | share of releases that is required
 migration_offer | | | | whether releases of the damper may help where it is not worth building

@@ -42,10 +42,8 @@ time | time | time | T | time
 # state
 displacement | time | displacement | Z1 | displacement of the primary mass
 velocity | time | velocity | Z1' | velocity of the primary mass
-relative_displacement | time | displacement | Z2 | displacement of the primary mass relative to
-  the loose mass
-relative_velocity | time | velocity | Z2' | velocity of the primary mass relative to the loose
-  mass
+relative_displacement | time | displacement | Z2 | displacement relative to the loose mass
+relative_velocity | time | velocity | Z2' | velocity relative to the loose mass
 # motions
 component | component | | | component of the state
 state | component | state | | state of the motion at the phase Omega T = pi/2
@@ -54,16 +52,14 @@ contact_wall | contact | | | wall of a contact, -1 or 1
 contact_begin | contact | time | | beginning of a contact
 contact_end | contact | time | | end of a contact
 approach_velocity | contact | velocity | Z2' | relative velocity at the beginning of a contact
-escape_time | | time | T | time of the first sample after the motion has escaped over a barrier,
-  or NaN
+escape_time | | time | T | time of the first sample beyond a barrier, or NaN
 departure_velocity | contact | velocity | Z2' | relative velocity at the end of a contact
 outcome | frequency motion | | | outcome of the motion
   : OUTCOME
 period | frequency motion | | n | period of the motion in cycles
 contacts | frequency motion | | | contacts begun per cycle
 maximum_displacement | frequency motion | displacement | max |Z1| | largest displacement
-asymmetry | frequency motion | mixed | | distance of the motion from its mirror image half a
-  period later
+asymmetry | frequency motion | mixed | | distance from the mirror image half a period later
 phase_relative | frequency motion | angle | | phase of Z1 minus phase of Z2, first harmonics
 phase_loose | frequency motion | angle | | phase of Z1 minus phase of Z1 - Z2, first harmonics
 multiplier_real | frequency motion | | | dominant Floquet multiplier, real part
@@ -71,27 +67,21 @@ multiplier_imaginary | frequency motion | | | dominant Floquet multiplier, imagi
 residual | frequency motion | mixed | | distance between the state and the state a period later
 lyapunov_exponent | frequency motion | rate | | largest Lyapunov exponent per unit time
 lyapunov_error | frequency motion | rate | | standard error of the largest Lyapunov exponent
-first_frequency | frequency motion | frequency | | first frequency of a quasi-periodic motion, the
-  forcing frequency divided by the number of closed curves of the strobe states
-second_frequency | frequency motion | frequency | | second frequency of a quasi-periodic motion,
-  at most half of the first
+first_frequency | frequency motion | frequency | | first frequency of a quasi-periodic motion
+second_frequency | frequency motion | frequency | | second frequency of a quasi-periodic motion
 frequency_error | frequency motion | frequency | | difference of the second frequency between the
   halves of the run
 periods_run | frequency motion | | | cycles run before the motion settled
 # frequency responses
-branch | frequency motion | | | number of the branch on which a motion lies, the same at all
-  values of the sweep
+branch | frequency motion | | | number of the branch of a motion over the sweep
 motion_starts | frequency motion | | | number of random starts that lead to the motion
-share_lower | frequency motion | | | share of random starts that lead to the motion, lower end of
-  its 95 % interval
-share_upper | frequency motion | | | share of random starts that lead to the motion, upper end of
-  its 95 % interval
+share_lower | frequency motion | | | share of random starts, lower end of its 95 % interval
+share_upper | frequency motion | | | share of random starts, upper end of its 95 % interval
 origin | frequency motion | | | how the motion was first found
   : absent 0, random_start 1, followed 2, placed_start 3
 run_outcome | frequency start | | | outcome of a random start
   : OUTCOME
-run_motion | frequency start | | | index along the dimension `motion` of the motion to which a
-  random start leads
+run_motion | frequency start | | | index along `motion` of the motion that a start leads to
 run_length | frequency start | | | cycles run from a random start
 end_value | end | followed | | parameter of the sweep at the end of a branch
 end_branch | end | | | branch that ends
@@ -99,21 +89,17 @@ end_direction | end | | | direction of the sweep in which the branch ends
   : down -1, up 1
 end_event | end | | | event that ends the branch
   : END
-end_displacement | end | displacement | | largest displacement of the primary mass at the end of a
-  branch
+end_displacement | end | displacement | | largest displacement at the end of a branch
 # lives of chaotic motions
-life_ends | frequency motion | | | number of runs of the chaotic motion that ended, -1 if it is
-  not chaotic or none was run
+life_ends | frequency motion | | | runs of the chaotic motion that ended; -1 without runs
 mean_life | frequency motion | | | mean life of the chaotic motion in cycles
 mean_life_lower | frequency motion | | | mean life, lower end of its 95 % interval, cycles
 mean_life_upper | frequency motion | | | mean life, upper end of its 95 % interval, cycles
 # range of the random starts
 start_displacement | frequency | displacement | |Z1| | largest displacement of a random start
 start_speed | frequency | velocity | |Z1'| | largest speed of a random start
-free_displacement | frequency | displacement | max |Z1| | largest displacement of the free
-  motions; by harmonic balance if a radius was given
-free_speed | frequency | velocity | max |Z1'| | largest speed of the free motions; by harmonic
-  balance if a radius was given
+free_displacement | frequency | displacement | max |Z1| | largest displacement of the free motions
+free_speed | frequency | velocity | max |Z1'| | largest speed of the free motions
 missed_share | | | | upper bound, at 95 %, on the share of starts that lead to a motion not found
 # first collisions
 ball | ball | | | ball of states from which random starts are drawn
@@ -121,8 +107,7 @@ beyond_wall | ball | | | share of starts that lie beyond a wall
 colliding | ball | | | share of starts that lead to a collision
 longest_wait | ball | | | longest time to the first collision, cycles
 # harmonic balance
-amplitude | frequency solution | displacement | a | amplitude of Z1, negative if Z1 is in
-  antiphase to Z2
+amplitude | frequency solution | displacement | a | amplitude of Z1, negative in antiphase to Z2
 relative_amplitude | frequency solution | displacement | b | amplitude of Z2
 phase | frequency solution | angle | theta_1 | phase of Z1 to the forcing
 kind | frequency solution | | | whether the loose mass touches the walls
@@ -133,14 +118,11 @@ stability | frequency solution | | | stability by the slow flow
 balance_status | frequency | | | how the solution of the harmonic balance ended
   : solved 0, unresolved 1
 free_amplitude | frequency free_solution | displacement | a | amplitude of Z1 without the damper
-free_phase | frequency free_solution | angle | theta_1 | phase of Z1 to the forcing without the
-  damper
+free_phase | frequency free_solution | angle | theta_1 | phase of Z1 without the damper
 free_stability | frequency free_solution | | | stability by the slow flow without the damper
   : STABILITY
-rigid_amplitude | frequency root | displacement | a | amplitude of Z1 for rigid walls, negative if
-  Z1 is in antiphase to Z2
-rigid_wall | frequency root | | | whether rigid walls push the loose mass, or would have to pull
-  it
+rigid_amplitude | frequency root | displacement | a | signed amplitude of Z1 for rigid walls
+rigid_wall | frequency root | | | whether rigid walls push the loose mass, or would have to pull it
   : absent 0, pushes 1, pulls 2
 # suppression band
 peak_frequency | | frequency | Omega_p | peak frequency without the damper
@@ -157,70 +139,53 @@ quiet_displacement | clearance | displacement | max |Z1| | largest displacement 
   motion
 quiet_status | clearance | | | whether there is a quiet motion
   : absent 0, found 1
-largest_displacement | clearance | displacement | | largest displacement of all motions to which
-  the random starts lead
-analytical_amplitude | clearance | displacement | |a| | smallest |a| of a stable solution of the
-  harmonic balance (7)
+largest_displacement | clearance | displacement | | largest displacement that starts lead to
+analytical_amplitude | clearance | displacement | |a| | smallest stable |a| by (7)
 analytical_status | clearance | | | whether the harmonic balance (7) has a stable solution
   : absent 0, found 1, inelastic 2, unresolved 3
 optimum_clearance | | clearance | d0 | clearance at which the quiet motion is smallest
-optimum_displacement | | displacement | max |Z1| | largest displacement in the quiet motion at the
-  optimum clearance
+optimum_displacement | | displacement | max |Z1| | smallest quiet_displacement
 optimum_kind | | | | kind of minimum: smooth, kink, end of the branch or of the sweep
   : MINIMUM
-near_clearance | edge | clearance | | ends of the range of clearances with at most 1.1 times the
-  smallest displacement
-analytical_optimum | | clearance | d0 | clearance at which the harmonic balance (7) has a solution
-  with a = 0
+near_clearance | edge | clearance | | clearances with at most 1.1 times the smallest displacement
+analytical_optimum | | clearance | d0 | clearance at which (7) has a solution with a = 0
 rule_clearance | | clearance | d0 | clearance of rule (18) at the forcing frequency
 peak_rule_clearance | | clearance | d0 | clearance of rule (19)
 optimum_ratio | | | | rm W^2 d0/f at the optimum clearance, which is 1 by rule (18)
-straight_flight_ratio | | | | rm W^2 d0/f at the smallest max |Z1| for rigid walls at high
-  frequency
+straight_flight_ratio | | | | rm W^2 d0/f of the optimum for rigid walls at high frequency
 # orbits along branches
-followed_value | point | followed | | value of the parameter that is varied along a branch of
-  orbits
+followed_value | point | followed | | parameter that is varied along a branch of orbits
 orbit_branch | point | | | number of the branch an orbit lies on
 orbit_displacement | point | displacement | max |Z1| | largest displacement in an orbit
 orbit_stability | point | | | whether all Floquet multipliers are less than 1 in modulus
   : STABILITY
-orbit_status | point | | | whether Newton's method converged; near grazing a contact begins so
-  slowly that the multipliers hold for infinitesimal disturbances only
+orbit_status | point | | | whether Newton's method converged, or a contact is near grazing
   : not_converged 0, regular 1, near_grazing 2
 orbit_contacts | point | | | contacts begun per cycle in an orbit
 orbit_asymmetry | point | mixed | | distance of an orbit from its mirror image half a period later
-orbit_amplitude | point | displacement | | amplitude of the first harmonic of Z1 in an orbit, |a|
-  of harmonic balance
+orbit_amplitude | point | displacement | | amplitude of the first harmonic of Z1 in an orbit
 orbit_phase_relative | point | angle | | phase of Z1 to Z2 in an orbit, first harmonics
 orbit_phase_loose | point | angle | | phase of Z1 to Z1 - Z2 in an orbit, first harmonics
 orbit_phase | point | angle | | phase Omega T of orbit_state
 orbit_state | point component | state | | state of an orbit at orbit_phase, without contact
-orbit_residual | point | mixed | | distance between the state of an orbit and the state a period
-  later
-orbit_multiplier_real | point multiplier | | | Floquet multipliers by descending modulus, real
-  part
-orbit_multiplier_imaginary | point multiplier | | | Floquet multipliers by descending modulus,
-  imaginary part
+orbit_residual | point | mixed | | distance from the state a period later
+orbit_multiplier_real | point multiplier | | | Floquet multipliers by modulus, real part
+orbit_multiplier_imaginary | point multiplier | | | Floquet multipliers by modulus, imaginary part
 liouville_error | point | | | relative error of the determinant of the monodromy matrix
-least_speed | point | velocity | | smallest relative speed at the beginning of a contact of an
-  orbit
+least_speed | point | velocity | | smallest relative speed at the beginning of a contact
 orbit_restitution | point | | | smallest ratio of the relative speeds after and before a contact
-  of an orbit
 # design points
-design_orbit_status | | | | whether the quiet orbit was found at heavy damping and followed to the
-  design point
+design_orbit_status | | | | whether the quiet orbit was followed from heavy damping
   : no_start 0, found 1, not_followed 2
 design_run_outcome | design_start | | | outcome of a random start at the design point
   : OUTCOME
-design_run_displacement | design_start | displacement | max |Z1| | largest displacement of the
-  motion from a random start
+design_run_displacement | design_start | displacement | max |Z1| | largest displacement from a start
 # branches
 branch_period | branch | | n | period in cycles of the orbits
 branch_events_lost | branch | | | number of events on a branch that were not located
 branch_end | branch edge | | | event or limit that ends a branch
   : BRANCH_END
-branch_met | branch edge | | | number of the branch at which a branch ends by symmetry breaking or
-  period doubling; -1 if this branch is not in the dataset, or if the branch ends otherwise
+branch_met | branch edge | | | branch of more symmetry at which a branch ends, or -1
 seeds | | | | number of motions from which Newton's method searched for an orbit
 seeds_lost | | | | number of motions from which Newton's method converged to no orbit
 # events
@@ -230,8 +195,7 @@ event_kind | event | | | kind of event
   : EVENT
 event_value | event | followed | | varied parameter at an event
 event_displacement | event | displacement | max |Z1| | largest displacement at an event
-event_speed | event | velocity | | smallest relative speed at the beginning of a contact at an
-  event
+event_speed | event | velocity | | smallest relative speed at the beginning of a contact
 walls_before | event | | | walls in the order in which orbits before an event touch them
 walls_after | event | | | walls in the order in which orbits after an event touch them
 # basins of attraction
@@ -248,21 +212,15 @@ attractor | attractor | | | index of an attractor, by rising max |Z1|
 attractor_period | attractor | | n | period in cycles
 attractor_displacement | attractor | displacement | max |Z1| | largest displacement
 attractor_share | attractor | | | share of the states that lead to an attractor
-attractor_point | attractor passage | displacement | Z1 | displacement of an attractor whenever
-  the forcing has the phase of the plane
-attractor_speed | attractor passage | velocity | Z1' | velocity of an attractor whenever the
-  forcing has the phase of the plane
+attractor_point | attractor passage | displacement | Z1 | displacement at the phase of the plane
+attractor_speed | attractor passage | velocity | Z1' | velocity at the phase of the plane
 saddle_period | saddle | | n | period of an unstable orbit in cycles
-saddle_displacement | saddle | displacement | Z1 | displacement of an unstable orbit at the phase
-  of the plane
-saddle_velocity | saddle | velocity | Z1' | velocity of an unstable orbit at the phase of the
-  plane
+saddle_displacement | saddle | displacement | Z1 | displacement of an unstable orbit in the plane
+saddle_velocity | saddle | velocity | Z1' | velocity of an unstable orbit in the plane
 saddle_curve | saddle | | | whether the stable manifold is complete in the plane
   : CURVE
-boundary_displacement | boundary | displacement | Z1 | displacement on the stable manifold of an
-  unstable orbit; NaN between pieces
-boundary_velocity | boundary | velocity | Z1' | velocity on the stable manifold of an unstable
-  orbit; NaN between pieces
+boundary_displacement | boundary | displacement | Z1 | displacement on a manifold; NaN at gaps
+boundary_velocity | boundary | velocity | Z1' | velocity on a manifold; NaN at gaps
 boundary_saddle | boundary | | | index of the unstable orbit
 # migration control
 on_time | trial switching | time | T | time at which the damper is switched on
@@ -281,16 +239,14 @@ example | | | | index of the run whose displacement is stored
 bound | bound | | | share, or lower or upper end of its 95 % interval
 damped_motion | damped_motion | | | kind of damped motion
 free_motion | free_motion | | | kind of free motion
-destination_count | damped_motion free_motion | | | number of releases in all runs, by the damped
-  motion before and the free motion after
+destination_count | damped_motion free_motion | | | releases by damped and free motion
 reached_share | bound | | | share of runs that arrive on the non-resonance branch
 within_share | bound | | | share of runs that arrive within 350 cycles
 # releases of each damped motion
 damped_kind | damped | | | kind of damped motion
   : DAMPED_MOTION
 damped_period | damped | | n | period in cycles, 0 if it has not settled
-damped_displacement | damped | displacement | max |Z1| | largest displacement, if the motion has
-  settled
+damped_displacement | damped | displacement | max |Z1| | largest displacement, if settled
 damped_contacts | damped | | | contacts begun per cycle, if the motion has settled
 release_phase | damped release | | | cycles from Omega T = pi/2 to the release
 release_displacement | damped release | displacement | Z1 | displacement of the primary mass at

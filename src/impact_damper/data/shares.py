@@ -36,9 +36,8 @@ def wilson(successes, total):
 def bounding_rank(share, total) -> int:
     """Return the rank k such that the k-th largest of `total` values bounds a share of all values.
 
-    It does so with 95 % confidence and without any assumption on the distribution (S. S. Wilks,
-    Ann. Math. Stat. 12, 1941): k is the largest number that at least k of the values exceed the
-    true quantile with a probability of at least 95 %. It is 0 if there are too few values.
+    The bound holds with 95 % confidence for any distribution (S. S. Wilks, Ann. Math. Stat. 12,
+    1941). k is 0 if there are too few values.
     """
     return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= DOUBT))
 
@@ -49,13 +48,9 @@ def starts_needed(share) -> int:
 
 
 def escape_rate(lives, horizon):
-    """Return the rate at which runs end, with its 95 % interval, shape (3,).
-
-    The rate is the number of runs that end before the horizon, divided by the time that all runs
-    last before it. The interval is the interval of a Poisson count.
-    """
+    """Return the rate at which runs end before the horizon, with its 95 % interval, shape (3,)."""
     captures = np.sum(lives <= horizon)
     exposure = np.sum(np.minimum(lives, horizon))
-    # Quantiles of the gamma distribution, which are half of the chi-squared quantiles.
+    # Interval of a Poisson count: quantiles of the gamma distribution.
     lower = gammaincinv(captures, 0.025) if captures else 0.0
     return np.array([captures, lower, gammaincinv(captures + 1, 0.975)]) / exposure

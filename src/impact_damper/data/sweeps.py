@@ -10,10 +10,9 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 
 
 class Family(NamedTuple):
-    """A motion over a sweep: name of its outcome, and period in cycles or 0.
+    """A motion over a sweep: outcome, period in cycles or 0, and number of starts that lead to it.
 
-    `places` is the mask of its entries in the arrays of the sweep, shape (value, motion); `starts`
-    is the number of random starts, at all values together, that lead to it.
+    `places` is the mask of its entries in the arrays of the sweep, shape (value, motion).
     """
 
     outcome: str
@@ -23,10 +22,7 @@ class Family(NamedTuple):
 
 
 def families(data) -> list[Family]:
-    """Return the motions of a sweep, by descending number of random starts that lead to them.
-
-    Motions at different values with the same `branch` are one motion.
-    """
+    """Return the motions (branches) of a sweep, by descending number of their starts."""
     branch, starts = data["branch"].values, data["motion_starts"].values
     found = []
     for branch_number in np.unique(branch[branch >= 0]):

@@ -92,12 +92,10 @@ OUTCOME = {
     "quasi_periodic": 7,
     "drifting": 8,
 }
-# Kind of a minimum: with a horizontal tangent, at a kink, at the end of a branch (jump), or at the
-# end of the sweep (edge).
+# Kind of a minimum; it jumps at the end of a branch, and the edge is the end of the sweep.
 MINIMUM = {"not_found": 0, "smooth": 1, "kink": 2, "jump": 3, "edge": 4}
-# Kinds of motions with the damper. A motion of period 1 is quiet if its largest displacement is
-# below the quiet limit, half the displacement of the free resonance, and violent otherwise. A
-# motion of another period is a subharmonic, whatever its size.
+# Kinds of motions with the damper. A motion of period 1 is quiet if it is smaller than half the
+# motion at resonance without the damper, and violent otherwise.
 DAMPED_MOTION = {"none": -1, "unsettled": 0, "quiet": 1, "violent": 2, "subharmonic": 3}
 # Kinds of motions without the damper.
 FREE_MOTION = {
@@ -116,8 +114,7 @@ END = {
     "period_doubling": 3,
     "neimark_sacker": 4,
 }
-# Labels of states that lead to no attractor. With a damper a state of the primary mass is `mixed`
-# if the place of the loose mass decides to which attractor it leads.
+# Labels of states without attractor; `mixed` if the place of the loose mass decides.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,

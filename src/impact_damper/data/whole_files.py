@@ -8,9 +8,8 @@ from pathlib import Path
 # Advice that the workflow appends to a BrokenFileError about one of its results.
 DELETE = "delete it and run the same command again"
 
-# A NetCDF-4 file is an HDF5 file, which begins with SIGNATURE and a superblock. VERSIONS are the
-# first bytes of superblocks of version 2 and 3 with addresses of 8 bytes. In these the bytes at
-# LENGTH state the length of the file.
+# Signature of HDF5, first bytes of superblocks of version 2 and 3 with addresses of 8 bytes, and
+# place of the length of the file in these.
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 VERSIONS = (b"\x02\x08\x08", b"\x03\x08\x08")
 LENGTH = slice(28, 36)
@@ -24,8 +23,7 @@ class BrokenFileError(OSError):
 def whole(path):
     """Yield a temporary path to write to, which is renamed to `path` on success.
 
-    Temporary files of the same name that a killed process has left are removed first. An OSError
-    has the path and the reason.
+    Temporary files of this name that a killed process has left are removed first.
     """
     path = Path(path)
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
@@ -56,10 +54,9 @@ def whole_netcdf(path):
 
 
 def _reason(folder, error):
-    """Return in one line why a file could not be written, and what to do.
+    """Return in one line why a file could not be written, from writing a trial file.
 
-    The function writes a trial file to learn the reason from the operating system. The errors of
-    the NetCDF library are vague, and wrong if the disk is full.
+    The errors of the NetCDF library are vague, and wrong if the disk is full.
     """
     trial = folder / f".trial-{os.getpid()}"
     try:
@@ -74,10 +71,7 @@ def _reason(folder, error):
 
 
 def check_length(path) -> None:
-    """Raise BrokenFileError if a file is not NetCDF-4 or is truncated.
-
-    Reads only the first bytes, so that all results can be checked before a run.
-    """
+    """Raise BrokenFileError if a file is not NetCDF-4 or is truncated, from its first bytes."""
     with open(path, "rb") as file:
         start = file.read(LENGTH.stop)
     if not start.startswith(SIGNATURE):

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import flag
+from impact_damper.data.design_variables import KEEPS, WORTH
 from impact_damper.data.shares import bounding_rank, starts_needed
 from impact_damper.design.absorbers import absorber_responses
 from impact_damper.design.promise import Promise, factor_sets, gap_sets
@@ -17,10 +18,6 @@ from impact_damper.design.task import SIDES, VARIED, Task, labelled
 CONFIRMED, ROUNDS = 1.1, 4
 # A promised displacement above SURPRISE times the one of the search is also looked for nearby.
 SURPRISE = 1.1
-# Gaps around the chosen one keep the promised displacement up to this factor.
-KEEPS = 1.1
-# A damper that takes less than this share off the largest displacement is not worth building.
-WORTH = 0.25
 
 
 class Tried(NamedTuple):

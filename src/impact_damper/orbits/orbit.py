@@ -98,11 +98,6 @@ class Orbit:
         return reduce(lambda product, factor: factor @ product, self.factors)
 
     @property
-    def root(self):
-        """The `matrix` of half the period, whose square is the monodromy matrix, or None."""
-        return self.matrix if self.sign < 0 else None
-
-    @property
     def monodromy(self):
         """Derivative of the map over the period, shape (4, 4)."""
         return self.matrix @ self.matrix if self.sign < 0 else self.matrix

@@ -124,7 +124,7 @@ def find_quiet_orbit(p, guess):
 
 def _dominant_root(orbit):
     """Return the multiplier of the root with the largest modulus and an imaginary part >= 0."""
-    values = np.linalg.eigvals(orbit.root)
+    values = np.linalg.eigvals(orbit.matrix)
     value = values[np.argmax(np.abs(values))]
     return complex(value.real, abs(value.imag))
 
@@ -154,7 +154,7 @@ def _end(followed):
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
-    squares = [np.linalg.det(np.eye(4) - each.root) ** 2 for each in followed.orbits]
+    squares = [np.linalg.det(np.eye(4) - each.matrix) ** 2 for each in followed.orbits]
     if squares[1] < squares[0]:
         ahead = (fraction - before) * squares[1] / (squares[0] - squares[1])
         if ahead < NEAR * SHORTEST:

@@ -202,7 +202,7 @@ def ends_at(branches, number, edge, event):
         return False
     end, orbit = branch.points[-1 if edge else 0], event.point.orbit
     factor = 2 if event.kind == "period_doubling" else 1
-    if end.orbit.periods != factor * orbit.periods or factor == 1 and orbit.root is None:
+    if end.orbit.periods != factor * orbit.periods or factor == 1 and orbit.sign > 0:
         return False
     near = abs(event.point.value - end.value) < SAME_VALUE
     return near and abs(_size(orbit) - _size(end.orbit)) < SAME_SIZE

@@ -97,26 +97,26 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield value, size and stability of each part of a branch that is all stable or all unstable.
+    """Yield value, size and stability of each stable or unstable part of branches.
 
     `chosen` maps the period of a branch to True if the branch is wanted.
     """
-    names = ("orbit_branch", "followed_value", "orbit_displacement", "orbit_stability")
-    periods = data["branch_period"].values
-    branches = [branch for branch, period in enumerate(periods) if chosen(period)]
-    yield from runs_of(branches, *(data[name].values for name in names))
+    stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
+    value, size = data["followed_value"].values, data["orbit_displacement"].values
+    for branch, period in enumerate(data["branch_period"].values):
+        if chosen(period):
+            at = data["orbit_branch"].values == branch
+            yield from parts_by_stability(value[at], size[at], stable[at])
 
 
-def runs_of(branches, number, value, size, stability):
-    """Yield the parts of branches as `runs` does, from arrays with an element for each orbit."""
-    stable = stability == flag("orbit_stability", "stable")
-    for each in branches:
-        at = np.flatnonzero(number == each)
-        edges = [0, *(np.flatnonzero(np.diff(stable[at])) + 1), len(at)]
-        for first, last in zip(edges, edges[1:], strict=False):
+def parts_by_stability(value, size, stable):
+    """Yield value, size and stability of each part of a branch that is all stable or unstable."""
+    edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
+    for first, last in zip(edges, edges[1:], strict=False):
+        if last > first:
             # includes the first orbit of the next part, so that the lines of both parts join
-            part = at[first : last + 1]
-            yield value[part], size[part], bool(stable[at[first]])
+            part = slice(first, last + 1)
+            yield value[part], size[part], bool(stable[first])
 
 
 def draw_free_orbits(axes, data):

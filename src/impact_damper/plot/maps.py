@@ -10,10 +10,7 @@ from impact_damper.plot.style import BLACK, GREY, PALE
 
 
 def mesh(axes, x, y, values, norm, absent=None):
-    """Draw cells coloured by value, and return the mesh.
-
-    NaN leaves a hatched background; `absent` names it in the legend.
-    """
+    """Draw cells coloured by value, and return the mesh; NaN is hatched, `absent` in the legend."""
     back = {"facecolor": PALE, "hatch": "////", "edgecolor": GREY}
     axes.patch.set(linewidth=0, **back)
     if absent:

@@ -81,10 +81,7 @@ def _time_panel(axes, run):
 
 
 def _in_contact(run, wall):
-    """Return the mask of the times in contact with a wall (1 or -1).
-
-    A contact whose end is not recorded lasts to the last time.
-    """
+    """Return the mask of the times in contact with a wall; a contact without an end lasts on."""
     contacts = run[["contact_begin", "contact_end"]].isel(
         contact=run["contact_wall"].values == wall
     )

@@ -121,10 +121,7 @@ def _draw_solutions(axes, amplitude, role):
 
 
 def _draw_unstable(axes, balance):
-    """Draw the unstable solutions of harmonic balance without a damper, up to the folds.
-
-    Along the response curve the phase increases, so the solutions are sorted by phase.
-    """
+    """Draw the unstable solutions without a damper, up to the folds, along the curve by phase."""
     phase = balance["free_phase"].values
     order = np.argsort(phase, axis=None)[: np.isfinite(phase).sum()]
     frequency, amplitude, stability = (
@@ -157,10 +154,7 @@ def _draw_motions(axes, motions):
 
 
 def _branch_lines(motions, chosen):
-    """Yield frequency and size of each branch and period, extended to the ends of the branch.
-
-    The ends lie between two frequencies. `chosen` is a mask of shape (frequency, motion).
-    """
+    """Yield frequency and size of each branch and period, extended to the ends of the branch."""
     branch, period = motions["branch"].values, motions["period"].values
     names = ("end_branch", "end_direction", "end_value", "end_displacement")
     ends = list(zip(*(motions[name].values for name in names), strict=True))
@@ -177,10 +171,7 @@ def _branch_lines(motions, chosen):
 
 
 def _draw_unsettled(axes, motions, looks):
-    """Draw the motions that have not settled on an orbit as points, by outcome.
-
-    Chaos that ended in one of the runs has the look `chaotic_transient`, if there is one.
-    """
+    """Draw other motions as points by outcome; chaos is a transient where one of its runs ended."""
     for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)

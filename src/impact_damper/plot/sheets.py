@@ -12,10 +12,9 @@ from impact_damper.plot.style import COLUMNS, legend, style
 
 
 def datasets_in(data, takes, words) -> list[xr.Dataset]:
-    """Return the datasets given, one or several, as a list.
+    """Return one or several datasets as a list.
 
-    `takes` maps a dataset to True if it can be drawn; `words` names the functions that return such
-    datasets, for the TypeError that all others raise, and datasets of different units.
+    A TypeError names the functions `words` that return the datasets which `takes` accepts.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:
@@ -39,11 +38,9 @@ def dataset_in(data, takes, words) -> xr.Dataset:
 
 @contextmanager
 def sheet(axes, count=1, height=3.6, columns=3):
-    """Return a context that yields a list of `count` axes to draw on.
+    """Return a context that yields the given axes, or those of a new figure in the common style.
 
-    Given axes keep their own style and get no legend. Otherwise they are in a new figure in the
-    common style, `height` inches high, which gets a legend with `columns` columns at the
-    end; with 0 none.
+    A new figure is `height` inches high and gets a legend with `columns` columns, or none with 0.
     """
     if axes is not None:
         given = list(np.ravel(np.array(axes, object)))
@@ -57,7 +54,6 @@ def sheet(axes, count=1, height=3.6, columns=3):
         yield list(panels[0])
         if columns:
             legend(drawn, columns)
-        # In a notebook the first figure makes matplotlib interactive. This must outlive the style;
-        # otherwise the notebook would show only the first figure.
+        # In a notebook the first figure makes matplotlib interactive, which must outlive the style.
         interactive = matplotlib.is_interactive()
     matplotlib.interactive(interactive)

@@ -104,11 +104,7 @@ def _look(kind, rank):
 
 
 def _ranked_motions(data):
-    """Return kind, rank and mask of the motions that random starts lead to, by kind.
-
-    Of each kind the motion with most starts has the rank 0. A chaotic motion that is a transient at
-    some values is listed twice, with the same rank.
-    """
+    """Return kind, rank (by starts) and mask of the motions that random starts lead to, by kind."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:

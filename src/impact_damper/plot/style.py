@@ -1,7 +1,6 @@
 """Common look of all figures: fonts, colours, roles of curves, labels, legends, files.
 
-The colours are the palette of Okabe and Ito, which colour-blind readers can distinguish. Roles that
-occur in the same figure also differ in marker or line style, for print without colours.
+The palette is the one of Okabe and Ito; roles also differ in marker or line style.
 """
 
 import re
@@ -130,10 +129,7 @@ def figure(column, height) -> Figure:
 
 
 def grid(count, row, rest, columns=2, **shared):
-    """Return a figure and its `count` lettered axes, at most `columns` side by side.
-
-    A row is `row` inches high, all else `rest`; `shared` are options of `subplots`.
-    """
+    """Return a figure and its lettered axes; a row is `row` inches high, all else `rest`."""
     columns = min(columns, count)
     rows = -(-count // columns)
     drawn = figure("double", rest + row * rows)
@@ -185,10 +181,7 @@ def axis_label(variable, words=None) -> str:
 
 
 def tex(symbol) -> str:
-    """Return the mathtext of a symbol: words become commands, digits become indices.
-
-    "Omega_p" becomes "\\Omega _p", and "max |Z1|" becomes "\\max\\,|Z_{1}|".
-    """
+    """Return the mathtext of a symbol: "max |Z1|" becomes "\\max\\,|Z_{1}|"."""
     symbol = re.sub(r"[A-Za-z]{2,}", r"\\\g<0> ", symbol)
     symbol = re.sub(r"([A-Za-z])(\d+)", r"\1_{\2}", symbol)
     return symbol.replace("  |", r"\,|")
@@ -214,8 +207,8 @@ def legend(figure, columns) -> None:
 def save_figure(figure, path) -> None:
     """Write `path`.pdf and `path`.png, each complete or not at all, reproducible to the byte.
 
-    The layout is computed once and then fixed, so that both files show the same picture. The layout
-    engine is removed rather than set to "none": with "none" matplotlib draws twice for each file.
+    The layout is computed once, so that both files show the same picture. With the layout engine
+    "none" in place of None matplotlib would draw twice for each file.
     """
     with style():
         if figure.get_layout_engine() is not None:

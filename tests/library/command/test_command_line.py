@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 import impact_damper as idm
 from impact_damper.command import command_line
-from impact_damper.command.machine_file import read_machine_file
+from impact_damper.command.machine_file import design_arguments, read_machine_file
 from impact_damper.command.section import ConfigurationError
 from impact_damper.data.datasets import load
 from impact_damper.design.migration import migration
@@ -237,11 +237,7 @@ def test_frequencies_and_tolerances_in_the_words_of_python(machine_file):
     machine_file.write_text(f"{FILE}frequencies: 15\ntolerances: {{gap: 0.1 mm, force: 2 N}}\n")
     given = read_machine_file(machine_file)
     assert given["band"]["points"] == 15
-    task = Task(
-        machine=command_line.machine(given),
-        **command_line.asked(given),
-        tolerances=given["tolerances"],
-    )
+    task = Task(machine=command_line.machine(given), **design_arguments(given))
     np.testing.assert_allclose(task.deviations(2.0), [0.05, 0, 0, 0, 0, 0.05])
 
 

@@ -5,11 +5,11 @@ import pytest
 from helpers.made_up_design import made_up_design
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
+from impact_damper.plot.branches import parts_by_stability
 from impact_damper.plot.machine_figures.figures import (
     FIGURES,
     draw_machines,
     over_frequency,
-    stable_runs,
 )
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -59,6 +59,8 @@ def test_values_that_were_not_run_at_a_frequency_are_interpolated():
 
 
 def test_the_quiet_orbit_is_cut_where_its_stability_changes():
-    parts = list(stable_runs(made_up_design()))
+    data = made_up_design()
+    gaps, modulus = data["gap_of_orbit"].values, data["modulus_by_gap"].values
+    parts = list(parts_by_stability(gaps, gaps, modulus < 1))
     assert [stable for *_, stable in parts] == [False, True, False]
     assert [list(gap) for gap, *_ in parts] == [[6, 7], [7, 8, 9], [9]]

@@ -1,7 +1,4 @@
-"""Figures of one machine and its damper, and an overview of several machines.
-
-The page of a machine shows FIGURES; their captions stand in its template.
-"""
+"""Figures of one machine and its damper, and an overview of several machines."""
 
 import json
 from string import ascii_lowercase
@@ -10,6 +7,7 @@ import numpy as np
 from matplotlib.ticker import NullLocator
 
 from impact_damper.data.datasets import decode, is_settled, parameters_of
+from impact_damper.plot.branches import parts_by_stability
 from impact_damper.plot.style import (
     BLACK,
     BLUE,
@@ -89,7 +87,7 @@ def frequency_panel(axes, data):
 def over_frequency(data) -> tuple:
     """Return the promised displacement for nominal values, and the largest of all sets of values.
 
-    A set of values that was not run at a frequency is interpolated between its own frequencies.
+    A set that was not run at a frequency is interpolated.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []
@@ -117,7 +115,9 @@ def gap_panel(axes, data):
     plot_sizes(axes, searched, data["searched_displacement"].values, **NOMINAL | DOTS)
     plot_sizes(axes, searched, data["searched_tolerated"].values, **WORST)
     if "gap_of_orbit" in data:
-        for place, size, stable in stable_runs(data):
+        names = ("gap_of_orbit", "displacement_by_gap", "modulus_by_gap")
+        places, sizes, modulus = (data[name].values for name in names)
+        for place, size, stable in parts_by_stability(places, sizes, modulus < 1):
             inside = (place >= searched[0]) & (place <= searched[-1])
             look = ORBIT if stable else LOST_ORBIT
             plot_sizes(axes, place[inside], size[inside], **look)
@@ -128,19 +128,6 @@ def gap_panel(axes, data):
     axes.set(xscale="log", xlabel="Gap, full play (mm)", ylabel="Largest displacement (mm)")
     name_numbers(axes.xaxis, *axes.get_xlim())
     decades(axes)
-
-
-def stable_runs(data):
-    """Yield gap (mm), displacement (mm) and stability of each part of the quiet orbit's branch."""
-    names = ("gap_of_orbit", "displacement_by_gap", "modulus_by_gap")
-    value, size, modulus = (data[name].values for name in names)
-    stable = modulus < 1
-    edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
-    for first, last in zip(edges, edges[1:], strict=False):
-        if last > first:
-            # includes the first orbit of the next part, so that the lines of both parts join
-            part = slice(first, last + 1)
-            yield value[part], size[part], bool(stable[first])
 
 
 @style()
@@ -231,10 +218,7 @@ def finite(values):
 
 
 def plot_sizes(axes, x, sizes, **look):
-    """Plot sizes of motions, with an entry in the legend only if there are any.
-
-    A motion that escapes, which has no size, is marked at the upper edge.
-    """
+    """Plot sizes of motions, if there are any; motions that escape are marked at the upper edge."""
     sizes = np.asarray(sizes, float)
     if np.isfinite(finite(sizes)).any():
         axes.plot(x, finite(sizes), **look)
@@ -264,8 +248,7 @@ def name_numbers(axis, low, high):
     axis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:.0e}"[0] in digits else "")
 
 
-# Figures of the page of a machine, keyed by the name of the file without its ending. A function
-# returns None if the addition that it draws failed.
+# Figures of the page of a machine by name. A function returns None if its addition failed.
 FIGURES = {
     "answer": draw_answer,
     "forces": draw_forces,

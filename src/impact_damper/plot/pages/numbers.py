@@ -6,15 +6,13 @@ from types import SimpleNamespace
 import numpy as np
 
 from impact_damper.data.datasets import decode, named, parameters_of
+from impact_damper.data.design_variables import KEEPS, WORTH
 from impact_damper.data.sweeps import runs_of_true
 from impact_damper.model.text import number, percent, with_unit
 from impact_damper.plot.machine_figures.figures import ENDLESS
 
 # The decay time of an unforced vibration is the time until it has fallen to this fraction.
 DECAY = 0.1
-# As in a design: gaps keep the promise up to this factor; a damper is worth building if it takes
-# at least this share off the largest displacement.
-KEEPS, WORTH = 1.1, 0.25
 # An end of the gaps that is this close to the end of the tolerance is called its end.
 NEAR = 0.01
 # Additions and quantities as the page calls them.
@@ -141,10 +139,7 @@ def _worst_values(data):
 
 
 def _condition(data, tolerated):
-    """Return what breaks the promise first: the nearest end of the gaps, or another excitation.
-
-    The promise covers the gaps `tolerated`, also those at which the search found larger motions.
-    """
+    """Return what breaks the promise first: the nearest end of the gaps, or another excitation."""
     gap, promised = float(data["design_gap"]), float(data["promised_displacement"])
     found = []
     kinds = decode(data["keeping_end"]).values
