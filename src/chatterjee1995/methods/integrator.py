@@ -80,7 +80,7 @@ class Integrator:
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return whether walls at `levels` are touched; None means: if a step ends beyond."""
+        """Return whether walls at `levels` are touched; None lets the ends of steps decide."""
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
         """Return the largest |Z1| in each cycle with fixed steps, NaN from a divergence on."""

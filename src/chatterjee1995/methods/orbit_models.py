@@ -113,7 +113,7 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return the solution with one harmonic, (2, 1), nearest to `state` or None, and the work."""
+    """Return the one-harmonic solution nearest to `state`, shape (2, 1) or None, and the work."""
     if damper is None:
         work = 2 * 10 * 3**3
         solutions = free_solutions(oscillator, frequency)
@@ -136,7 +136,7 @@ def nearest_term(oscillator, damper, frequency, state):
 
 
 def many_harmonics(oscillator, damper, frequency, state, highest):
-    """Return models by harmonic balance by their highest harmonic, 3, 7, 15, ... `highest`."""
+    """Return models by harmonic balance, keyed by highest harmonic: 3, 7, 15, ... `highest`."""
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
     if coefficients is None:

@@ -40,7 +40,7 @@ def read_by(config, stage, name) -> dict:
 
 
 def figure_data(config, name) -> dict:
-    """Return the entries of a figure by stage, with the branches of the same free oscillators."""
+    """Return the entries of a figure by stage, and the branches of their free oscillators."""
     figure = config.figures[name]
     kind, found = KINDS[figure.kind], {}
     for stage in kind.stages:

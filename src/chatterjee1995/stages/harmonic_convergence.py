@@ -149,7 +149,7 @@ def ladder(highest) -> np.ndarray:
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     """Return symmetric motions by harmonic balance with odd harmonics, their stability and errors.
 
-    Newton's method starts from the last balance that converged; for N in `cold` also from one term.
+    Newton's method starts from the last balance that converged, for N in `cold` also from one term.
     """
     harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]

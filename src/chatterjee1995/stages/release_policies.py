@@ -49,7 +49,7 @@ POLICIES = ["settled", "hold", "phase", "state"]
 # Fixed numbers of cycles that are tried, each about 1.6 times the one before.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # of the cycles until the goal
-# Results of a hold: cycles and contacts, Z1 and Z1' at the next strobe, and cycles until this one.
+# Results of a hold: cycles and contacts, Z1 and Z1' at the next strobe, and cycles until then.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
@@ -137,7 +137,7 @@ class Trials(NamedTuple):
         impacts, released = np.zeros((2, trials), int)
         reached, running = np.zeros(trials, bool), np.arange(trials)
         while len(running):
-            # For phase and place of switching on, phase of release, and state of the free motion.
+            # Random phase and place of switching on, phase of release, and state of the free motion.
             draws = generator.random((trials, 4))[running]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first
@@ -217,7 +217,7 @@ def summary(outcome):
 
 
 def quantile(values, share):
-    """Return a quantile and its 95 % interval, shape (3,), order statistics by the binomial law."""
+    """Return a quantile and its 95 % interval, shape (3,), from the binomial distribution."""
     ordered, count = np.sort(np.asarray(values, float)), len(values)
     spread = QUANTILE * math.sqrt(count * share * (1 - share))
     places = count * share + np.array([0.0, -spread, spread])

@@ -32,7 +32,7 @@ best_clearance | mass_ratio frequency restitution | | d0 | clearance of the grid
 
 AXES = ("mass_ratio", "clearance", "frequency", "restitution")
 OUTCOMES = tuple(name for name, value in OUTCOME.items() if value >= 0)
-# Numbers of starts of a cell by outcome and that lead to the quiet orbit, and max |Z1| of motions.
+# Results of a cell: numbers of starts by outcome and on the quiet orbit, and displacements.
 CELL = np.dtype(
     [
         ("outcome_count", "i4", len(OUTCOMES)),

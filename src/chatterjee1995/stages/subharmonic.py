@@ -97,7 +97,7 @@ def _switch_half(oscillator, parameters, free, states, seed):
 def switched_on(oscillator, p, state, loose, generator):
     """Return the next states at W T = 0 mod 2 pi after the damper is switched on at random times.
 
-    Before, the mass moves on the free subharmonic from `state`. Z2 and Z2' are the last columns of
+    Until then the primary mass moves on the free subharmonic. Z2 and Z2' are the last columns of
     `loose` (m, 4); in every second row Z2' is 0, so that the loose mass moves with the primary
     mass.
     """

@@ -41,7 +41,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Return length and end of the step to the contact event within h, and the steps tried.
+    """Return length and state of the step to the event within h, and the number of steps tried.
 
     The step is halved until it ends before the event, which the Illinois method then finds.
     """

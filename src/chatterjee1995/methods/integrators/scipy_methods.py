@@ -60,7 +60,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods, with its `operations` beside the rate, and those of factorising."""
+    """One of SciPy's methods, with its operations for an evaluation and for a factorisation."""
 
     tolerances = "scipy"
     slow = True
