@@ -137,7 +137,7 @@ class Trials(NamedTuple):
         impacts, released = np.zeros((2, trials), int)
         reached, running = np.zeros(trials, bool), np.arange(trials)
         while len(running):
-            # Random phase and place of switching on, phase of release, and state of the free motion.
+            # Random phase and place of switching on, phase of release, and state of free motion.
             draws = generator.random((trials, 4))[running]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first
