@@ -1,20 +1,16 @@
-"""Damaged and foreign files in the folder of results, two runs at once, and a clock set back.
+"""Damaged and foreign files in the folder of results, and two runs at once.
 
-A run must stop and name a damaged file; after its deletion a run must recover. A trial cannot set
-the computer's clock, so it dates files to tomorrow, as they seem after a clock was set back.
+A run must stop and name a damaged file; after its deletion a run must recover.
 """
 
 import os
 import time
 from functools import partial
 
-import xarray as xr
-
 from .project import DATA, DELETE, LOCKED, expect
 
 # A dataset of another job than DATA.
 OTHER = "results/harmonic_balance/figure_05a.nc"
-DAY = 86400
 
 
 def _cut(path, random):
@@ -27,16 +23,11 @@ def _zeroed(path, random):
     path.write_bytes(content[:kept] + bytes(len(content) - kept))
 
 
-def _other_netcdf(path, random):
-    xr.Dataset({"temperature": ("time", [1.0, 2.0])}).to_netcdf(path, engine="netcdf4")
-
-
 DAMAGES = {
     "cut off": _cut,
     "empty": lambda path, random: path.write_bytes(b""),
     "its end made zero": _zeroed,
     "a text in its place": lambda path, random: path.write_text("time,displacement\n0,1\n"),
-    "a NetCDF file of another program in its place": _other_netcdf,
     "the result of another job in its place": lambda path, random: path.write_bytes(
         (path.parents[2] / OTHER).read_bytes()
     ),
@@ -82,19 +73,4 @@ def two_runs(context):
     yield "two runs at once", trial
 
 
-def clock_set_back(context):
-    """Yield a trial in which data seem to be from tomorrow, before figures and tables are made."""
-
-    def trial():
-        project = context.finished("clock")
-        for path in (project.folder / "results").rglob("*"):
-            if path.suffix in (".csv", ".md", ".png", ".pdf", ".rst"):
-                path.unlink()
-            elif path.is_file():
-                os.utime(path, (time.time() + DAY,) * 2)
-        return project.recover(context.undisturbed, lost=0)
-
-    yield "clock set back between data and figures", trial
-
-
-TRIALS = [damaged, two_runs, clock_set_back]
+TRIALS = [damaged, two_runs]

@@ -50,23 +50,17 @@ class Reference:
     """Integrator that switches between flight and contact at terminal events.
 
     `longest` is the longest step. Two runs with different limits verify that no contact is missed.
-    With `tangents` the state is followed by its derivative by the first state, (4, 4) in one row.
     """
 
-    def __init__(self, longest=math.inf, tangents=False):
-        self.longest, self.tangents = longest, tangents
+    def __init__(self, longest=math.inf):
+        self.longest = longest
         systems, events = systems_and_events()
-        self.integrators = {}
-        for touching, system in systems.items():
-            if tangents:
-                system = heyoka.var_ode_sys(system, heyoka.var_args.vars, order=1)
-            self.integrators[touching] = heyoka.taylor_adaptive(
-                system,
-                np.zeros(20 if tangents else 4),
-                pars=np.zeros(PARAMETERS[touching]),
-                t_events=events[touching],
-                compact_mode=tangents,
+        self.integrators = {
+            touching: heyoka.taylor_adaptive(
+                system, np.zeros(4), pars=np.zeros(PARAMETERS[touching]), t_events=events[touching]
             )
+            for touching, system in systems.items()
+        }
 
     def _leg(self, p, side, state, t, end):
         """Integrate to the next event or to the end; return outcome, state and time."""
@@ -83,36 +77,19 @@ class Reference:
         """Integrate from `start` through increasing times; `side` is the first wall in contact."""
         t, clearance = start, min(p[packed.CLEARANCE], BEYOND_ALL_MOTIONS)
         contacts = [[side, t, np.nan, state[3], np.nan]] if side else []
-        if self.tangents:
-            state = np.append(state, np.eye(4))
         samples = []
         while len(samples) < len(times):
             outcome, state, t = self._leg(p, side, state, t, times[len(samples)])
             if outcome == heyoka.taylor_outcome.time_limit:
                 samples.append(state)
                 continue
-            before, wall = side, side or (1 if int(outcome) == -1 else -1)
+            wall = side or (1 if int(outcome) == -1 else -1)
             if side:
                 contacts[-1][2::2] = t, state[3]
                 side = 0
             else:
                 contacts.append([wall, t, np.nan, state[3], np.nan])
                 side = wall
-            if self.tangents:
-                state[2] = wall * clearance
-                _jump(p, before, side, t, state)
             # On the wall itself heyoka could miss a separation within the same step.
             state[2] = wall * np.nextafter(clearance, math.inf if side else 0.0)
         return Run(np.array(samples), np.array(contacts).reshape(-1, 5))
-
-
-def _jump(p, before, after, t, state):
-    """Change the tangents at an event, the beginning or end of a contact, in place.
-
-    A tangent d becomes d + (f_after - f_before) (n d)/(n f_before), with the normal n of the wall
-    and the vector field f before and after the event (Leine and Nijmeijer, Dynamics and
-    Bifurcations of Non-Smooth Mechanical Systems, 2004, section 7).
-    """
-    old, new = (np.array(equation.rates(p, each)(t, state[:4])) for each in (before, after))
-    tangents = state[4:].reshape(4, 4)
-    tangents += np.outer(new - old, tangents[2]) / old[2]
