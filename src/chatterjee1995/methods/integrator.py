@@ -69,7 +69,7 @@ class Integrator:
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
-        """Return the run; the arguments are those of `steps`."""
+        """Return the run, from the arguments of `steps`."""
         status, work, times, ends = self.steps(p, *given)
         if status != "ended" or not np.isfinite(ends).all():
             return stopped("failed" if status == "ended" else status, work)

@@ -59,7 +59,7 @@ def study_chunk(
     """Return the motions to which random starts lead, in a range of cells of a grid.
 
     `axes` has increasing values for each of AXES, and `cells` are the numbers of the first cell of
-    the chunk and of the first one after it. The other arguments are those of `frequency_response`.
+    the chunk and of the first one after it. The other arguments are as in `frequency_response`.
     """
     axes = {name: np.asarray(axes[name], float) for name in AXES}
     shape, (first, last) = [len(values) for values in axes.values()], cells

@@ -52,7 +52,7 @@ def subharmonic_suppression(
 
     The frequencies become as many in the range of the free subharmonic, which is searched for
     between the first and the last of them. There, half of the starts switch the damper on during
-    this motion. The other arguments are those of `frequency_response`.
+    this motion. The other arguments are as in `frequency_response`.
     """
     if oscillator.is_linear:
         raise ValueError(

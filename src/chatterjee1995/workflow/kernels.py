@@ -35,7 +35,7 @@ def compile_all(processes, orders) -> None:
 def warm_up_paper(orders=()) -> None:
     """Call each kernel of the paper's stages and of the integrators that are compared.
 
-    Results of a kernel from the cache can differ in the last digit from those of one compiled in
+    Results of a kernel from the cache can differ in the last digit from results of a kernel compiled in
     the same process. With all kernels compiled here, every job loads them.
     """
     import numpy as np

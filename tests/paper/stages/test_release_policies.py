@@ -16,8 +16,6 @@ from impact_damper.motions.legs import HOLD, STATE, depth_of
 CUBIC = Oscillator(0.215)
 PAPER = Damper(0.12, 2.0)
 W = 1.85
-
-
 ON = pack(CUBIC, PAPER, W)
 
 
