@@ -35,8 +35,8 @@ def compile_all(processes, orders) -> None:
 def warm_up_paper(orders=()) -> None:
     """Call each kernel of the paper's stages and of the integrators that are compared.
 
-    Results of a kernel from the cache can differ in the last digit from results of a kernel compiled in
-    the same process. With all kernels compiled here, every job loads them.
+    Results of cached and of newly compiled kernels can differ in the last digit. With all kernels
+    compiled here, every job loads them from the cache.
     """
     import numpy as np
 
