@@ -97,20 +97,20 @@ lowest:
 	PYTHONPATH=src $(LOWEST)/bin/python -m pytest --numprocesses auto --dist loadfile \
 		--ignore tests/paper $(PYTEST)
 
-# Build a wheel and an sdist, check them, and run the tests of the library from the wheel, in a new
-# environment and a folder without the sources of the package. Needs the network.
+# Build a wheel and an sdist, check them, and run the tests of the library from the sdist, without
+# its sources, with the wheel in a new environment. Needs the network.
 RELEASE := .venv-release
 release:
-	rm -rf dist build
+	rm -rf build dist
 	$(PYTHON) -m venv --clear $(RELEASE)
 	$(RELEASE)/bin/pip install --quiet build twine
 	$(RELEASE)/bin/python -m build
 	$(RELEASE)/bin/twine check --strict dist/*
 	$(PYTHON) -m venv --clear $(RELEASE)
 	$(RELEASE)/bin/pip install --quiet "$$(ls dist/*.whl)[command,test]"
-	rm -rf dist/tried && mkdir dist/tried && cp -r benchmarks pyproject.toml tests dist/tried
-	cd dist/tried && ../../$(RELEASE)/bin/python -m pytest --numprocesses auto --dist loadfile \
-		tests/library tests/literature $(PYTEST)
+	tar -xzf dist/*.tar.gz -C dist
+	cd dist/impact_damper-*/ && rm -r src && $(abspath $(RELEASE))/bin/python -m pytest \
+		--numprocesses auto --dist loadfile tests/library tests/literature $(PYTEST)
 
 # CITATION.cff and codemeta.json, from pyproject.toml.
 citation: $(READY)

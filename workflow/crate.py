@@ -1,0 +1,252 @@
+"""Contents of an RO-Crate that describes a run: the Provenance Run Crate, version 0.5.
+
+https://www.researchobject.org/workflow-run-crate/profiles/provenance_run_crate says what it must
+hold: files, rules as steps of the workflow, and each job with its function, parameters, inputs,
+outputs and times. Snakemake's records of jobs in `.snakemake/metadata` and the timings hold these.
+"""
+
+import ast
+import base64
+import hashlib
+import json
+import re
+import tomllib
+from datetime import UTC, datetime
+from mimetypes import guess_type
+from pathlib import Path
+from urllib.parse import quote
+
+METADATA = "ro-crate-metadata.json"
+CONTEXT = [
+    "https://w3id.org/ro/crate/1.1/context",
+    "https://w3id.org/ro/terms/workflow-run/context",
+]
+LANGUAGE = "https://w3id.org/workflowhub/workflow-ro-crate#snakemake"
+CRATE = "https://w3id.org/ro/crate/1.1"
+PROFILES = {
+    "https://w3id.org/ro/wfrun/process/0.5": "Process Run Crate",
+    "https://w3id.org/ro/wfrun/workflow/0.5": "Workflow Run Crate",
+    "https://w3id.org/ro/wfrun/provenance/0.5": "Provenance Run Crate",
+    "https://w3id.org/workflowhub/workflow-ro-crate/1.0": "Workflow RO-Crate",
+}
+NETCDF = "application/x-netcdf"
+
+
+def entity(name, kind, /, **properties):
+    """Return an entity of the crate, without the properties that are None or empty."""
+    given = {key: value for key, value in properties.items() if value not in (None, [])}
+    return {"@id": encoded(name), "@type": kind} | given
+
+
+def encoded(name):
+    """Return the identifier of an entity: paths in a crate are URIs."""
+    return quote(name, safe="/#:?=")
+
+
+def links(names):
+    """Return references to entities."""
+    return [{"@id": encoded(name)} for name in names]
+
+
+def sha256(path):
+    """Return the digest of a file."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def stamp(seconds):
+    """Return a time of Snakemake as text."""
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds")
+
+
+def jobs_of(root, files):
+    """Return the record of each job by the name of its log, with `output` and `values`."""
+    folder, jobs = root / ".snakemake/metadata", {}
+    for path in sorted(each for each in folder.rglob("*") if each.is_file()):
+        # Snakemake names a record by its output in base64, long names in folders that begin with @.
+        name = path.relative_to(folder).as_posix().replace("/", "").replace("@", "")
+        output = base64.urlsafe_b64decode(name + "=" * (-len(name) % 4)).decode()
+        record = json.loads(path.read_text())
+        if output in files and record["log"]:
+            job = record["log"][0].split("logs/", 1)[-1].removesuffix(".log")
+            jobs.setdefault(job, record | {"output": []})["output"].append(output)
+    for job in jobs.values():
+        job["values"] = {}
+        for each in job["params"]:
+            job["values"] |= ast.literal_eval(each)
+        job["script"] = "workflow/" + re.search(r"scripts/\w+\.py", job["code"])[0]
+    return jobs
+
+
+def files_of(root, paths, jobs):
+    """Yield the entity of each file; figures and tables have their captions."""
+    rules = {output: job["rule"] for job in jobs.values() for output in job["output"]}
+    for path in paths:
+        caption = (root / path).with_suffix(".rst")
+        shown = Path(path).parent.name in ("figures", "tables") and caption.exists()
+        kind = NETCDF if path.endswith(".nc") else guess_type(path)[0] or "text/plain"
+        parameter = f"{rules[path]}/output" if path in rules else None
+        yield entity(
+            path,
+            "File",
+            name=path,
+            contentSize=str((root / path).stat().st_size),
+            sha256=sha256(root / path),
+            encodingFormat=kind,
+            description=caption.read_text().strip() if shown else None,
+            exampleOfWork=links([f"#{parameter}"]) if parameter else None,
+        )
+
+
+def usage(root, name, job):
+    """Return time and memory of a job as entities."""
+    path = root / Path(job["log"][0].replace("logs/", "timings/", 1)).with_suffix(".tsv")
+    keys, numbers = map(str.split, path.read_text().splitlines()) if path.exists() else ([], [])
+    return [
+        entity(f"#{name}/{key}", "PropertyValue", name=key, propertyID=f"#{key}", value=number)
+        for key, number in zip(keys, numbers, strict=True)
+    ]
+
+
+def actions(root, jobs):
+    """Yield the entities of each job: parameters, time and memory, its action and its start."""
+    for name, job in jobs.items():
+        given = [
+            entity(
+                f"#{name}/{key}",
+                "PropertyValue",
+                name=key,
+                value=json.dumps(value),
+                exampleOfWork=links([f"#{job['rule']}/{key}"]),
+            )
+            for key, value in job["values"].items()
+        ]
+        used = usage(root, name, job)
+        yield from (*given, *used)
+        yield entity(
+            f"#{name}",
+            "CreateAction",
+            name=f"job {name}",
+            instrument=links([f"#{job['rule']}/tool"]),
+            object=links(job["input"]) + [{"@id": each["@id"]} for each in given],
+            result=links(job["output"]),
+            startTime=stamp(job["starttime"]),
+            endTime=stamp(job["endtime"]),
+            actionStatus="http://schema.org/CompletedActionStatus",
+            resourceUsage=[{"@id": each["@id"]} for each in used],
+        )
+        step = links([f"#{job['rule']}"])
+        started = links([f"#{name}"])
+        yield entity(
+            f"#{name}/start", "ControlAction", name=f"start {name}", instrument=step, object=started
+        )
+
+
+def rules_of(jobs, version):
+    """Yield the step of each rule, its tool (the function that its jobs call), and parameters."""
+    for rule in sorted({job["rule"] for job in jobs.values()}):
+        same = [job for job in jobs.values() if job["rule"] == rule]
+        first = same[0]
+        keys = [f"#{rule}/{key}" for key in sorted({key for job in same for key in job["values"]})]
+        yield entity(f"#{rule}", "HowToStep", name=rule, workExample=links([f"#{rule}/tool"]))
+        yield entity(
+            f"#{rule}/tool",
+            "SoftwareApplication",
+            name=first["values"].get("function", first["script"]),
+            softwareVersion=version,
+            mainEntity=links([first["script"]]),
+            input=links(keys),
+            output=links([f"#{rule}/output"]),
+        )
+        for each in keys:
+            name = each.rpartition("/")[2]
+            yield entity(each, "FormalParameter", name=name, additionalType="PropertyValue")
+        yield entity(f"#{rule}/output", "FormalParameter", name=rule, additionalType="File")
+
+
+def workflow_of(project, rules, digest, version):
+    """Yield the entities of the workflow, of its language, and of the profiles of the crate."""
+    terms = f"https://spdx.org/licenses/{project['license']}"
+    snakemake = {"name": "Snakemake", "url": {"@id": "https://snakemake.readthedocs.io"}}
+    yield entity(
+        "Snakefile",
+        ["File", "SoftwareSourceCode", "ComputationalWorkflow", "HowTo"],
+        name="Snakefile",
+        sha256=digest,
+        version=project["version"],
+        license={"@id": terms},
+        creator=links(["#authors"]),
+        programmingLanguage={"@id": LANGUAGE},
+        hasPart=links(f"#{rule}/tool" for rule in rules),
+        step=links(f"#{rule}" for rule in rules),
+        output=links(f"#{rule}/output" for rule in rules),
+    )
+    yield entity(LANGUAGE, "ComputerLanguage", version=version, **snakemake)
+    yield entity("#snakemake", "SoftwareApplication", softwareVersion=version, **snakemake)
+    yield entity(terms, "CreativeWork", name=project["license"])
+    yield entity("#authors", "Organization", name=project["authors"][0]["name"])
+    for address, name in PROFILES.items():
+        yield entity(address, "CreativeWork", name=name, version=address.rpartition("/")[2])
+
+
+def run_of(project, paths, jobs):
+    """Yield the entities of the crate, of the run of the workflow, and of Snakemake's run."""
+    outputs = {output for job in jobs.values() for output in job["output"]}
+    begin = stamp(min(job["starttime"] for job in jobs.values()))
+    end = stamp(max(job["endtime"] for job in jobs.values()))
+    profiles = links(PROFILES)
+    conforming = [{"@id": CRATE}, profiles[-1]]
+    yield entity(METADATA, "CreativeWork", about={"@id": "./"}, conformsTo=conforming)
+    yield entity(
+        "./",
+        "Dataset",
+        name=f"Results of {project['name']} {project['version']}",
+        description=project["description"],
+        datePublished=end,
+        license={"@id": f"https://spdx.org/licenses/{project['license']}"},
+        author=links(["#authors"]),
+        conformsTo=profiles,
+        mainEntity={"@id": "Snakefile"},
+        mentions=links(["#run", "#engine"]),
+        hasPart=links(paths),
+    )
+    yield entity(
+        "#run",
+        "CreateAction",
+        name="run of the workflow",
+        instrument=links(["Snakefile"]),
+        object=links(path for path in paths if path not in outputs),
+        result=links(sorted(outputs)),
+        startTime=begin,
+        endTime=end,
+    )
+    yield entity(
+        "#engine",
+        "OrganizeAction",
+        name="run of Snakemake",
+        instrument=links(["#snakemake"]),
+        object=links(f"#{name}/start" for name in jobs),
+        result=links(["#run"]),
+    )
+
+
+def crate(root, results, paths):
+    """Return the metadata of the crate of some files, and the number of jobs that made them."""
+    jobs = jobs_of(root, set(paths))
+    if not jobs:
+        raise ValueError(
+            f"{root / '.snakemake'} has no record of a job: run `make reproduce` first"
+        )
+    lost = {path for job in jobs.values() for path in job["input"]}.difference(paths)
+    if lost:
+        raise ValueError(f"inputs of jobs are not in the archive: {', '.join(sorted(lost))}")
+    project = tomllib.loads((root / "pyproject.toml").read_text())["project"]
+    rules = sorted({job["rule"] for job in jobs.values()})
+    version = json.loads((root / results / "provenance.json").read_text())["versions"]["snakemake"]
+    graph = [
+        *run_of(project, paths, jobs),
+        *workflow_of(project, rules, sha256(root / "Snakefile"), version),
+        *rules_of(jobs, project["version"]),
+        *actions(root, jobs),
+        *files_of(root, [path for path in paths if path != "Snakefile"], jobs),
+    ]
+    return {"@context": CONTEXT, "@graph": graph}, len(jobs)
