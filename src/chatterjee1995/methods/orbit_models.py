@@ -92,8 +92,8 @@ def rigid_balance(oscillator, damper, frequency, state):
         return without("not_applicable")
     roots = single_harmonic.rigid_solutions(oscillator, damper, frequency)
     models = []
-    for a, phase, pulling in zip(roots.amplitude, roots.phase, roots.pulling, strict=True):
-        if not pulling:
+    for a, _, phase in zip(*roots, strict=True):
+        if a <= damper.clearance:
             turn = np.exp(1j * (np.pi / 2 + phase)) * np.array([1, 1j * frequency])
             at = np.concatenate([a * turn.real, damper.clearance * turn.real])
             touching = np.array([-phase, np.pi - phase]) % (2 * np.pi)

@@ -11,17 +11,9 @@ from impact_damper.model.parameters import Damper, Oscillator
 
 # Parameters that can vary along a branch, each with the dataclass that holds it. A branch is
 # continued in a coordinate: the parameter itself if it is in LINEAR, otherwise its logarithm.
-PARAMETERS = {
-    "frequency": None,
-    "damping": Oscillator,
-    "cubic": Oscillator,
-    "force": Oscillator,
-    "unbalance": Oscillator,
-    "mass_ratio": Damper,
-    "clearance": Damper,
-    "restitution": Damper,
-    "contact_stiffness": Damper,
-}
+PARAMETERS = {"frequency": None}
+PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
+PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
 # Index in the packed array (see `packed`) of each part of the forcing amplitude.
 FORCING = {"force": FORCE, "unbalance": UNBALANCE, "shaker": SHAKER}
@@ -67,27 +59,20 @@ def family_of(oscillator, damper, frequency, parameter, span):
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)
     least, most = span
-    pack_at = _pack_by(oscillator, damper, frequency, parameter)
+
+    def pack_at(value):
+        if part is None:
+            return pack(oscillator, damper, value)
+        changed = replace(part, **{parameter: value})
+        if part is oscillator:
+            return pack(changed, damper, frequency)
+        return pack(oscillator, changed, frequency)
+
     try:
         for bound in span:
-            if part is not None:
-                replace(part, **{parameter: bound})
             pack_at(bound)
     except ValueError as error:
         raise ValueError(f"span = {shown(span)}: {error}") from None
     if parameter in LINEAR:
         return pack_at, value, (least, most)
     return (lambda x: pack_at(np.exp(x))), np.log(value), (np.log(least), np.log(most))
-
-
-def _pack_by(oscillator, damper, frequency, parameter):
-    """Return the packed parameters as a function of the value of one parameter."""
-
-    def pack_at(value):
-        if parameter == "frequency":
-            return pack(oscillator, damper, value)
-        if PARAMETERS[parameter] is Oscillator:
-            return pack(replace(oscillator, **{parameter: value}), damper, frequency)
-        return pack(oscillator, replace(damper, **{parameter: value}), frequency)
-
-    return pack_at

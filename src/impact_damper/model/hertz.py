@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from impact_damper.model.bounds import names_arguments
-from impact_damper.model.units import convert, physical
+from impact_damper.model.units import convert, optional, physical
 
 # Duration of an impact, in units of the largest compression divided by the speed:
 # (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
@@ -57,21 +57,14 @@ class HertzContact:
     )
     youngs_modulus: float = physical("pressure", "Young's modulus of the loose mass", above=0)
     poissons_ratio: float = physical("number", "Poisson's ratio of the loose mass", **POISSON_RANGE)
-    yield_strength: float | None = physical(
-        "pressure",
-        "yield strength in tension (without it yielding is not judged)",
-        above=0,
-        default=None,
+    yield_strength: float | None = optional(
+        "pressure", "yield strength in tension (without it yielding is not judged)", above=0
     )
-    wall_youngs_modulus: float | None = physical(
-        "pressure", f"Young's modulus {WALLS}", above=0, default=None
+    wall_youngs_modulus: float | None = optional("pressure", f"Young's modulus {WALLS}", above=0)
+    wall_poissons_ratio: float | None = optional(
+        "number", f"Poisson's ratio {WALLS}", **POISSON_RANGE
     )
-    wall_poissons_ratio: float | None = physical(
-        "number", f"Poisson's ratio {WALLS}", **POISSON_RANGE, default=None
-    )
-    wall_yield_strength: float | None = physical(
-        "pressure", f"yield strength {WALLS}", above=0, default=None
-    )
+    wall_yield_strength: float | None = optional("pressure", f"yield strength {WALLS}", above=0)
 
     def __post_init__(self):
         convert(self)

@@ -16,7 +16,7 @@ from impact_damper.model.bounds import (
 )
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.text import with_unit
-from impact_damper.model.units import Scales, check_si, convert, physical
+from impact_damper.model.units import Scales, check_si, convert, optional, physical
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
 # Largest damping ratio for which `Machine.oscillator` approximates the force of a moving base over
@@ -124,44 +124,37 @@ class Machine:
         most=1e30,
         default=0.0,
     )
-    natural_frequency: float | None = physical(
+    natural_frequency: float | None = optional(
         "frequency",
         "frequency of small undamped vibrations (in place of `linear_stiffness`)",
         above=0,
         most=1e15,
-        default=None,
     )
-    damping_ratio: float | None = physical(
+    damping_ratio: float | None = optional(
         "number",
         "damping divided by the critical damping (give this or one of the next two keys)",
         above=0,
         most=MOST_DAMPING,
         why="at 1, critical damping, nothing vibrates; 1 per cent is 0.01 or '1 %'",
-        default=None,
     )
-    quality_factor: float | None = physical(
-        "number", "1 / (2 damping_ratio)", above=0.5 / MOST_DAMPING, default=None
+    quality_factor: float | None = optional(
+        "number", "1 / (2 damping_ratio)", above=0.5 / MOST_DAMPING
     )
-    damping: float | None = physical("damping", "coefficient of the dashpot", above=0, default=None)
-    force: float | None = physical(
+    damping: float | None = optional("damping", "coefficient of the dashpot", above=0)
+    force: float | None = optional(
         "force",
         "amplitude of the force (give this or one of the next three keys)",
         least=0,
         most=1e15,
-        default=None,
     )
-    base_displacement: float | None = physical(
-        "displacement", "amplitude with which the base moves", above=0, most=1e3, default=None
+    base_displacement: float | None = optional(
+        "displacement", "amplitude with which the base moves", above=0, most=1e3
     )
-    base_acceleration: float | None = physical(
-        "acceleration", "amplitude of the base's acceleration", above=0, most=1e9, default=None
+    base_acceleration: float | None = optional(
+        "acceleration", "amplitude of the base's acceleration", above=0, most=1e9
     )
-    unbalance: float | None = physical(
-        "unbalance",
-        "mass times eccentricity of a rotating unbalance",
-        above=0,
-        most=1e15,
-        default=None,
+    unbalance: float | None = optional(
+        "unbalance", "mass times eccentricity of a rotating unbalance", above=0, most=1e15
     )
 
     def __post_init__(self):

@@ -8,7 +8,7 @@ import math
 import numbers
 import re
 from dataclasses import field, fields
-from functools import cache
+from functools import cache, partial
 from typing import NamedTuple
 
 from impact_damper.model.bounds import check_number, shown
@@ -162,6 +162,9 @@ def physical(quantity, meaning="", **others):
     unit = QUANTITIES[quantity].unit
     facts = {"quantity": quantity, "bounds": others, "meaning": meaning}
     return field(metadata=facts | {"unit": f", {unit}" * bool(unit)}, **default)
+
+
+optional = partial(physical, default=None)
 
 
 def convert(part) -> None:

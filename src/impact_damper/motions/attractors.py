@@ -17,7 +17,7 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import FREQUENCY, cubic_spring, pack
 from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
-from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_time
 
 # The proof: steps in a forcing cycle, largest contraction |R| r(P)/r0, and bisections of r0.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
@@ -73,28 +73,20 @@ def free_attractors(p, window, settling, workers=1) -> Attractors:
 
 def with_neighbourhoods(p, records) -> Attractors:
     """Return the `Attractors` of orbits, an array of records.MOTION."""
-    owner, centres, shapes = [], [], []
-    for index, record in enumerate(records):
-        for state in strobe_states(p, record):
-            owner.append(index)
-            centres.append(state)
-            shapes.append(neighbourhood(p, state, int(record["period"])))
-    return Attractors(
-        records,
-        np.array(owner, np.int64),
-        np.array(centres).reshape(-1, 2),
-        np.array(shapes).reshape(-1, 2, 2),
-    )
+    orbits = [orbit_passages(p, record, STROBE) for record in records]
+    shapes = [neighbourhood(p, state, len(states)) for states in orbits for state in states]
+    owner = np.repeat(np.arange(len(records)), records["period"])
+    centres = np.concatenate([np.empty((0, 2)), *orbits])
+    return Attractors(records, owner, centres, np.array(shapes).reshape(-1, 2, 2))
 
 
-def strobe_states(p, record):
-    """Return the states Z1, Z1' of a free orbit at its strobes, shape (period, 2)."""
-    y, none, work = record["state"].copy(), np.empty((0, 4)), workspace()
-    states, begin = [], strobe_time(p)
-    for _ in range(record["period"]):
-        states.append(y[:2].copy())
-        advance(p, y, none, 0, begin, begin + 2 * np.pi / p[FREQUENCY], POLISH_TOLERANCE, work)
-    return np.array(states)
+def orbit_passages(p, record, phase):
+    """Return Z1, Z1' of an orbit at all times with a given forcing phase, shape (period, 2)."""
+    period = 2 * np.pi / p[FREQUENCY]
+    begin = strobe_time(p)
+    first = begin + (phase / p[FREQUENCY] - begin) % period
+    times = first + period * np.arange(record["period"])
+    return traces.states_at(p, record["state"], begin, times, POLISH_TOLERANCE)[:, :2]
 
 
 def _distinct(p, motions):
@@ -108,7 +100,7 @@ def _distinct(p, motions):
         )
         if not known:
             kept.append(record)
-            seen.append(strobe_states(p, record))
+            seen.append(orbit_passages(p, record, STROBE))
     return np.array(kept, motions.dtype)
 
 
@@ -195,15 +187,6 @@ def label_damped(p, states, phase, settling, workers=1, progress=None):
             labels[i] = len(attractors)
             attractors.append(motions[i])
     return labels, np.array(attractors, records.MOTION)
-
-
-def orbit_passages(p, record, phase):
-    """Return Z1, Z1' of an orbit at all times with a given forcing phase, shape (period, 2)."""
-    period = 2 * np.pi / p[FREQUENCY]
-    begin = strobe_time(p)
-    first = begin + (phase / p[FREQUENCY] - begin) % period
-    times = first + period * np.arange(record["period"])
-    return traces.states_at(p, record["state"], begin, times, POLISH_TOLERANCE)[:, :2]
 
 
 class ReleaseSet(NamedTuple):

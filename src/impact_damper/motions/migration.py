@@ -207,11 +207,8 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit
-    log = np.zeros(len(draws), SWITCHING)
-    for name in SWITCHING.names:
-        if SWITCHING[name].kind == "f":
-            log[name] = np.nan
-    log["destination"] = FREE_MOTION["none"]
+    none = (np.nan, np.nan, np.nan, 0, np.nan, FREE_MOTION["none"])
+    log = np.full(len(draws), np.array(none, SWITCHING))
     for entry, (on_phase, place, off_phase) in zip(log, draws, strict=True):
         wait, place = on_phase * max(period, 1), 2 * place - 1
         if releases is None:

@@ -35,32 +35,20 @@ NEVER = np.zeros(1, bool)
     QUASI_PERIODIC,
     DRIFTING,
 ) = range(9)
-# `watch.watch` fills the fields from `outcome` to `reach`, and `measure` the other fields.
+# `measure` fills the fields from `maximum_displacement` on, `watch.watch` the other fields.
 # period       period of the orbit in forcing cycles, 0 without an orbit
 # periods_run  forcing cycles until the outcome was known
 # residual     largest difference between the state and the state a period later
 # state        last state at the strobe, of a settled motion the state on the orbit
 # reach        largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
+WATCHED = "residual lyapunov_exponent lyapunov_error first_frequency second_frequency"
+MEASURED = "maximum_displacement contacts asymmetry"
 MOTION = np.dtype(
-    [
-        ("outcome", "i1"),
-        ("period", "i2"),
-        ("periods_run", "i4"),
-        ("multiplier", "c16"),
-        ("residual", "f8"),
-        ("lyapunov_exponent", "f8"),
-        ("lyapunov_error", "f8"),
-        ("first_frequency", "f8"),
-        ("second_frequency", "f8"),
-        ("frequency_error", "f8"),
-        ("state", "f8", 4),
-        ("reach", "f8"),
-        ("maximum_displacement", "f8"),
-        ("contacts", "f8"),
-        ("asymmetry", "f8"),
-        ("harmonic_displacement", "c16"),
-        ("harmonic_relative", "c16"),
-    ]
+    [("outcome", "i1"), ("period", "i2"), ("periods_run", "i4"), ("multiplier", "c16")]
+    + [(name, "f8") for name in f"{WATCHED} frequency_error reach".split()]
+    + [("state", "f8", 4)]
+    + [(name, "f8") for name in MEASURED.split()]
+    + [("harmonic_displacement", "c16"), ("harmonic_relative", "c16")]
 )
 
 

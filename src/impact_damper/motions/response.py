@@ -82,20 +82,15 @@ def steady_motion(
     p = model.pack()
     y = read_state(model, state)
     start = read_start(model, state, start)
-    begin = before_strobe(start, model.frequency)
+    # The start moves by whole forcing cycles into the cycle that ends at the strobe.
+    strobe, period = STROBE / model.frequency, 2 * np.pi / model.frequency
+    begin = min(start - np.ceil((start - strobe) / period - 1e-9) * period, strobe)
     record = ensemble.settle(p[None], y[None], settling, start=begin)[0]
     data = {name: ((), value) for name, value in tabulate(record).items()}
     data |= {"state": (("component",), record["state"]), "state_phase": STROBE}
     parameters = model.describe(settling) | {"state": y.tolist(), "start": start}
     coordinates = {"component": list(COMPONENTS), "frequency": ((), model.frequency)}
     return dataset(data, coordinates, parameters, "Steady motion of the oscillator", model)
-
-
-def before_strobe(start, frequency) -> float:
-    """Return a time shifted by whole forcing cycles into the cycle that ends at W T = pi/2."""
-    strobe, period = STROBE / frequency, 2 * np.pi / frequency
-    moved = start - np.ceil((start - strobe) / period - 1e-9) * period
-    return min(moved, strobe)
 
 
 def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None):

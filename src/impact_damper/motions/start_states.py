@@ -8,6 +8,7 @@ motions of weakly damped machines, whose small basins hardly any random start hi
 """
 
 import math
+from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
@@ -227,36 +228,24 @@ def free_motions(oscillator, frequency, settling) -> FreeMotions:
     """
     p = pack(oscillator, None, frequency)
     angles = 2 * np.pi * np.arange(PHASES) / PHASES
-    sizes = np.append(balance_amplitudes(oscillator, frequency), _peak_amplitude(oscillator))
+    sizes = list(balance_amplitudes(oscillator, frequency))
+    with suppress(ValueError):  # raised without a peak
+        sizes.append(maximum_response(oscillator).amplitude)
     turns = np.stack([np.cos(angles), -frequency * np.sin(angles)], axis=1)
     starts = np.concatenate([[(0.0, 0.0)], *(size * turns for size in sizes)])
     motions = ensemble.settle(np.tile(p, (len(starts), 1)), np.tile(starts, 2), settling)
     states, largest, fastest = [], 0.0, 0.0
-    known = set()
+    known, begin, period = set(), strobe_map.strobe_time(p), 2 * np.pi / frequency
     for record in motions[np.isfinite(motions["maximum_displacement"])]:
         key = record["outcome"], record["period"], f"{record['maximum_displacement']:.5e}"
         if key in known:
             continue
         known.add(key)
-        course = _course(p, record["state"], int(record["period"]) or settling.watched)
+        cycles = int(record["period"]) or settling.watched
+        times = begin + period * np.arange(cycles * SAMPLES + 1) / SAMPLES
+        course = traces.states_at(p, record["state"], begin, times, strobe_map.POLISH_TOLERANCE)
         largest = max(largest, record["maximum_displacement"])
         fastest = max(fastest, np.max(np.abs(course[:, 1])))
         # The state is recorded at the phase W T = pi/2. T = 0 is three quarters of a cycle later.
         states.append(course[3 * SAMPLES // 4 :: SAMPLES, :2][:MOST_STATES])
     return FreeMotions(np.concatenate(states or [[(0.0, 0.0)]]), float(largest), float(fastest))
-
-
-def _peak_amplitude(oscillator):
-    """Return a list with the amplitude of the resonance peak, empty if there is no peak."""
-    try:
-        return [maximum_response(oscillator).amplitude]
-    except ValueError:
-        return []
-
-
-def _course(p, state, periods):
-    """Return samples of a free motion over `periods` cycles from a state at W T = pi/2."""
-    begin = strobe_map.strobe_time(p)
-    period = 2 * np.pi / p[FREQUENCY]
-    times = begin + period * np.arange(periods * SAMPLES + 1) / SAMPLES
-    return traces.states_at(p, state, begin, times, strobe_map.POLISH_TOLERANCE)

@@ -39,18 +39,9 @@ REST = 1e-9
 # distance at which Newton's method is tried next (`near`); cycles over which the tangent has been
 # followed (`periods`), its growth in this batch, and mean, squares and last complete batches.
 SEEN = np.dtype(
-    [
-        ("index", "i8"),
-        ("strobes", "i8"),
-        ("untouched", "i8"),
-        ("near", "f8"),
-        ("energy", "f8"),
-        ("periods", "i8"),
-        ("batch", "f8"),
-        ("mean", "f8"),
-        ("squares", "f8"),
-        ("recent", "f8", RECENT),
-    ]
+    [(name, "i8") for name in ("index", "strobes", "untouched", "periods")]
+    + [(name, "f8") for name in ("near", "energy", "batch", "mean", "squares")]
+    + [("recent", "f8", RECENT)]
 )
 
 

@@ -79,7 +79,7 @@ def resonance(oscillator, frequency) -> Resonance:
     next to the peak.
     """
     free = main_solutions(oscillator, frequency)
-    folds = _folds(oscillator)
+    folds = free_folds(oscillator)
     if oscillator.hardening < 0:
         most = maximum_response(oscillator).amplitude
         folds = [fold for fold in folds if fold.amplitude < most]
@@ -140,7 +140,8 @@ def _peak_on_a_shaker(oscillator):
     return Point(frequency, float(free_solutions(oscillator, frequency).amplitude[0]))
 
 
-def free_folds(oscillator) -> list[Point]:
+@lru_cache
+def free_folds(oscillator) -> tuple[Point, ...]:
     """Return the folds of the free response curve, by ascending amplitude.
 
     At a fold the polynomial of `maximum_response` in s = W^2 and its derivative by u = a^2 are
@@ -149,7 +150,7 @@ def free_folds(oscillator) -> list[Point]:
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening
     if g == 0 or force == unbalance == 0:
-        return []
+        return ()
     fifth, fourth = 4 * g**3 * damping, 4 * g**2 * damping * stiffness
     second, third = 2 * g * damping * force**2, -4 * g**2 * force**2
     resultant = Polynomial([force**4, 0, second, third, fourth, fifth])
@@ -162,14 +163,11 @@ def free_folds(oscillator) -> list[Point]:
     leading = 1 - unbalance * (2 * force - unbalance * linear) / (2 * g * squares**2)
     frequencies = stiffness + g * squares - damping / 2 + root
     frequencies = (frequencies - unbalance**2 * bend / (2 * g * squares**2)) / leading
-    return [
+    return tuple(
         Point(float(np.sqrt(square)), float(np.sqrt(u)))
         for square, u in zip(frequencies, squares, strict=True)
         if square > 0
-    ]
-
-
-_folds = lru_cache(free_folds)
+    )
 
 
 def _by_unbalance(oscillator):

@@ -10,10 +10,15 @@ import xarray as xr
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.model.arguments import read_frequencies, read_system
 from impact_damper.model.bounds import names_arguments
-from impact_damper.theory import single_harmonic
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.free_oscillator import free_solutions, resonance
-from impact_damper.theory.single_harmonic import check_elastic, impacting_solutions
+from impact_damper.theory.single_harmonic import (
+    Solutions,
+    check_elastic,
+    impacting_solutions,
+    resting_solutions,
+    rigid_solutions,
+)
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
 # Solutions at neighbouring frequencies can belong to one branch only if their distance is below
@@ -121,19 +126,15 @@ def _table(columns, rows, fill=np.nan):
     return table
 
 
-def _plane(amplitude, phase):
-    """Return the coefficients of cos(W T) and -sin(W T) in amplitude * cos(W T + phase)."""
-    return np.stack([amplitude * np.cos(phase), amplitude * np.sin(phase)], axis=-1)
-
-
 def _free_table(oscillator, frequencies):
     """Return the variables of the solutions without a damper."""
     free = [free_solutions(oscillator, frequency) for frequency in frequencies]
+    points = [fixed_points(each) for each in free]
     signs = [
-        stability(growth_rate(fixed_points(each), oscillator, None, frequency))
-        for each, frequency in zip(free, frequencies, strict=True)
+        stability(growth_rate(each, oscillator, None, frequency))
+        for each, frequency in zip(points, frequencies, strict=True)
     ]
-    columns = branches_over([_plane(each.amplitude, each.phase) for each in free])
+    columns = branches_over(points)
     return {
         "free_amplitude": _table(columns, [each.amplitude for each in free]),
         "free_phase": _table(columns, [each.phase for each in free]),
@@ -143,32 +144,33 @@ def _free_table(oscillator, frequencies):
 
 def _solution_table(oscillator, damper, frequencies):
     """Return the variables of the solutions of (7), and of motions with the loose mass at rest."""
-    rows, status = [], []
+    impacting, status = [], []
     for frequency in frequencies:
-        resting = single_harmonic.resting_solutions(oscillator, damper, frequency)
-        status.append(flag("balance_status", "solved"))
         try:
-            impacting = single_harmonic.impacting_solutions(oscillator, damper, frequency)
+            impacting.append(impacting_solutions(oscillator, damper, frequency))
+            status.append(flag("balance_status", "solved"))
         except ArithmeticError:
-            impacting = single_harmonic.Solutions(*np.empty((3, 0)))
-            status[-1] = flag("balance_status", "unresolved")
-        growth = np.concatenate(
-            [
-                growth_rate(fixed_points(impacting), oscillator, damper, frequency),
-                growth_rate(fixed_points(resting)[:, :2], oscillator, None, frequency),
-            ]
+            impacting.append(Solutions(*np.empty((3, 0))))
+            status.append(flag("balance_status", "unresolved"))
+    resting = [resting_solutions(oscillator, damper, w) for w in frequencies]
+    moving, still = ([fixed_points(each) for each in part] for part in (impacting, resting))
+    growth = [
+        np.append(
+            growth_rate(first, oscillator, damper, frequency),
+            growth_rate(second[:, :2], oscillator, None, frequency),
         )
-        kinds = np.repeat(
-            [flag("kind", "impacting"), flag("kind", "resting")],
-            [len(impacting.phase), len(resting.phase)],
-        )
-        rows.append([*map(np.concatenate, zip(impacting, resting, strict=True)), growth, kinds])
-    amplitude, relative, phase, growth, kinds = zip(*rows, strict=True)
-    columns = _solution_branches(amplitude, relative, phase, kinds)
+        for first, second, frequency in zip(moving, still, frequencies, strict=True)
+    ]
+    names = flag("kind", "impacting"), flag("kind", "resting")
+    kinds = [np.repeat(names, [len(a), len(b)]) for a, b in zip(moving, still, strict=True)]
+    columns, others = branches_over(moving), branches_over(still)
+    begun = max((1 + row.max() for row in columns if len(row)), default=0)
+    columns = [np.append(a, begun + b) for a, b in zip(columns, others, strict=True)]
+    both = [Solutions(*map(np.append, a, b)) for a, b in zip(impacting, resting, strict=True)]
     return {
-        "amplitude": _table(columns, amplitude),
-        "relative_amplitude": _table(columns, relative),
-        "phase": _table(columns, phase),
+        "amplitude": _table(columns, [each.amplitude for each in both]),
+        "relative_amplitude": _table(columns, [each.relative_amplitude for each in both]),
+        "phase": _table(columns, [each.phase for each in both]),
         "growth_rate": _table(columns, growth),
         "stability": _table(
             columns, [stability(row) for row in growth], flag("stability", "absent")
@@ -178,34 +180,12 @@ def _solution_table(oscillator, damper, frequencies):
     }
 
 
-def _solution_branches(amplitude, relative, phase, kinds):
-    """Return for each frequency the branches of the solutions, those with impacts first."""
-    resting = flag("kind", "resting")
-    found, begun = [np.empty(len(row), int) for row in kinds], 0
-    for chosen in ([row != resting for row in kinds], [row == resting for row in kinds]):
-        columns = branches_over(
-            [
-                np.hstack([_plane(a, t), _plane(b, t)])[where]
-                for a, b, t, where in zip(amplitude, relative, phase, chosen, strict=True)
-            ]
-        )
-        for row, where, column in zip(found, chosen, columns, strict=True):
-            row[where] = begun + column
-        begun += max((1 + row.max() for row in columns if len(row)), default=0)
-    return found
-
-
 def _rigid_table(oscillator, damper, frequencies):
     """Return the variables of the roots of (14)."""
-    rigid = [single_harmonic.rigid_solutions(oscillator, damper, each) for each in frequencies]
+    rigid = [rigid_solutions(oscillator, damper, each) for each in frequencies]
     pulls, pushes = (flag("rigid_wall", name) for name in ("pulls", "pushes"))
-    walls = [np.where(each.pulling, pulls, pushes) for each in rigid]
-    columns = branches_over(
-        [
-            np.hstack([_plane(each.amplitude, each.phase), _plane(damper.clearance, each.phase)])
-            for each in rigid
-        ]
-    )
+    walls = [np.where(each.amplitude > damper.clearance, pulls, pushes) for each in rigid]
+    columns = branches_over([fixed_points(each) for each in rigid])
     return {
         "rigid_amplitude": _table(columns, [each.amplitude for each in rigid]),
         "rigid_wall": _table(columns, walls, flag("rigid_wall", "absent")),
@@ -237,12 +217,12 @@ def suppression_band(system, damper):
         return dataset(data, {"edge": EDGES}, model.describe(), title, model)
     highest = oscillator.forcing_amplitude(peak) / (oscillator.damping * peak)
 
-    def status(frequency):
-        return _look(oscillator, damper, frequency)[0]
+    def inside(frequency):
+        return _look(oscillator, damper, frequency)[0] == "found"
 
     found, stable = _look(oscillator, damper, peak)
     if found == "found":
-        edges = [_edge(lambda w: status(w) == "found", peak, limit) for limit in SEARCHED]
+        edges = [_edge(inside, peak, limit) for limit in SEARCHED]
         data["edge_frequency"] = edges
         data["band_width"] = edges[1] - edges[0]
     quiet = stable[0] if len(stable) else np.nan

@@ -23,14 +23,6 @@ class Solutions(NamedTuple):
     phase: np.ndarray
 
 
-class RigidSolutions(NamedTuple):
-    """Solutions a and t1 for rigid walls, which would have to pull where a > d0; shape (count,)."""
-
-    amplitude: np.ndarray
-    phase: np.ndarray
-    pulling: np.ndarray
-
-
 def contact_amplitude(relative_amplitude, clearance) -> tuple:
     """Return the first harmonic B(b) of the contact force divided by r1, equation (6e), and dB/db.
 
@@ -42,16 +34,17 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
     return amplitude * (2 / np.pi) * _excess(angle), slope
 
 
-def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
-    """Return all real roots D of (14), ascending, as the amplitudes and phases that solve (13).
+def rigid_solutions(oscillator, damper, frequency) -> Solutions:
+    """Return the solutions of (13), with b = d0, by ascending real roots D of (14).
 
-    For a forcing amplitude f other than 1, d0/f, k3 f^2 and a/f replace d0, k3 and a.
+    Where a > d0 walls would have to pull; (7) has no such solution. For a forcing amplitude f other
+    than 1, d0/f, k3 f^2 and a/f replace d0, k3 and a.
     """
     check_elastic(damper)
     frequency = check_frequency(frequency)
     force = oscillator.forcing_amplitude(frequency)
     if force == 0:
-        return RigidSolutions(*np.empty((2, 0)), np.empty(0, bool))
+        return Solutions(*np.empty((3, 0)))
     inertia = damper.mass_ratio * frequency**2
     detuning = oscillator.linear_frequency**2 - frequency**2
     drag = oscillator.damping * frequency
@@ -62,7 +55,8 @@ def rigid_solutions(oscillator, damper, frequency) -> RigidSolutions:
         [push - 1, odd, 3 * push - 1, cubic + 2 * odd, 3 * push + 1, odd, push + 1]
     )
     amplitude = -2 * force * tangent / (drag * (1 + tangent**2))
-    return RigidSolutions(amplitude, 2 * np.arctan(tangent), amplitude > damper.clearance)
+    clearance = np.full(len(tangent), damper.clearance)
+    return Solutions(amplitude, clearance, 2 * np.arctan(tangent))
 
 
 def impacting_solutions(oscillator, damper, frequency) -> Solutions:

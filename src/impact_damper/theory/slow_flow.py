@@ -46,14 +46,8 @@ def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
 
 def fixed_points(solutions) -> np.ndarray:
     """Return the states of harmonic-balance solutions, which are fixed points of the slow flow."""
-    turn = np.exp(1j * solutions.phase)
-    parts = [
-        part
-        for size in solutions
-        if size is not solutions.phase
-        for part in ((size * turn).real, (size * turn).imag)
-    ]
-    return np.stack(parts, axis=-1)
+    *sizes, phase = solutions
+    return np.stack([size * np.exp(1j * phase) for size in sizes], axis=-1).view(float)
 
 
 def stability(growth) -> np.ndarray:
