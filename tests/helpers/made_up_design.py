@@ -128,8 +128,6 @@ def _maps():
         "other_force": [900.0, 600.0, 1500.0],
         "reached_displacement": np.linspace(0.8, 0.4, 5),
         "untouched_displacement": np.full(5, np.nan),
-        "motion_rms": np.linspace(0.4, 0.2, 5),
-        "motion_peak_high": np.linspace(0.7, 0.3, 5),
         "impact_rate_by_frequency": np.linspace(14.0, 10.0, 5),
         "contact_force_by_frequency": np.linspace(600.0, 500.0, 5),
         "penetration_by_frequency": np.full(5, 0.03),
@@ -162,8 +160,6 @@ def _branches():
         "gap_of_orbit": [6.0, 7.0, 8.0, 9.0],
         "displacement_by_gap": [0.8, 0.7, 0.5, 0.4],
         "modulus_by_gap": [1.2, 0.9, 0.8, 1.1],
-        "stability_gap": [6.5, 8.8],
-        "stability_gap_event": [flag("stability_gap_event", "fold")] * 2,
     }
 
 

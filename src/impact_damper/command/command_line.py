@@ -269,10 +269,7 @@ def report(
 
 
 def read(path):
-    """Return the content of a machine's YAML file, as `machine_file.read_machine_file` does.
-
-    Here and below modules are imported where they are used, so that `--help` answers fast.
-    """
+    """Return the content of a machine's YAML file (imports are local so that `--help` is fast)."""
     from impact_damper.command.machine_file import read_machine_file
 
     return read_machine_file(path)

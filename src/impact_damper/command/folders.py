@@ -6,10 +6,9 @@ from impact_damper.plot.pages.render import GENERATOR
 
 
 def check_folder(folder, machine, force) -> None:
-    """Raise OSError unless files can be written into a folder, and it holds no others' results.
+    """Raise OSError unless files can be written into a folder.
 
-    These are an `index.html` that this package has not written, and the design of another machine.
-    `machine` has the values of the machine in SI units. With `force` they may be replaced.
+    Without `force` it must hold no foreign `index.html`, and no design of another machine.
     """
     probe = folder / "index.html.check"
     with whole(probe) as part:

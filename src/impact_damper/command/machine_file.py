@@ -1,7 +1,4 @@
-"""Machines for which a damper is designed: an entry of the configuration, or a file of its own.
-
-Quantities are numbers in SI units, or texts with a unit such as "12 kg".
-"""
+"""Machines for which a damper is designed: an entry of the configuration, or a file of its own."""
 
 import re
 from dataclasses import MISSING, fields
@@ -60,18 +57,12 @@ class AllowedQuantity(Allowed):
 
 
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
-    """Return the type of a physical quantity within bounds in SI units.
-
-    A relative deviation may also be given in a unit of one of the quantities `absolute`.
-    """
+    """Return the type of a quantity within bounds in SI units, or in units of `absolute`."""
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 
 
 def fields_of(part, *, optional=False):
-    """Return the fields of a model for a dataclass with quantities in SI units.
-
-    A field with a default, or any with `optional`, may be left out.
-    """
+    """Return the fields of a model for a dataclass in SI units, with its defaults or `optional`."""
     found = {}
     for each in fields(part):
         facts = each.metadata
@@ -249,9 +240,8 @@ POINTS = 9  # frequencies in the band
 def read_machine_file(path) -> dict:
     """Return the content of a machine's file, checked, with defaults for the keys left out.
 
-    The keys are those of an entry of `machines` in the configuration; `band` may also be a list of
-    two frequencies, and `frequencies` the number of frequencies, `band.points`.
-    A ConfigurationError has a line for each problem.
+    Other than in the configuration, `band` may be a list of two frequencies, and `frequencies`
+    their number.
     """
     check_file(path)
     given = yaml.load(Path(path).read_bytes(), _Loader)

@@ -27,10 +27,7 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     def contradictions(self, path, config):
-        """Yield a line for each contradiction between values that are allowed individually.
-
-        `path` has the keys that lead to this section, `config` is the whole configuration.
-        """
+        """Yield a line for each contradiction; `path` is the section's place in `config`."""
         yield from ()
 
     @model_validator(mode="wrap")
@@ -131,10 +128,7 @@ def _line(detail):
 
 
 def check_file(path) -> None:
-    """Raise ConfigurationError if a YAML file cannot be read, or has a key twice in one mapping.
-
-    A YAML reader would silently keep the last value of such a key.
-    """
+    """Raise ConfigurationError if a YAML file cannot be read, or has a key twice in one mapping."""
     name = Path(path).name
     try:
         root = yaml.compose(Path(path).read_bytes(), Loader=LOADER)

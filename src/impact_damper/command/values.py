@@ -1,7 +1,6 @@
 """Types of values in the configuration, each with a text on the values that it allows.
 
-The types are strict: 3.0 is not a whole number, and neither NaN, infinity nor text is a number. The
-text is shown when a value is rejected, and in the reference of the configuration.
+The types are strict: 3.0 is not a whole number, and neither NaN, infinity nor text is a number.
 """
 
 from typing import Annotated, Literal
@@ -12,16 +11,14 @@ from pydantic_core import PydanticCustomError, core_schema
 from impact_damper.model.bounds import POINTS_RANGE, RUNS_RANGE
 from impact_damper.model.text import plain
 
-# Tags that pydantic adds to the path of a value that may have one of two types. Keys cannot have
-# these names.
+# Tags that pydantic adds to the path of a value of two types. Keys cannot have these names.
 NUMBER, RANGE = "<number>", "<range>"
 
 
 class Allowed:
     """A text on the allowed values, the words after "must be", which replaces pydantic's message.
 
-    `meaning` describes the value, `why` gives the reason for its bounds. For a list or mapping
-    `test` returns whether its type and length are allowed; values inside have their own messages.
+    For a list or mapping `test` returns whether its type and length are allowed.
     """
 
     def __init__(self, words, meaning="", why="", test=None):

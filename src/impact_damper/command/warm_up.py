@@ -1,7 +1,6 @@
 """Calls with hardly any work that compile and cache every kernel (numba function) of the library.
 
-Some kernels are compiled when their module is imported. Each function therefore imports the modules
-whose kernels it calls, so that two processes can share the compilation.
+Modules are imported in the functions because some kernels are compiled on import.
 """
 
 import numpy as np
@@ -19,8 +18,7 @@ FREQUENCY = 1.95
 def warm_up_orbits() -> None:
     """Call each kernel that processes one motion at a time.
 
-    The kernels that `warm_up_settling` also calls come first, and the kernels that call kernels of
-    `warm_up_settling` come last, so that the two processes rarely compile the same kernel.
+    The order is such that this and `warm_up_settling` rarely compile the same kernel at once.
     """
     from impact_damper.motions import records, strobe_map, traces
 

@@ -1,23 +1,13 @@
 """Variables of machines and of the design of a damper."""
 
-from impact_damper.data.variables import STABILITY, register
+from impact_damper.data.variables import register
 
 # Gaps around the chosen one keep the promised displacement up to the factor KEEPS. A damper that
 # takes less than the share WORTH off the largest displacement is not worth building.
 KEEPS, WORTH = 1.1, 0.25
-# Why a quiet orbit ceases to be stable.
-ENDS = {
-    "no_orbit": -1,
-    "fold": 0,
-    "symmetry_breaking": 1,
-    "neimark_sacker": 2,
-    "branch_ends": 3,
-    "range_ends": 4,
-}
 
 register(
     """
-# without the damper
 # transients
 direction | direction | | | direction in which the forcing frequency is swept
 equipment | equipment | | | whether the machine has its damper
@@ -93,9 +83,6 @@ branch_frequency | | frequency | | frequency at which the quiet orbit is followe
 gap_of_orbit | gap_point | displacement | | gap of an orbit
 displacement_by_gap | gap_point | displacement | | largest displacement of the orbit
 modulus_by_gap | gap_point | | | modulus of the largest multiplier of the orbit at gap_of_orbit
-stability_gap | side | displacement | | gap at which the quiet orbit ceases to be stable
-stability_gap_event | side | | | why the quiet orbit ceases to be stable at stability_gap
-  : ENDS
 # maps
 operating_frequency | operating_frequency | frequency | | frequency of a cell of the map
 force_map_displacement | operating_frequency force_share | displacement | | displacement below
@@ -115,8 +102,6 @@ ring_status | equipment | | | how the unforced decay ended
   : escaped 1, at_rest 2, limit 3
 sweep_frequency | direction sweep_window | frequency | | forcing frequency
 # motions of the design
-motion_rms | frequency | displacement | | r.m.s. displacement of the largest motion
-motion_peak_high | frequency | displacement | | 95th percentile of the peaks of this motion
 reached_displacement | frequency | displacement | | largest displacement that starts lead to
 untouched_displacement | frequency | displacement | | largest displacement of a motion in which
   the loose mass touches no wall and to which no random start leads
@@ -145,8 +130,5 @@ migration_gap | | displacement | | gap with the lowest sure_frequency
 migration_required | | | | share of releases that is required
 migration_offer | | | | whether releases of the damper may help where it is not worth building
   : no 0, yes 1
-# competitors
-    """,
-    ENDS=ENDS,
-    STABILITY=STABILITY,
+    """
 )

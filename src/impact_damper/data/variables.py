@@ -10,10 +10,9 @@ BAR = re.compile(r"(?<!\S)\|(?!\S)")
 class Variable(NamedTuple):
     """One variable of the datasets; `long_name` is also the text of an axis label.
 
-    `kind` is a key of `model.units.QUANTITIES`, which decides the unit in datasets of machines;
-    "state" for displacements and velocities; "followed" for the parameter that a sweep or a branch
-    varies; "mixed" for a number that combines several kinds, such as the distance of two states.
-    `flags` has the stored number of each name of a variable with named values.
+    `kind`, for the unit in datasets of machines, is a key of `model.units.QUANTITIES`, "state" for
+    displacements and velocities, "followed" for the parameter that varies, or "mixed" for a number
+    of several kinds, such as the distance of two states.
     """
 
     dims: tuple

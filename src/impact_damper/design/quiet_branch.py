@@ -5,7 +5,7 @@ import xarray as xr
 
 from impact_damper.data.datasets import flag
 from impact_damper.design.cells import Cell, run
-from impact_damper.design.task import SIDES, labelled
+from impact_damper.design.task import labelled
 from impact_damper.model.families import family_of
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import STROBE, Orbit
@@ -14,11 +14,10 @@ from impact_damper.orbits.shooting import find_orbit
 
 # Least and greatest gap of the branch, divided by the nominal one.
 GAP_SPAN = (0.4, 2.0)
-LOST = ("fold", "symmetry_breaking", "neimark_sacker")
 
 
 def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
-    """Return the quiet orbit over the gap, and where it is stable.
+    """Return the quiet orbit over the gap.
 
     `choice` is the dataset of the decision; the orbit has its `branch_frequency`.
     """
@@ -40,28 +39,21 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, keeping) -> xr.Dataset:
-    """Return the branch of a quiet orbit over the gap, and the gaps between which it is stable."""
+    """Return the branch of a quiet orbit over the gap, and its smallest stable orbit."""
     if orbit is None:
         unknown, names = np.empty(0), ("gap_of_orbit", "displacement_by_gap", "modulus_by_gap")
         values = dict.fromkeys(names, unknown) | {
-            "stability_gap": np.full(2, np.nan),
-            "stability_gap_event": [flag("stability_gap_event", "no_orbit")] * 2,
             "best_orbit_gap": np.nan,
             "best_orbit_displacement": np.nan,
             "best_orbit_beyond": flag("best_orbit_beyond", "no_orbit"),
         }
-        return labelled(values, side=SIDES)
+        return labelled(values)
     oscillator, damper, turning = task.system(1e-3 * gap, frequency)
     span = tuple(damper.clearance * end for end in GAP_SPAN)
     family, value, span = family_of(oscillator, damper, turning, "clearance", span)
     branch = follow_branch(family, orbit, value, span)
-    start = int(np.argmin(np.abs(branch.values - value)))
-    ends = sorted(_stability_end(branch, start, step) for step in (-1, 1))
-
-    def millimetres(logarithms):
-        return 2e3 * task.scales.to_si(np.exp(logarithms), "clearance")
-
-    gaps, sizes = millimetres(branch.values), task.millimetres(branch.displacements)
+    gaps = 2e3 * task.scales.to_si(np.exp(branch.values), "clearance")
+    sizes = task.millimetres(branch.displacements)
     moduli = np.array([abs(point.orbit.multipliers[0]) for point in branch.points])
     stable = np.where(moduli < 1, sizes, np.inf)
     best = int(np.argmin(stable))
@@ -75,18 +67,5 @@ def over_gap(task, gap, frequency, orbit, keeping) -> xr.Dataset:
         "best_orbit_gap": gaps[best] if beyond != "no_orbit" else np.nan,
         "best_orbit_displacement": sizes[best] if beyond != "no_orbit" else np.nan,
         "best_orbit_beyond": flag("best_orbit_beyond", beyond),
-        "stability_gap": millimetres(np.array([value for value, _ in ends])),
-        "stability_gap_event": [flag("stability_gap_event", name) for _, name in ends],
     }
-    return labelled(values, side=SIDES)
-
-
-def _stability_end(branch, start, step):
-    """Return the value, and the event, at which stability is first lost in a direction."""
-    events, k = {place: event.kind for place, event in branch.events}, start
-    while 0 <= k + step < len(branch.points):
-        k += step
-        if events.get(k) in LOST:
-            return branch.values[k], events[k]
-    end = branch.ends[0 if step < 0 else 1]
-    return branch.values[k], "range_ends" if end == "range_ends" else "branch_ends"
+    return labelled(values)

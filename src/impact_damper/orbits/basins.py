@@ -57,10 +57,10 @@ def basins(
     workers=1,
     progress=None,
 ):
-    """Find the motion to which each state of a plane leads.
+    """Find the attractor (stable periodic motion) to which each state of a plane leads.
 
-    Without a damper a motion is run until it enters a neighbourhood of a stable orbit in which all
-    motions provably tend to the orbit. With a damper each motion is run until it has settled.
+    Without a damper a motion is run until it enters a neighbourhood in which all motions provably
+    tend to a stable orbit. With a damper it is run until it has settled.
 
     Parameters
     ----------
@@ -90,9 +90,8 @@ def basins(
     xarray.Dataset
         For each state of the grid the number of the attractor to which it leads, or a negative
         number with the reason why it leads to none. For each attractor its period, size, points
-        at the phase of the plane, and share of the states. Without a damper also the
-        unstable orbits that Newton's method finds from a grid of states, with the periods of the
-        attractors, and their stable manifolds, which are the boundaries of the basins.
+        at the phase of the plane, and share of the states. Without a damper also unstable orbits
+        with the periods of the attractors, and their stable manifolds, the boundaries of basins.
 
     Raises
     ------

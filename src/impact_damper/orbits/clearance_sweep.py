@@ -48,7 +48,7 @@ def clearance_sweep(
     workers=1,
     progress=None,
 ):
-    """Find all motions at each clearance of a sweep, and the optimum clearance.
+    """Find all motions at each clearance of a sweep, and the optimum clearance of the quiet motion.
 
     Parameters
     ----------
@@ -71,11 +71,10 @@ def clearance_sweep(
     xarray.Dataset
         For each (clearance, motion) a motion found, as in a frequency response. For each
         `clearance` max |Z1| of the quiet motion, of all motions to which starts lead, and the
-        amplitude of the smallest stable solution of (7). Scalars: the optimum and the kind of
-        minimum, for the quiet motion and for (7); the clearances of rules (18) and (19), NaN for
-        (19) if the response without damper has no peak; rm W^2 d0/f at the optimum; and the shares
-        of the excess of this ratio over 1 that pi^2/8 and the theory of straight flight explain.
-        For each `edge` an end of the clearances with max |Z1| within 10 % of its minimum.
+        amplitude of the smallest stable solution of (7). Scalars: the optimum of the quiet motion
+        and of (7), and the kind of minimum; the clearances of rules (18) and (19), NaN for (19) if
+        the response without damper has no peak; rm W^2 d0/f at the optimum, and for straight
+        flight. For each `edge` an end of the clearances with max |Z1| within 10 % of its minimum.
 
     Raises
     ------

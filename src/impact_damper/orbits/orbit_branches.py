@@ -115,10 +115,9 @@ def orbit_branches(
 
     From a frequency and a state, the branch of the orbit near the state is followed. From datasets
     of motions, every branch over frequency on which a settled motion lies is followed, and the
-    branches that leave next to its stable orbits, where an orbit loses its symmetry or doubles its
-    period, if they begin stable or if the first branch has the period 1 or 3. A branch of period 1
-    is then followed to its ends, any other until 300 forcing cycles of unstable orbits lie behind
-    each other.
+    branches that leave next to its stable orbits, if they begin stable or if the first branch has
+    the period 1 or 3. Branches of other periods than 1 end after 300 forcing cycles of unstable
+    orbits in a row.
 
     Parameters
     ----------
@@ -144,14 +143,13 @@ def orbit_branches(
     xarray.Dataset
         For each `point`, in order along the branches, an orbit: the parameter, the largest
         displacement, stability, Floquet multipliers, contacts, the state and its phase, the
-        residual, and the relative error of the determinant, which Liouville's theorem gives.
-        `orbit_status` says how reliable these numbers are. For each `event` its kind: fold,
-        symmetry breaking, period doubling, Neimark-Sacker bifurcation, grazing (a contact appears
-        or vanishes in flight) or merging (two contacts with a wall become one). For each (branch,
-        edge), that is for each end: the reason why the branch ends. From motions also their number
-        `seeds`, and `seeds_lost`, the number of those from which Newton's method found no orbit. A
-        branch and its mirror image count as one. With a damper, motions without contacts are left
-        out, because they are motions without the damper.
+        residual, and the error of the determinant by Liouville's theorem. `orbit_status` says how
+        reliable these numbers are. For each `event` its kind: fold, symmetry breaking, period
+        doubling, Neimark-Sacker bifurcation, grazing (a contact appears or vanishes in flight) or
+        merging (two contacts with a wall become one). For each (branch, edge) the reason why the
+        branch ends. From motions also their number `seeds`, and `seeds_lost`, the number without
+        an orbit. A branch and its mirror image count as one. With a damper, motions without
+        contacts are left out.
 
     Raises
     ------
@@ -233,7 +231,7 @@ def _all_branches(system, damper, span, motions, progress):
 
 
 def _checked_orbit(model, state, period, phase):
-    """Check arguments; return the state and the orbit near it; raises as `periodic_orbit` does."""
+    """Return the checked state and the orbit near it; raises as `periodic_orbit` does."""
     check_count("period", period, most=1000)
     if phase is None:
         carried = carried_phase(state)

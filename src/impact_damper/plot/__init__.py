@@ -1,8 +1,6 @@
 """Plots of results, such as `impact_damper.plot.response(data)`.
 
-Each function takes one result or a list of results of the public functions, draws on `axes` or on a
-new figure, and returns the matplotlib axes. New figures have a legend; on given axes
-`axes.legend()` adds one. The figures of the paper are made of these plots.
+Each function draws on `axes`, to which `axes.legend()` adds a legend, or on a new figure with one.
 """
 
 from impact_damper.plot.basin_plane import basins
