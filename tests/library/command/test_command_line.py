@@ -76,16 +76,6 @@ def test_motion_is_kept_in_a_file(machine_file, tmp_path):
     np.testing.assert_array_equal(load(kept)["displacement"], motion["displacement"])
 
 
-def test_response_of_the_bare_machine(machine_file):
-    """There is one motion at each frequency, with the amplitude of the linear machine."""
-    told = json.loads(run("response", machine_file, "--starts", 2, "--json"))["response"]
-    for row in told:
-        w = 2 * np.pi * row["frequency_hz"]
-        exact = 40 / np.hypot(2e5 - 12 * w**2, 2 * 0.05 * np.sqrt(2e5 * 12) * w)
-        assert row["settled_mm"] == pytest.approx([1e3 * exact], rel=1e-4)
-        assert row["settled_share"] == [1] and row["other_mm"] == []
-
-
 def test_a_motion_and_its_mirror_image_are_told_once_with_their_starts(machine_file):
     """The shares of all motions of the library's response sum to those of the command."""
     asked = ("--gap", "2.5 mm", "--starts", 12, "--json")

@@ -34,14 +34,11 @@ def made(request):
     }[request.param]()
 
 
-def test_every_dataset_says_what_made_it(made):
+def test_every_dataset_says_what_made_it_and_survives_a_file(made, tmp_path):
     assert made.attrs["Conventions"].startswith("CF-")
     assert made.attrs["title"] and made.attrs["references"]
     assert datasets.parameters_of(made)["damping"] == 0.215
     assert datasets.parameters_of(made)["mass_ratio"] == 0.12
-
-
-def test_every_dataset_survives_a_file(made, tmp_path):
     datasets.save(made, tmp_path / "data.nc")
     with xr.open_dataset(tmp_path / "data.nc") as again:
         again.load()

@@ -156,8 +156,26 @@ def flat(result):
     return np.ravel(np.asarray(result, float))
 
 
-def check(file, function, name, bases=(BENT, LINEAR)):
-    """Assert that a function distinguishes oscillators, or refuses the second by its field."""
+# Tables of files and functions, the fields that must matter to them, and the oscillators changed.
+TABLES = [
+    (PLACES, PARAMETERS, (BENT, LINEAR)),
+    (SPRING_PLACES, sorted(SPRING), (BENT, LINEAR)),
+    (BENT_PLACES, PARAMETERS, (BENT,)),
+    (NONLINEAR_PLACES, NONLINEAR, (BENT,)),
+]
+
+
+@pytest.mark.parametrize(
+    ("file", "function", "name", "bases"),
+    [
+        pytest.param(file, function, name, bases, id=f"{file}-{number}-{name}")
+        for places, names, bases in TABLES
+        for file, functions in places.items()
+        for number, function in enumerate(functions)
+        for name in names
+    ],
+)
+def test_every_parameter_has_an_effect_or_is_refused(file, function, name, bases):
     for one, other in pairs(name, bases):
         before = flat(function(one))
         try:
@@ -170,42 +188,6 @@ def check(file, function, name, bases=(BENT, LINEAR)):
             f"{file}: nothing changes with {name} = {getattr(other, name):g}. Add its term, or "
             f'raise ValueError("{name} = ...: must be 0 ..."){closed}'
         )
-
-
-def cases(places):
-    """Return arguments of parametrize: a file and a function."""
-    return pytest.mark.parametrize(
-        "file, function",
-        [
-            pytest.param(file, function, id=f"{file}-{number}")
-            for file, functions in places.items()
-            for number, function in enumerate(functions)
-        ],
-    )
-
-
-@every_parameter
-@cases(PLACES)
-def test_every_parameter_has_an_effect(file, function, name):
-    check(file, function, name)
-
-
-@pytest.mark.parametrize("name", sorted(SPRING))
-@cases(SPRING_PLACES)
-def test_every_parameter_of_the_spring_has_an_effect(file, function, name):
-    check(file, function, name)
-
-
-@every_parameter
-@cases(BENT_PLACES)
-def test_every_parameter_changes_the_response_of_a_nonlinear_spring(file, function, name):
-    check(file, function, name, (BENT,))
-
-
-@pytest.mark.parametrize("name", NONLINEAR)
-@cases(NONLINEAR_PLACES)
-def test_closed_forms_know_or_refuse_a_nonlinear_term(file, function, name):
-    check(file, function, name, (BENT,))
 
 
 @every_parameter
