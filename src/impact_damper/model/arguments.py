@@ -135,9 +135,9 @@ def read_increasing(scales, name, values, kind="number", count=1, **bounds) -> n
     return numbers
 
 
-def read_frequencies(scales, values, count=1) -> np.ndarray:
+def read_frequencies(scales, values) -> np.ndarray:
     """Return increasing forcing frequencies W, given in Hz for a machine."""
-    return read_increasing(scales, "frequencies", values, "frequency", count, **FREQUENCY_RANGE)
+    return read_increasing(scales, "frequencies", values, "frequency", **FREQUENCY_RANGE)
 
 
 def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:

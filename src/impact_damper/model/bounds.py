@@ -79,9 +79,8 @@ def check_number(
 ) -> float:
     """Return `value` as a float, or raise an error that names the allowed range.
 
-    `why`, `unit` and `given` are the reason for the bounds, the unit, and text in place of the
-    value. TypeError if it is not a real number, ValueError if it is not finite or outside the
-    bounds.
+    `why` is the reason for the bounds, and `given` replaces the value in the message. TypeError if
+    it is not a real number, ValueError if it is not finite or outside the bounds.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):

@@ -252,8 +252,7 @@ class Machine:
     def _static_deflection(self):
         """Return the deflection under the excitation, m.
 
-        Without a force the linear and the cubic part of the spring's force are equal there, or it
-        is 1 mm.
+        Without excitation both parts of the spring's force are equal there, or it is 1 mm.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
@@ -289,8 +288,8 @@ class Machine:
         """Return the dimensionless oscillator: the machine in its scales.
 
         With a moving base its force holds for the given frequency (Hz) alone. Without a frequency
-        it is A (k + c^2 w^2/(2 k)), A = a/w^2 for `base_acceleration`, with the relative error (2
-        damping_ratio w/wn)^4/8; a machine too strongly damped for this is refused.
+        it is A (k + c^2 w^2/(2 k)), A = a/w^2 for `base_acceleration`. The relative error of the
+        force, (2 damping_ratio w/wn)^4/8, must be small: a machine with strong damping is refused.
         """
         scales = self.scales
         force, unbalance, shaker = self.forcing(frequency)
@@ -370,7 +369,8 @@ class TunedAbsorber:
 
     Each value is a number in the SI unit, text with units, or a quantity of pint.
 
-    >>> TunedAbsorber(mass="0.6 kg", stiffness="9e3 N/m", damping=20).stiffness 9000.0
+    >>> TunedAbsorber(mass="0.6 kg", stiffness="9e3 N/m", damping=20).stiffness
+    9000.0
     """
 
     mass: float = physical("mass", "mass of a tuned absorber", above=0)

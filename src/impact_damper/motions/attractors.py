@@ -64,11 +64,11 @@ def find_attractors(p, states, settling, workers=1) -> Attractors:
     return with_neighbourhoods(p, _distinct(p, motions[is_settled(motions)]))
 
 
-def free_attractors(p, window, settling, workers=1) -> Attractors:
+def free_attractors(p, window, settling) -> Attractors:
     """Return the attractors to which a grid of states leads; `window` are its half widths."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
-    return find_attractors(p, states, settling, workers)
+    return find_attractors(p, states, settling)
 
 
 def with_neighbourhoods(p, records) -> Attractors:
@@ -141,8 +141,8 @@ def neighbourhood(p, state, periods):
 def _radius(coefficients, step, contraction):
     """Return the largest r0 for which `contraction` r(P) < FACTOR r0.
 
-    r grows, so r' = a r^2 + b r^3 is at most its value at the end of a step. `ahead` lies above the
-    root of r = r(begin) + step (a r^2 + b r^3), and one iteration from it gives an upper bound.
+    r grows, so in a step r' = a r^2 + b r^3 is at most its value at the end. One iteration of r =
+    r(begin) + step (a r^2 + b r^3) from a value `ahead` above its root gives an upper bound.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -161,8 +161,7 @@ def _radius(coefficients, step, contraction):
 def label_damped(p, states, phase, settling, workers=1, progress=None):
     """Return labels of states (n, 4) at a forcing phase with the damper on, and the attractors.
 
-    A label is the index of an attractor, by ascending max |Z1|, or a negative flag of
-    `basin_label`.
+    A label is the index of an attractor, by ascending max |Z1|, or a flag of `basin_label`.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     if begin > strobe_time(p):

@@ -66,8 +66,7 @@ def settle(
     """Run motions from states (m, 4) until each has settled; return an array of `records.MOTION`.
 
     `parameters` has a packed row for each. `start` is the time T of all states, in the forcing
-    cycle that ends at the first strobe. If another thread sets `stop[0]`, the records are
-    incomplete.
+    cycle before the first strobe. If another thread sets `stop[0]`, the records are incomplete.
     """
     settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)

@@ -18,7 +18,7 @@ GROWTH = 1.5
 # Largest corrections of a predicted state and of the first state; larger ones could lead to
 # another orbit.
 REACH, NUDGE = 0.03, 1e-3
-# Accuracy, in units of the parameter, to which the end of a branch of stable orbits is located.
+# Accuracy, in units of the parameter, of the end of a branch of stable orbits.
 RESOLUTION = 1e-8
 
 
@@ -94,7 +94,7 @@ def extrapolate(state, before, ratio):
     state += (state - before) * ratio
 
 
-def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -> tuple:
+def follow_stable(p, state, periods, parameter, target) -> tuple:
     """Follow a stable orbit while the parameter of an index changes to a target value, if possible.
 
     Following stops where the orbit becomes unstable or repeats after fewer cycles. Return the
@@ -119,7 +119,7 @@ def follow_stable(p, state, periods, parameter, target, resolution=RESOLUTION) -
 
     start = float(p[parameter])
     orbit = StrobeOrbit(first, multiplier)
-    followed = follow(correct, start, target, orbit, shortest=resolution, reach=2 * REACH)
+    followed = follow(correct, start, target, orbit, shortest=RESOLUTION, reach=2 * REACH)
     p[parameter] = followed.value
     return p, followed.orbit
 

@@ -31,8 +31,8 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
     """Run a motion until it is near a stable orbit, at most `limit` strobes beyond the first one.
 
     The state y (4,), `ahead` forcing cycles before the strobe number `strobe`, is replaced by the
-    last one. Return rows of strobe number and state, for the beginning and each strobe, shape (m,
-    5), and the `records.MOTION`, measured if the motion settled.
+    last state. Return the path (m, 5), strobe number and state at the beginning and at each strobe,
+    and the `records.MOTION`, measured if the motion settled.
     """
     records, path = np.zeros(1, MOTION), np.empty((limit + 2, 5))
     out = records[0]
@@ -104,7 +104,7 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 
 
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
-    """Wait, switch the damper on, and off once the state is in `releases` or `longest` is over.
+    """Wait, switch the damper on, and off in the set `releases` or after `longest` cycles.
 
     Return rows as `run` does; y is replaced by the free state after the switching off.
     """

@@ -38,8 +38,8 @@ SWITCHING = np.dtype(
 class ReleaseCase(NamedTuple):
     """Packed parameters with and without the damper, and the free motions at one frequency.
 
-    `state` is the resonance motion at a strobe, `known` max |Z1| of the non-resonance and this
-    motion.
+    `state` is the resonance motion at a strobe; `known` are max |Z1| of non-resonance and
+    resonance.
     """
 
     on: np.ndarray
@@ -200,10 +200,10 @@ def draw(seed, switchings):
 def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """Return path and log of one run of the controller.
 
-    A row of `draws` holds the phase at which the damper is switched on, the place of the loose mass
-    in the gap, and the phase at which the damper is switched off, each as a fraction. `releases` is
-    a `ReleaseSet` for release by state, or None. The path (m, 5) has forcing cycles from the first
-    strobe and the state at each strobe and switching, the log a SWITCHING for each row of `draws`.
+    A row of `draws` holds the phase at which the damper is switched on, as a fraction of the
+    period, the place of the loose mass in the gap, as a fraction of the gap, and the phase at which
+    the damper is switched off. `releases` is a `ReleaseSet` for release by state, or None. The path
+    (m, 5) has forcing cycles from the first strobe and the state at each strobe and switching.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit

@@ -99,10 +99,10 @@ def turning_time(c, order, begin, end, first, last):
 def survey(p, states, phases, times, tolerance, log, sums):
     """Record contacts, the largest |Z1| and first harmonics of a motion in segments.
 
-    `states` (m, 4) at the beginnings of segments become those at their ends; `phases` and `times`
-    (m + 1,) are W T and T at their ends. `log` (n, 5) receives the first n contacts, as from
-    `traces.trace`, `sums` (2, 2) real and imaginary part of the mean of 2 exp(-i W T) Z1, and of
-    Z2. Return the number of contacts and the largest |Z1|.
+    `states` (m, 4) at the beginnings of the segments are replaced by the states at their ends;
+    `phases` and `times` (m + 1,) are W T and T at the ends of segments. `log` (n, 5) receives the
+    first n contacts, as from `traces.trace`; `sums` (2, 2) real and imaginary part of the mean of 2
+    exp(-i W T) Z, for Z1 and Z2. Return the number of contacts and the largest |Z1|.
     """
     work, start = workspace(), np.empty(4)
     frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
@@ -225,10 +225,10 @@ def tabulate(records):
 def envelope(parameters, lengths, y, tolerance):
     """Run a motion through windows of time (n,), each with its packed parameters (n, COUNT).
 
-    Return the largest |Z1| and the number of contacts begun in each window; where the motion
-    escapes infinite and NaN, then NaN. y is replaced by the last state. Each window begins at the
+    Return the largest |Z1| and the number of contacts begun in each window: infinite and NaN where
+    the motion escapes, NaN afterwards. y is replaced by the last state. Each window begins at the
     strobe, where the force is zero, so the frequency can change there; with forcing it lasts a
-    forcing cycle.
+    cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)

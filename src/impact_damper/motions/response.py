@@ -200,7 +200,7 @@ def frequency_response(
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
     """Return variables (n, m) of the lives of the chaotic motions of a sweep.
 
-    Each is run `runs` times for `periods` forcing cycles from near its state, `states` (n, m, 4).
+    `runs` runs from near each motion, at `states` (n, m, 4), last at most `periods` forcing cycles.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}

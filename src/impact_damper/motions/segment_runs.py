@@ -81,9 +81,8 @@ def flow_all(p, states, tangents, times, tolerance):
 def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
     """Compute the derivatives of the ends of segments by a parameter, as central differences.
 
-    `rate` (COUNT,) are the derivatives of the packed parameters by it. `sign`, -1 if the segments
-    cover half a symmetric orbit, multiplies the last end. `slopes` (m, n) receives the first n
-    components.
+    `rate` (COUNT,) are the derivatives of the packed parameters by this parameter. `sign` is -1 if
+    the segments cover half a symmetric orbit. `slopes` (m, n) receives the first n components.
     """
     work, none = workspace(), np.empty((0, 4))
     ahead, behind, moved = np.empty(4), np.empty(4), np.empty(COUNT)

@@ -181,8 +181,7 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
 def ramped(oscillator, damper, frequency, tolerance) -> list:
     """Return the states at T = 0 at the ends of slow ramps, without motions that have escaped.
 
-    Ramps of the frequency begin outside the folds of the free response, and at most at half and at
-    least at twice the frequency.
+    Ramps of the frequency begin outside the folds of the free response, at least an octave away.
     """
     folds = [fold.frequency for fold in free_folds(oscillator)] or [frequency]
     lowest = max(BELOW * min(frequency / 2, *folds), FREQUENCY_RANGE["least"])

@@ -138,9 +138,8 @@ def dominant(values):
 def polish(p, y, periods, reach, tolerance):
     """Move a state y onto the periodic orbit near it, by Newton's method on the map over `periods`.
 
-    Without contacts only Z1 and Z1' are unknown. Return whether it converged to an orbit within
-    `reach` of y in Z1, Z1' and Z2, the difference between the state and its image, and the dominant
-    multiplier.
+    Without contacts only Z1 and Z1' are unknown. Return whether the method converged within `reach`
+    of y in Z1, Z1' and Z2, the largest residual of the orbit, and its dominant multiplier.
     """
     orbit = y.copy()
     for _ in range(ITERATIONS):

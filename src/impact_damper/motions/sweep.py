@@ -38,8 +38,8 @@ CRITICAL, COMPLEX, CLOSE = 0.98, 1e-3, 0.05
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
     """Find all motions along a sweep of one parameter; return a dict of registered variables.
 
-    The rows of packed `parameters` differ in the parameter of this `index`; `dimension` is its
-    name. Dimensions are (dimension, motion), (dimension, start) for runs, and (end) for ends of
+    The rows of packed `parameters` differ in the number `index`, which is named `dimension`.
+    Variables are over (dimension, motion), (dimension, start) for runs, or (end) for ends of
     branches.
     """
     size, starts = search.random.shape[:2]
@@ -60,14 +60,14 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
         for record in part:
             catalogue.add(record, "placed_start")
     add_orbits(catalogues, search.loose, settling, workers)
-    links, ends = [], {}
+    links, passes = [], []
     # The second sweep upward also follows the motions that the sweep downward found.
-    for turn, order in (("up", catalogues), ("down", catalogues[::-1]), ("up", catalogues)):
-        ends[turn] = []
-        for source, target in zip(order, order[1:], strict=False):
-            _follow(source, target, index, settling, links, ends[turn])
+    for order in (catalogues, catalogues[::-1], catalogues):
+        passes.append([])
+        for source, target in pairwise(order):
+            _follow(source, target, index, settling, links, passes[-1])
     branches = _branches(catalogues, links)
-    ends = ends["down"] + ends["up"]
+    ends = passes[1] + passes[2]
     data = _tables(catalogues, branches, dimension, starts)
     columns = [np.argsort(each.order())[row] for each, row in zip(catalogues, reached, strict=True)]
     data |= {
@@ -125,7 +125,7 @@ def _follow(source, target, index, settling, links, ends):
 def _end_event(record, multiplier, beyond):
     """Return the name of the event that ends a branch of the motion `record`.
 
-    `multiplier` is that of the last orbit, and `beyond` the motion at the next value.
+    `multiplier` belongs to the last orbit of the branch, `beyond` is the motion at the next value.
     """
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
@@ -250,8 +250,7 @@ def match_unsettled(first, second) -> list:
 def size_ratio(one, other):
     """Return the ratio of max |Z1| of two motions of the same period, larger over smaller.
 
-    A chaotic motion may be small while it is measured, so without a period `reach` counts if
-    closer.
+    A chaotic motion may be small while it is measured; its `reach` is compared too.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0

@@ -13,11 +13,11 @@ import numpy as np
 
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.equation import forcing_amplitude, has_escaped
-from impact_damper.kernel.single import side_of, workspace
+from impact_damper.kernel.single import assign, side_of, workspace
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
-from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR
+from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
 # Forcing cycles of the first block, and batches of a block for the standard error of the exponent.
 FIRST, BATCHES = 1500, 30
@@ -47,9 +47,8 @@ TURN, WANDERING = 0.05, 3.0
 def run_block(p, y, tangent, states, growth, stop):
     """Run a motion and its tangent (1, 4) in place over the forcing cycles of a block.
 
-    The tangent is scaled to length 1 after each cycle; `states` (n, 4) and `growth` (n,) receive
-    the state and the logarithm of its growth. Return the number of contacts, and whether it
-    escaped.
+    `states` (n, 4) and `growth` (n,) receive the state and the logarithm of the growth of the
+    tangent after each cycle. Return the number of contacts, and whether the motion escaped.
     """
     work = workspace()
     side = side_of(p, y)
@@ -61,14 +60,8 @@ def run_block(p, y, tangent, states, growth, stop):
         total += contacts
         if has_escaped(p, y[0], y[1]):
             return total, True
-        size = 0.0
-        for i in range(4):
-            states[k, i] = y[i]
-            size += tangent[0, i] ** 2
-        size = math.sqrt(size)
-        for i in range(4):
-            tangent[0, i] /= size
-        growth[k] = math.log(size)
+        assign(states[k], y)
+        growth[k] = normalise(tangent[0])
     return total, False
 
 
@@ -181,7 +174,7 @@ def _quasi_periodic(p, record, states, mean, error):
     """Return QUASI_PERIODIC if the states move along closed curves, otherwise UNRESOLVED.
 
     `find_rotation` fails on a curve with corners, where contacts begin or end, or so bent that it
-    does not go around its centre; so every curve is tried, in the planes of (Z1, Z1') and (Z2,
+    does not go around its centre. So every curve is tried, in the planes of (Z1, Z1') and (Z2,
     Z2').
     """
     if abs(mean) > NEUTRAL * error:
@@ -213,9 +206,8 @@ def find_rotation(points):
 
     The number (revolutions, from 0 to 1/2) is the average advance of the angle around the average
     of the complex points, stretched to the same spread in all directions: on a slender curve the
-    angle advances mainly at the ends. The error is the largest difference between parts of the
-    orbit. Points of a closed curve, sorted by the phases that follow from the number, go around
-    once.
+    angle advances mainly at the ends. The error is the largest difference between the numbers of
+    three parts of the orbit. Sorted by phase, the points of a closed curve go around once.
     """
     if len(points) < FEWEST:
         return None

@@ -46,18 +46,24 @@ SEEN = np.dtype(
 
 
 @kernel_only
-def follow_tangent(tangent, growth):
-    """Normalise a tangent after a forcing cycle, and add the logarithm of its growth to the batch.
-
-    Mean and sum of squares over complete batches are updated by Welford's recurrence.
-    """
+def normalise(tangent):
+    """Scale a tangent to the length 1, and return the logarithm of its growth."""
     size = 0.0
     for i in range(4):
         size += tangent[i] ** 2
     size = math.sqrt(size)
     for i in range(4):
         tangent[i] /= size
-    growth.batch += math.log(size)
+    return math.log(size)
+
+
+@kernel_only
+def follow_tangent(tangent, growth):
+    """Normalise a tangent after a forcing cycle, and add the logarithm of its growth to the batch.
+
+    Mean and sum of squares over complete batches are updated by Welford's recurrence.
+    """
+    growth.batch += normalise(tangent)
     growth.periods += 1
     if growth.periods % BLOCK == 0:
         count = growth.periods // BLOCK
@@ -83,8 +89,7 @@ def exponent(growth):
 def nearby_period(ring, k, weight, floor, tolerance):
     """Return the period of an orbit within `tolerance` of the motion, or 0.
 
-    `ring[k % RING]` is the last of k + 1 strobe states. Below `floor` are errors of the
-    integration.
+    `ring[k % RING]` is the last of k + 1 strobe states; `floor` is the error of the integration.
     """
     last = ring[k % RING]
     for n in range(1, LONGEST_PERIOD + 1):
@@ -106,9 +111,9 @@ def nearby_period(ring, k, weight, floor, tolerance):
 def move_onto_orbit(p, y, periods, near, out):
     """Move a state y onto the stable orbit near it; return whether there is such an orbit.
 
-    A motion that spirals towards an orbit may seem to repeat after a multiple of the period, so
-    divisors come first. Below NEAREST a motion counts as an orbit even if Newton's method fails,
-    since the map is not smooth near a grazing contact; residual and multiplier are then NaN.
+    A motion that spirals towards an orbit may seem to repeat after a multiple of the period, so the
+    divisors of `periods` are tried first. If Newton's method fails, as it can near a grazing
+    contact, a motion within NEAREST counts as an orbit, with NaN for residual and multiplier.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):

@@ -1,4 +1,4 @@
-"""One contact of the damper in closed form, under a constant load, with two rules for its end.
+"""One contact of the damper in closed form, under a constant load G, with two rules for its end.
 
 With s = wn t and u = wn q/v0, v0 the approach speed, the penetration q obeys u'' + 2 z u' + u = G.
 The force is F = u + 2 z u'. By `zero_penetration` (appendix B) a contact ends when u = 0, by

@@ -7,10 +7,13 @@ def peak_frequency(oscillator) -> float:
     """Return the peak frequency Wp of rule (19), dimensionless.
 
     At Wp the displacement Z1 without the damper lags the forcing by a quarter of a cycle. By
-    section 2.1, s = Wp^2 solves (1 - g U^2/h^2) s^2 - (wl^2 + 2 g F U/h^2) s - g F^2/h^2 = 0, g =
-    (3/4) k3. A shaker (V > 0) has a linear spring, for which Wp = wl. Of two solutions with a
-    softening spring the peak is the one with the smaller amplitude. The maximum of the response
-    curve (`free_oscillator.maximum_response`) lies at a slightly lower frequency.
+    section 2.1, s = Wp^2 solves, with g = (3/4) k3,
+
+        (1 - g U^2/h^2) s^2 - (wl^2 + 2 g F U/h^2) s - g F^2/h^2 = 0.
+
+    A shaker (V > 0) has a linear spring, for which Wp = wl. Of two solutions with a softening
+    spring the peak is the one with the smaller amplitude. The maximum of the response curve
+    (`free_oscillator.maximum_response`) lies at a slightly lower frequency.
     """
     stiffness, hardening = oscillator.linear_frequency**2, oscillator.hardening
     scale = hardening / oscillator.damping**2

@@ -45,9 +45,8 @@ def largest(coefficients, harmonics) -> float:
 def intervals(coefficients, harmonics, level) -> np.ndarray:
     """Return the intervals of s in which z(s) > level (wall 1) or z(s) < -level (wall -1).
 
-    A bound on the second derivative of z shows which cells, between two samples, contain no
-    crossing of the level or exactly one. Other cells are halved, so no interval wider than SHORTEST
-    is missed.
+    A bound on the second derivative of z shows which cells, between two samples, cross the level
+    not at all or once. Other cells are halved, so no interval wider than SHORTEST is missed.
     """
     return np.concatenate([_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)])
 

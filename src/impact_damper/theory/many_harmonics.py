@@ -133,7 +133,7 @@ TOLERANCE, ITERATIONS, LEAST_DAMPING = 1e-11, 40, 1e-4
 
 
 class Solution(NamedTuple):
-    """Last iterate of Newton's method: coefficients c_k of Z1, with a damper also of Z2.
+    """Last iterate of Newton's method: coefficients c_k of Z1, and of Z2 with a damper.
 
     The status is "converged", "iteration_limit", or "stalled" if even the shortest step fails.
     """

@@ -136,7 +136,7 @@ class _Balance:
         )
 
     def angle_range(self):
-        """Return the least and the greatest p, equal if there is none, by bounds on |a|.
+        """Return the least and the greatest p that the bounds on |a| allow, equal if there is none.
 
         (7b) bounds |a| by f/(h W), and (7a) bounds |g| |a|^3 by the other terms.
         """

@@ -27,9 +27,9 @@ APART = 1e-20j
 class Flight(NamedTuple):
     """The quiet motion near its optimum, with lengths in units of f/W^2 and time as phase W T.
 
-    x = W^2 Z1/f responds to the forcing and to impulses 4 q/pi
-    (docs/explanation/straight_flight.md). `contact` is the phase that an elastic contact lasts,
-    divided by pi, `damping` h/W and `stiffness` omega_l/W, below 1.
+    x = W^2 Z1/f responds to the forcing and to impulses 4 q/pi (see the derivation in
+    docs/explanation/straight_flight.md). `contact` is the phase of an elastic contact divided by
+    pi, `damping` h/W and `stiffness` omega_l/W, below 1.
     """
 
     mass_ratio: float
@@ -161,8 +161,8 @@ def least_harmonic_ratio(flight) -> float:
     """Return rm W^2 d0 at which the first harmonic of Z1 is smallest.
 
     Forcing and impulses have the first harmonic 1 - c q exp(-i p), c = 8/pi^2, with the lag p of
-    the impact. With sin(u) = q L/A and n = u - p its modulus is smallest where tan(2 u) = 2
-    cos(n)/(c A/L - 2 sin(n)).
+    the impact. With sin(u) = q L/A and n = u - p its modulus is smallest where
+    tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
     """
     factor = 8 / np.pi**2
     loss = flight.loss
