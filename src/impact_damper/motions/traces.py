@@ -11,8 +11,9 @@ from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.kernel.single import LENGTH, Q, X, assign, polynomial, side_of, step, workspace
 from impact_damper.model.packed import CLEARANCE
 
-# Number of steps of a trace in one call of its kernel, which takes a fraction of a second.
-STEPS_AT_ONCE = 50_000
+# Number of steps of a trace in one call of its kernel, which takes a fraction of a second; and first
+# rows of the log, since allocating a large log takes longer than a short motion.
+STEPS_AT_ONCE, ROWS = 50_000, 64
 
 
 @kernel_only
@@ -32,7 +33,7 @@ def trace(p, state, begin, times, tolerance):
     After an escape the states are NaN. A contact has a row of wall, beginning, end, and Z2' there.
     """
     y, t, times = np.array(state, float), float(begin), np.ascontiguousarray(times, float)
-    states, log = np.empty((len(times), 4)), np.empty((STEPS_AT_ONCE, 5))
+    states, log = np.empty((len(times), 4)), np.empty((ROWS, 5))
     side, contacts = side_of(p, y), 0
     if side != 0:
         log[0], contacts = (side, t, np.nan, y[3], np.nan), 1
@@ -42,8 +43,8 @@ def trace(p, state, begin, times, tolerance):
         t, side, sample, contacts = trace_steps(
             p, y, t, side, sample, contacts, times, tolerance, states, log
         )
-        if len(log) < contacts + STEPS_AT_ONCE:
-            log = np.concatenate([log[:contacts], np.empty((STEPS_AT_ONCE, 5))])
+        if contacts == len(log):
+            log = np.concatenate([log, np.empty_like(log)])
     return states, log[:contacts].copy()
 
 
@@ -58,7 +59,7 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
     work = workspace()
     start = y.copy()
     for _ in range(STEPS_AT_ONCE):
-        if sample == len(times):
+        if sample == len(times) or contacts == len(log):
             break
         assign(start, y)
         before = side
