@@ -11,8 +11,8 @@ from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.kernel.single import LENGTH, Q, X, assign, polynomial, side_of, step, workspace
 from impact_damper.model.packed import CLEARANCE
 
-# Number of steps of a trace in one call of its kernel, which takes a fraction of a second; and first
-# rows of the log, since allocating a large log takes longer than a short motion.
+# Number of steps of a trace in one call of its kernel, which takes a fraction of a second; and rows
+# of the log at first, since allocating a large log takes longer than a short motion.
 STEPS_AT_ONCE, ROWS = 50_000, 64
 
 
