@@ -121,9 +121,6 @@ def _search():
     return {
         "searched_displacement": [0.9, 0.9, 0.8, 0.8, 6.0],
         "searched_tolerated": [0.9, 0.9, 0.9, 6.0, 6.0],
-        "candidate_gap": [7.0],
-        "candidate_end": [[6.5, 7.5]],
-        "candidate_displacement": [0.9],
     }
 
 

@@ -11,11 +11,7 @@ from typing import Annotated
 
 import typer
 
-app = typer.Typer(
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-)
+app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
 MachineFile = Annotated[
     Path, typer.Argument(exists=True, dir_okay=False, help="YAML file of machine, damper and band.")
 ]

@@ -72,9 +72,6 @@ settling_late | promise_frequency | | | cycles in which 95 % of the motions that
 searched_gap | searched | displacement | | gap of the search
 searched_displacement | searched | displacement | | largest displacement of the starts
 searched_tolerated | searched | displacement | | largest displacement within the gap tolerance
-candidate_gap | candidate | displacement | | middle of a range of gaps nearly as good as the best
-candidate_end | candidate side | displacement | | ends of this range
-candidate_displacement | candidate | displacement | | least of searched_tolerated in this range
 # additions
 addition | addition | | | result that was computed in addition to the decision
 addition_status | addition | | | whether it was computed

@@ -21,24 +21,22 @@ SURPRISE = 1.1
 
 
 class Tried(NamedTuple):
-    """A gap (mm) with its `Promise`, the promised displacement of the gap alone, and its range."""
+    """A gap (mm) with its `Promise`, and the promised displacement if the gap alone deviates."""
 
     gap: float
     promise: Promise
     by_gap: float
-    range: tuple
 
 
 def find_gap(task: Task, progress=None) -> xr.Dataset:
     """Return the decision on the best gap, with the search and the confirmation."""
     curve, tried, status = search(task, progress), [], "rounds_ended"
-    found = curve.ranges()
     for turn in range(ROUNDS):
         choice = curve.choose()
         if any(each.gap == choice.gap for each in tried):
             status = "confirmed"
             break
-        tried.append(confirm(task, choice.gap, turn, curve, (choice.low, choice.high), progress))
+        tried.append(confirm(task, choice.gap, turn, curve, progress))
         best = min(tried, key=lambda each: each.promise.size)
         harm = best.promise.size / best.by_gap if np.isfinite(best.by_gap) else 1.0
         if best.promise.size <= CONFIRMED * harm * curve.choose().size:
@@ -46,19 +44,19 @@ def find_gap(task: Task, progress=None) -> xr.Dataset:
             break
     best = min(tried, key=lambda each: each.promise.size)
     if len(tried) > 1:  # the smallest of several numbers is too small on average
-        best = confirm(task, best.gap, len(tried), curve, best.range, progress)
-    return conclude(task, best, curve, found, status)
+        best = confirm(task, best.gap, len(tried), curve, progress)
+    return conclude(task, best, curve, status)
 
 
 def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
     """Return the decision on the gap of the task."""
     gap = 1e3 * task.gap
     curve = search_around(task, gap, progress)
-    found = confirm(task, gap, 0, curve, (gap, gap), progress)
-    return conclude(task, found, curve, [], "given")
+    found = confirm(task, gap, 0, curve, progress)
+    return conclude(task, found, curve, "given")
 
 
-def confirm(task, gap, turn, curve, ends, progress=None) -> Tried:
+def confirm(task, gap, turn, curve, progress=None) -> Tried:
     """Return the promise of a gap (mm) from new starts, and put what it shows into the curve."""
     stream = "confirmed", turn
     promise = Promise(task, 1e-3 * gap, factor_sets(task, gap), stream, progress=progress).refined()
@@ -75,10 +73,10 @@ def confirm(task, gap, turn, curve, ends, progress=None) -> Tried:
         near = curve.gaps[(curve.gaps > gap / reach) & (curve.gaps < gap * reach)]
         count, stream = starts_needed(task.share), ("compared", 100 + turn)
         curve.put(near, *score(task, near, np.unique(worst), count, stream, progress))
-    return Tried(gap, promise, by_gap, ends)
+    return Tried(gap, promise, by_gap)
 
 
-def conclude(task, found, curve, ranges, status) -> xr.Dataset:
+def conclude(task, found, curve, status) -> xr.Dataset:
     """Return the decision and everything it was drawn from."""
     promise = found.promise
     frequencies = np.unique([f for _, f in promise.cells])
@@ -140,9 +138,6 @@ def conclude(task, found, curve, ranges, status) -> xr.Dataset:
         "settling_late": waits,
         "searched_displacement": curve.sizes,
         "searched_tolerated": _tolerated(task, curve),
-        "candidate_gap": [each.gap for each in ranges],
-        "candidate_end": np.array([(each.low, each.high) for each in ranges]).reshape(-1, 2),
-        "candidate_displacement": [each.size for each in ranges],
     }
     return labelled(
         values,

@@ -143,7 +143,7 @@ def evaluate_damper(
     Returns
     -------
     xarray.Dataset
-        As from `design_damper`, without candidates.
+        As from `design_damper`.
 
     Raises
     ------

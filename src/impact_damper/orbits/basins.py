@@ -233,7 +233,7 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
     data = {
         "basin_label": np.where(same, labels[0], BASIN_LABEL["mixed"])
         .reshape(cells, cells)
-        .astype(np.int8),
+        .astype(np.int8)
     }
     if len(places) > 1:
         data["basin_share"] = np.array(share).reshape(len(records), cells, cells)

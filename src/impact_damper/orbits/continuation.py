@@ -21,10 +21,11 @@ from impact_damper.orbits.shooting import AMPLIFYING
 
 # Newton's method: largest number of corrections, and largest change of an unknown by one.
 NEWTON, LARGEST = 10, 0.5
-# It has converged if the residual is small, and the last correction is below CLOSE, or below
-# ROUNDING and more than half the one before (rounding errors no longer shrink), or if the one
-# before the last is below SURE. It has failed if a correction above SURE exceeds SHRINKING times
-# the one before.
+# It has converged if the residual is small and in addition
+# - the last correction is below CLOSE, or
+# - it is below ROUNDING and more than half as large as the correction before it, or
+# - the correction before the last one is below SURE.
+# It has failed if a correction above SURE exceeds SHRINKING times the correction before it.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative by the parameter is expensive. It is computed again only after a correction below
 # REFINED, if the corrections since its last computation add up to more than UNMOVED.

@@ -17,11 +17,9 @@ from impact_damper.orbits.continuation import NEWTON, Point, recut
 # On the side with more contacts the heights of successive points are LEAST, RATIO * LEAST, ... up
 # to MOST in modulus.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# Largest number of divisions of steps that fail, on the way through a grazing, and between two of
-# its points.
+# Largest number of divisions of a step that fails, through a grazing and between its points.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# The branch was left for one of more symmetry if `Orbit.deviation` falls below FALLEN times the one
-# before.
+# An orbit lies on a branch of more symmetry if `Orbit.deviation` has fallen below this factor.
 FALLEN = 0.01
 # Heights of the points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5

@@ -44,13 +44,13 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
 
 
-# Phase W T of the states, far from contacts, between about -0.2 and pi/2, and half a cycle later.
+# Phase W T of the states. Contacts lie between about -0.2 and pi/2, and half a cycle later.
 PHASE = 0.75 * np.pi
 # Largest distance of the state of an orbit from the guess.
 REACH = 0.05
 # Shortest step between cells, divided by their distance.
 SHORTEST = 2.0**-12
-# A fold predicted closer to the last orbit of a row than NEAR shortest steps ends the row (`_end`).
+# A row ends at a fold if extrapolation predicts one within NEAR shortest steps of its last orbit.
 NEAR = 4
 
 

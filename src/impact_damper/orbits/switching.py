@@ -6,7 +6,6 @@ corrects orthogonally to it, and so stays away from the first branch.
 
 from dataclasses import replace
 from itertools import islice
-from typing import NamedTuple
 
 import numpy as np
 
@@ -28,14 +27,6 @@ LEAVING = ("symmetry_breaking", "period_doubling")
 # A branch meets another one at its end if the last orbit and the orbit of the other branch are at
 # most MEETING apart.
 MEETING = 1e-3
-
-
-class _Leaving(NamedTuple):
-    """The equations of the other branch, with its unknowns and direction at the bifurcation."""
-
-    problem: Problem
-    x: np.ndarray
-    direction: np.ndarray
 
 
 def other_branch(event, *, stable=False) -> Point | None:
@@ -69,9 +60,7 @@ def met_branch(point, kind) -> Point | None:
 
 
 def _leaving(event):
-    """Return the beginning of the other branch at an event, a `_Leaving`."""
-    if event.kind not in LEAVING:
-        raise ValueError(f"event = {event.kind!r}: must be one of {', '.join(LEAVING)}")
+    """Return the equations of the other branch, and its unknowns and direction at an event."""
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
     # Over a cycle the deviation changes its sign relative to the state.
@@ -88,7 +77,7 @@ def _leaving(event):
     periods = problem.periods * (2 if doubled else 1)
     whole = replace(problem, periods=periods, phases=phases, symmetric=False)
     direction = np.append(deviation, 0.0)
-    return _Leaving(whole, x, direction / whole.length(direction))
+    return whole, x, direction / whole.length(direction)
 
 
 def _at_distance(leaving, distance):

@@ -99,12 +99,8 @@ def _draw_sweep(axes, sweep, index):
 def _titles(sweeps):
     """Return legend texts: the damper's mass, and all parameters that differ between sweeps."""
     *others, masses = zip(*map(_parameters, sweeps), strict=True)
-    return [", ".join(words) for words in zip(*filter(_differ, others), masses, strict=True)]
-
-
-def _differ(texts):
-    """Return whether texts differ."""
-    return len(set(texts)) > 1
+    different = [texts for texts in others if len(set(texts)) > 1]
+    return [", ".join(words) for words in zip(*different, masses, strict=True)]
 
 
 def _parameters(sweep):

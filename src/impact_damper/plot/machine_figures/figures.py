@@ -249,8 +249,4 @@ def name_numbers(axis, low, high):
 
 
 # Figures of the page of a machine by name. A function returns None if its addition failed.
-FIGURES = {
-    "answer": draw_answer,
-    "forces": draw_forces,
-    "transients": draw_transients,
-}
+FIGURES = {"answer": draw_answer, "forces": draw_forces, "transients": draw_transients}

@@ -114,7 +114,6 @@ def numbers_of(data) -> dict:
             for key in ("stiffness", "damping")
             if f"absorber_{key}" in data
         },
-        "candidates": _candidates(data),
         "masses": _masses(data, asked),
     }
     return found | _transients(data, asked)
@@ -198,15 +197,6 @@ def _other_mass(data, asked):
     k = int(np.argmax(good.values))
     names = ("mass", "gap", "displacement")
     return SimpleNamespace(**{name: float(data[f"other_{name}"][k]) for name in names})
-
-
-def _candidates(data):
-    """Return the rows of the ranges of gaps that do nearly as well."""
-    names = ("candidate_gap", "candidate_end", "candidate_displacement")
-    return [
-        [size(gap), f"{number(low, 4)} to {size(high, digits=4)}", size(moved)]
-        for gap, (low, high), moved in zip(*(data[name].values for name in names), strict=True)
-    ]
 
 
 def _masses(data, asked):
