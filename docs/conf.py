@@ -17,7 +17,7 @@ extensions = [
     "mathml",  # this and the next extension are in docs/extensions
     "written_pages",
 ]
-exclude_patterns = ["_build", "extensions"]
+exclude_patterns = ["_build", "extensions", "paper/paper.md"]
 nitpicky = False
 
 # Tutorials are run at every build; an error in a tutorial stops the build.
