@@ -20,7 +20,6 @@ from impact_damper.motions.migration import (
     control,
     course,
     destination,
-    draw,
     kinds,
     release_case,
     run_totals,
@@ -70,7 +69,8 @@ def migration(
     """
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
-    draws = np.array([draw(child, switchings) for child in roots[0].spawn(trials)])
+    generators = map(np.random.default_rng, roots[0].spawn(trials))
+    draws = np.array([each.random((switchings, 3)) for each in generators])
     logs, stop = np.zeros(draws.shape[:2], SWITCHING), np.zeros(1, bool)
 
     def work(part):

@@ -55,12 +55,10 @@ class Attractors(NamedTuple):
     shape: np.ndarray
 
 
-def find_attractors(p, states, settling, workers=1) -> Attractors:
+def find_attractors(p, states, settling) -> Attractors:
     """Return the attracting free orbits that motions from states Z1, Z1' at a strobe lead to."""
     starts = np.tile(np.asarray(states, float).reshape(-1, 2), 2)
-    motions = ensemble.settle(
-        np.tile(p, (len(starts), 1)), starts, settling, from_strobe=True, workers=workers
-    )
+    motions = ensemble.settle(np.tile(p, (len(starts), 1)), starts, settling, from_strobe=True)
     return with_neighbourhoods(p, _distinct(p, motions[is_settled(motions)]))
 
 

@@ -116,7 +116,8 @@ def migrate(
     inside = None
     if release == "state":
         inside = release_set(model.oscillator, model.frequency, settling)
-    path, log = control(case, draw(seed, switchings), longest_hold, settling, periods, inside)
+    draws = np.random.default_rng(seed).random((switchings, 3))
+    path, log = control(case, draws, longest_hold, settling, periods, inside)
     totals = run_totals(log)
     log = log[: totals["switchings"]]
     times, displacement = course(case, path, log, settling.tolerance)
@@ -190,11 +191,6 @@ def destination(known, record):
         if record["period"] == 1 and abs(record["maximum_displacement"] - displacement) < ALIKE:
             return FREE_MOTION[name]
     return FREE_MOTION["other"]
-
-
-def draw(seed, switchings):
-    """Return the random numbers of one run, shape (switchings, 3), uniform between 0 and 1."""
-    return np.random.default_rng(seed).random((switchings, 3))
 
 
 def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):

@@ -47,8 +47,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
     squares = polynomial_roots(
         [-(force**2), detuning**2 + drag**2, 2 * hardening * detuning, hardening**2]
     )
-    # With a tiny k3 rounding errors produce a double root where there is none. Its amplitude is far
-    # above the bound f/(h W).
+    # With a tiny k3 rounding errors produce a double root, far above the bound f/(h W).
     squares = squares[squares <= (force / drag) ** 2 * (1 + ROUNDING)]
     amplitude = np.sqrt(squares)
     inline = amplitude * (detuning + hardening * squares)

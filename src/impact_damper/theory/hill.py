@@ -10,12 +10,10 @@ import numpy as np
 from scipy.linalg import eigvals, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
-# With at most DENSE unknowns all eigenvalues are computed. With more unknowns only the eigenvalues
-# nearest to zero are computed: COPIES of them for each exponent.
-DENSE = 100
-COPIES = 3
-# An imaginary part that differs from W by less than EDGE W is set to W. Such an exponent belongs to
-# a negative real multiplier. It has a copy at both edges of the strip, of which one counts.
+# With more than DENSE unknowns only COPIES eigenvalues near zero are computed for each exponent.
+DENSE, COPIES = 100, 3
+# An imaginary part that differs from W by less than EDGE W is set to W: the exponent of a negative
+# real multiplier has a copy at both edges of the strip, of which one counts.
 EDGE = 1e-2
 
 

@@ -19,11 +19,9 @@ from impact_damper.theory.straight_flight import (
 # rm W^2 d0 at which the first harmonic of Z2, 8 d0/pi^2 in a straight flight between rigid walls,
 # equals f/(rm W^2), with which the primary mass is at rest, as rule (18) requires.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# A solution of the harmonic balance, equation (7) of the paper, counts as a = 0 if the amplitude
-# |a| of Z1 is below ZERO_AMPLITUDE times the clearance.
+# A solution of (7) counts as a = 0 if |a| is below ZERO_AMPLITUDE times the clearance.
 ZERO_AMPLITUDE = 1e-6
-# CRITERIA: quantities of Z1 that an optimum clearance makes as small as possible. RULES: rules that
-# predict the optimum clearance, see `rule_ratios`.
+# Quantities of Z1 that an optimum clearance minimises, and rules for it, see `rule_ratios`.
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
@@ -52,8 +50,7 @@ def analytical_table(oscillator, dampers, frequency):
 
     for k in np.flatnonzero(signed[1:] * signed[:-1] < 0):
         clearance = brentq(amplitude, dampers[k].clearance, dampers[k + 1].clearance)
-        # The sign also changes at a jump, where another solution becomes the smallest. There the
-        # amplitude does not vanish.
+        # The sign also changes at a jump, where another solution becomes the smallest.
         if abs(amplitude(clearance)) < ZERO_AMPLITUDE * clearance:
             best = clearance
     return {

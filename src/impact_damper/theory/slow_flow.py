@@ -27,15 +27,10 @@ def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
         return -own / (2 * frequency)
     along, across = _push_slopes(state[..., 2] + 1j * state[..., 3], damper)
     total = 1 + 1 / damper.mass_ratio
-    upper = np.concatenate([own, _block(-1j * along, -1j * across)], axis=-1)
-    lower = np.concatenate(
-        [
-            _block(drag - 1j * spring, twisted),
-            _block(1j * (frequency**2 - total * along), -1j * total * across),
-        ],
-        axis=-1,
-    )
-    return -np.concatenate([upper, lower], axis=-2) / (2 * frequency)
+    upper = [own, _block(-1j * along, -1j * across)]
+    pushed = _block(1j * (frequency**2 - total * along), -1j * total * across)
+    lower = [_block(drag - 1j * spring, twisted), pushed]
+    return -np.block([upper, lower]) / (2 * frequency)
 
 
 def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
