@@ -57,12 +57,12 @@ class AllowedQuantity(Allowed):
 
 
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
-    """Return the type of a quantity within bounds in SI units, or in units of `absolute`."""
+    """Return the type of a quantity within bounds; it may be given in units of `absolute`, too."""
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 
 
 def fields_of(part, *, optional=False):
-    """Return the fields of a model for a dataclass in SI units, with its defaults or `optional`."""
+    """Return the fields of a model for a dataclass in SI units, all optional if `optional`."""
     found = {}
     for each in fields(part):
         facts = each.metadata

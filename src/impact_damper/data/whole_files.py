@@ -8,8 +8,8 @@ from pathlib import Path
 # Advice that the workflow appends to a BrokenFileError about one of its results.
 DELETE = "delete it and run the same command again"
 
-# Signature of HDF5, first bytes of superblocks of version 2 and 3 with addresses of 8 bytes, and
-# place of the length of the file in these.
+# An HDF5 file begins with SIGNATURE and a superblock. Superblocks that begin with one of VERSIONS
+# hold the length of the file at LENGTH.
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 VERSIONS = (b"\x02\x08\x08", b"\x03\x08\x08")
 LENGTH = slice(28, 36)

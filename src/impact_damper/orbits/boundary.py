@@ -13,8 +13,8 @@ from impact_damper.orbits.shooting import find_orbit
 
 # Distance from the saddle at which the segment begins, in units of Z1 and Z1'.
 NEAR = 1e-5
-# Largest number of forcing cycles; of points within the window, and within the reach, on each side
-# of the saddle; and of halvings of an interval between neighbouring points.
+# Largest numbers on each side of a saddle: forcing cycles, points within the window, points within
+# the reach, and halvings of an interval between neighbouring points.
 MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
 # Largest distance of neighbouring points outside the window, divided by the reach.

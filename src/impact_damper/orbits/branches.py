@@ -256,7 +256,7 @@ def _meeting(events, orbit):
     """Return the index of the event at which a branch meets a branch of more symmetry, or None.
 
     The deviation vanishes at a meeting, which is a fold of the branch; it may also have turned as a
-    vector, without a meeting. Without a fold the meeting was not located: the number of events.
+    vector, without a meeting. If the meeting was not located, return the number of events.
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))

@@ -121,7 +121,7 @@ def _draw_solutions(axes, amplitude, role):
 
 
 def _draw_unstable(axes, balance):
-    """Draw the unstable solutions without a damper, up to the folds, along the curve by phase."""
+    """Draw the unstable solutions without a damper up to the folds, in the order of their phase."""
     phase = balance["free_phase"].values
     order = np.argsort(phase, axis=None)[: np.isfinite(phase).sum()]
     frequency, amplitude, stability = (

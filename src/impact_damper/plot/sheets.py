@@ -14,7 +14,8 @@ from impact_damper.plot.style import COLUMNS, legend, style
 def datasets_in(data, takes, words) -> list[xr.Dataset]:
     """Return one or several datasets as a list.
 
-    A TypeError names the functions `words` that return the datasets which `takes` accepts.
+    A TypeError is raised unless `takes` accepts each; it names the functions that return such
+    datasets, `words`.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:
