@@ -43,9 +43,9 @@ def design_orbit():
 
 
 @pytest.fixture(scope="session")
-def heyoka_references():
-    """Return two heyoka.py integrators with different step limits; skip without heyoka.py."""
+def heyoka_reference():
+    """Return an integrator by heyoka.py; skip without heyoka.py."""
     pytest.importorskip("heyoka")
     from references.taylor_events import Reference
 
-    return Reference(), Reference(longest=0.01)
+    return Reference()

@@ -47,13 +47,9 @@ def systems_and_events():
 
 
 class Reference:
-    """Integrator that switches between flight and contact at terminal events.
+    """Integrator that switches between flight and contact at terminal events."""
 
-    `longest` is the longest step. Two runs with different limits verify that no contact is missed.
-    """
-
-    def __init__(self, longest=math.inf):
-        self.longest = longest
+    def __init__(self):
         systems, events = systems_and_events()
         self.integrators = {
             touching: heyoka.taylor_adaptive(
@@ -70,7 +66,7 @@ class Reference:
         motion.reset_cooldowns()
         motion.pars[:] = np.append(p, side)[: len(motion.pars)]
         motion.pars[packed.CLEARANCE] = min(p[packed.CLEARANCE], BEYOND_ALL_MOTIONS)
-        outcome = motion.propagate_until(end, max_delta_t=self.longest)[0]
+        outcome = motion.propagate_until(end)[0]
         return outcome, motion.state.copy(), motion.time
 
     def run(self, p, state, start, times, side=0):

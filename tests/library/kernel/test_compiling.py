@@ -34,6 +34,7 @@ assert before == (numba.config.CACHE_DIR, numba.config.CPU_FEATURES, numba.confi
 loaded = {name for name in sys.modules if name.startswith("impact_damper.kernel.")}
 assert "impact_damper.kernel.single" in loaded
 assert loaded.isdisjoint({"impact_damper.kernel.tangents", "impact_damper.kernel.batch"})
+assert "plot" in dir(impact_damper) and "matplotlib" not in sys.modules
 """
 
 SLOW = """

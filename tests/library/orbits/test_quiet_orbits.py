@@ -62,6 +62,7 @@ def test_the_fold_by_simulation_on_both_sides(design_orbit):
     frequencies = np.arange(1.0, 2.01, 0.04)
     found = seeded(row(DESIGN, frequencies), design_orbit.state)
     fold = np.interp(found.end[0, LEFT], np.arange(len(frequencies)), frequencies)
+    assert list(found.end_event[0]) == ["fold", "map_ends"]
     orbit = orbit_at(DESIGN, fold + 5e-3, design_orbit)
     record = settled(orbit, 0.0)
     assert is_symmetric_pair(record) and record["outcome"] == flag("outcome", "settled")

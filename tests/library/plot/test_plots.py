@@ -1,8 +1,5 @@
 """Every plot takes what the public functions return, draws it, and refuses anything else."""
 
-import subprocess
-import sys
-
 import matplotlib
 import numpy as np
 import pytest
@@ -173,13 +170,6 @@ def test_chaos_of_which_a_run_ended_is_a_transient():
     assert labels == ["period 1", "chaotic transient", "chaotic"]
     np.testing.assert_allclose(axes.patches[1].get_data().values, [0.5, 0.9, 1])
     np.testing.assert_allclose(axes.patches[2].get_data().baseline, [0.5, 0.9, 1])
-
-
-@pytest.mark.thorough
-def test_the_package_starts_without_matplotlib():
-    code = "import sys, impact_damper as idm; idm.Oscillator, idm.simulate; 'plot' in dir(idm)"
-    code += "; assert 'matplotlib' not in sys.modules"
-    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_a_backend_that_becomes_interactive_stays_so():

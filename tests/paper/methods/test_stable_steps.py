@@ -12,11 +12,11 @@ from impact_damper.model.parameters import Damper
 
 
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC], ids=["elastic", "inelastic"])
-def test_orbits_return_by_heyoka(damper, heyoka_references):
+def test_orbits_return_by_heyoka(damper, heyoka_reference):
     found = steps.orbits_over_stiffness(PAPER, damper, 2.0, [100.0, 2000.0, 1e5])
     for orbit in found:
         begin = 0.25 * math.pi
-        run = heyoka_references[0].run(orbit.parameters, orbit.state, begin, [begin + math.pi])
+        run = heyoka_reference.run(orbit.parameters, orbit.state, begin, [begin + math.pi])
         assert len(run.contacts) == 2
         assert_allclose(run.states[-1], orbit.state, atol=1e-8)
         assert abs(orbit.multiplier) < 1
