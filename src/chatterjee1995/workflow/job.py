@@ -5,7 +5,6 @@ import gc
 import inspect
 import json
 import os
-import resource
 import shutil
 import sys
 import threading
@@ -18,6 +17,8 @@ from importlib import import_module
 from operator import attrgetter
 from pathlib import Path
 
+import psutil
+
 # Collect garbage only after 10 000 new objects, more than by default: objects made by imports stay
 # until the end, and a job makes few others.
 gc.set_threshold(10_000)
@@ -25,9 +26,6 @@ gc.set_threshold(10_000)
 # Seconds between checks that Snakemake is alive. A new run of Snakemake needs longer than this to
 # start its first job, so that jobs of an old run never meet jobs of a new one.
 LOOK = 0.5
-# Units of `ru_maxrss` in a megabyte: bytes on macOS, kilobytes elsewhere.
-MEGABYTE = 2**20 if sys.platform == "darwin" else 2**10
-
 
 # Objects and arrays that parameters of jobs stand for, such as {"linspace": [0.6, 2.6, 41]}.
 MADE = {
@@ -182,12 +180,9 @@ def end_with_parent() -> None:
 
 def _write_timing(path):
     """Write seconds, CPU seconds and peak memory (MB) of this process and its children."""
-    import psutil
-
     process = psutil.Process()
     seconds = time.time() - process.create_time()
-    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    cpu = sum(each.ru_utime + each.ru_stime for each in used)
+    cpu = sum(process.cpu_times()[:4])  # of the user and of the system; the same of its children
     with suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
         numbers = "\t".join(f"{value:.3f}" for value in (seconds, cpu, peak_memory()))
@@ -197,7 +192,11 @@ def _write_timing(path):
 def peak_memory() -> float:
     """Return the peak memory of this process in MB; `ru_maxrss` begins at the parent's value."""
     status = Path("/proc/self/status")
-    if not status.exists():
-        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / MEGABYTE
-    lines = status.read_text().splitlines()
-    return next(int(line.split()[1]) / 2**10 for line in lines if line.startswith("VmHWM:"))
+    if status.exists():
+        lines = status.read_text().splitlines()
+        return next(int(line.split()[1]) / 2**10 for line in lines if line.startswith("VmHWM:"))
+    if sys.platform == "win32":
+        return psutil.Process().memory_info().peak_wset / 2**20
+    import resource
+
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20  # in bytes on macOS
