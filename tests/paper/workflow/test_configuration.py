@@ -62,7 +62,7 @@ def test_the_paper_is_accepted_and_so_are_valid_extremes(path, value):
         ("figures/figure_01/data", ["elastic"], "one of elastic_model"),
         ("figures/figure_05a/data", ["free_h215"], "must be a curve with a damper"),
         ("figures/figure_02/data", ["figure_05a"], "must be a curve without a damper"),
-        ("machines/pump/starts", 58, "machines.pump.starts = 58: must be from 59 "),
+        ("machines/pump/starts", 58, "machines.pump: starts = 58: must be from 59 "),
         ("machines/pump/contact", {"radius": "20 mm"}, "contact.youngs_modulus: missing; "),
     ],
 )
