@@ -61,11 +61,16 @@ def check(archive, job):
         rerun(root, {each["@id"]: each for each in graph}, job)
 
 
+def names(linked):
+    """Return the names of one entity or of several that a property links to."""
+    return [unquote(each["@id"]) for each in (linked if isinstance(linked, list) else [linked])]
+
+
 def cheapest(entities):
     """Return the job with the shortest time among those that read no dataset and write one."""
 
     def has_datasets(action, key):
-        return any(each["@id"].endswith(".nc") for each in action[key])
+        return any(name.endswith(".nc") for name in names(action[key]))
 
     def seconds(action):
         return float(entities[f"{action['@id']}/seconds"]["value"])
@@ -80,7 +85,7 @@ def cheapest(entities):
 def rerun(root, entities, job):
     """Delete the outputs of a job, run it from the files of the archive, and compare digests."""
     job = job or cheapest(entities)
-    outputs = [unquote(each["@id"]) for each in entities[f"#{job}"]["result"]]
+    outputs = names(entities[f"#{job}"]["result"])
     for path in outputs:
         (root / path).unlink()
     command = [sys.executable, "-m", "snakemake", "--cores", "1", "--rerun-triggers", "input"]

@@ -30,11 +30,15 @@ PROFILES = {
     "https://w3id.org/workflowhub/workflow-ro-crate/1.0": "Workflow RO-Crate",
 }
 NETCDF = "application/x-netcdf"
+UNITS = {"seconds": "SEC", "cpu_seconds": "SEC", "peak_memory_mb": "MegaBYTE"}
 
 
 def entity(name, kind, /, **properties):
-    """Return an entity of the crate, without the properties that are None or empty."""
+    """Return an entity of the crate: None and empty lists left out, lists of one value opened."""
     given = {key: value for key, value in properties.items() if value not in (None, [])}
+    for key, value in given.items():
+        if isinstance(value, list) and len(value) == 1:
+            given[key] = value[0]
     return {"@id": encoded(name), "@type": kind} | given
 
 
@@ -74,6 +78,7 @@ def jobs_of(root, files):
         for each in job["params"]:
             job["values"] |= ast.literal_eval(each)
         job["script"] = "workflow/" + re.search(r"scripts/\w+\.py", job["code"])[0]
+        job["calls"] = job["values"].get("function", job["script"])
     return jobs
 
 
@@ -84,7 +89,7 @@ def files_of(root, paths, jobs):
         caption = (root / path).with_suffix(".rst")
         shown = Path(path).parent.name in ("figures", "tables") and caption.exists()
         kind = NETCDF if path.endswith(".nc") else guess_type(path)[0] or "text/plain"
-        parameter = f"{rules[path]}/output" if path in rules else None
+        parameter = f"rule/{rules[path]}/output" if path in rules else None
         yield entity(
             path,
             "File",
@@ -93,6 +98,7 @@ def files_of(root, paths, jobs):
             sha256=sha256(root / path),
             encodingFormat=kind,
             description=caption.read_text().strip() if shown else None,
+            about={"@id": "./"} if path == "README.md" else None,
             exampleOfWork=links([f"#{parameter}"]) if parameter else None,
         )
 
@@ -102,7 +108,14 @@ def usage(root, name, job):
     path = root / Path(job["log"][0].replace("logs/", "timings/", 1)).with_suffix(".tsv")
     keys, numbers = map(str.split, path.read_text().splitlines()) if path.exists() else ([], [])
     return [
-        entity(f"#{name}/{key}", "PropertyValue", name=key, propertyID=f"#{key}", value=number)
+        entity(
+            f"#{name}/{key}",
+            "PropertyValue",
+            name=key,
+            propertyID=f"#{key}",
+            value=number,
+            unitCode=f"https://qudt.org/vocab/unit/{UNITS[key]}",
+        )
         for key, number in zip(keys, numbers, strict=True)
     ]
 
@@ -116,7 +129,7 @@ def actions(root, jobs):
                 "PropertyValue",
                 name=key,
                 value=json.dumps(value),
-                exampleOfWork=links([f"#{job['rule']}/{key}"]),
+                exampleOfWork=links([f"#rule/{job['rule']}/{key}"]),
             )
             for key, value in job["values"].items()
         ]
@@ -126,7 +139,8 @@ def actions(root, jobs):
             f"#{name}",
             "CreateAction",
             name=f"job {name}",
-            instrument=links([f"#{job['rule']}/tool"]),
+            description=f"Snakemake ran the rule {job['rule']}, which calls {job['calls']}.",
+            instrument=links([f"#rule/{job['rule']}/tool"]),
             object=links(job["input"]) + [{"@id": each["@id"]} for each in given],
             result=links(job["output"]),
             startTime=stamp(job["starttime"]),
@@ -134,7 +148,7 @@ def actions(root, jobs):
             actionStatus="http://schema.org/CompletedActionStatus",
             resourceUsage=[{"@id": each["@id"]} for each in used],
         )
-        step = links([f"#{job['rule']}"])
+        step = links([f"#rule/{job['rule']}"])
         started = links([f"#{name}"])
         yield entity(
             f"#{name}/start", "ControlAction", name=f"start {name}", instrument=step, object=started
@@ -146,21 +160,25 @@ def rules_of(jobs, version):
     for rule in sorted({job["rule"] for job in jobs.values()}):
         same = [job for job in jobs.values() if job["rule"] == rule]
         first = same[0]
-        keys = [f"#{rule}/{key}" for key in sorted({key for job in same for key in job["values"]})]
-        yield entity(f"#{rule}", "HowToStep", name=rule, workExample=links([f"#{rule}/tool"]))
+        keys = [
+            f"#rule/{rule}/{key}" for key in sorted({key for job in same for key in job["values"]})
+        ]
         yield entity(
-            f"#{rule}/tool",
+            f"#rule/{rule}", "HowToStep", name=rule, workExample=links([f"#rule/{rule}/tool"])
+        )
+        yield entity(
+            f"#rule/{rule}/tool",
             "SoftwareApplication",
-            name=first["values"].get("function", first["script"]),
+            name=first["calls"],
             softwareVersion=version,
             mainEntity=links([first["script"]]),
             input=links(keys),
-            output=links([f"#{rule}/output"]),
+            output=links([f"#rule/{rule}/output"]),
         )
         for each in keys:
             name = each.rpartition("/")[2]
             yield entity(each, "FormalParameter", name=name, additionalType="PropertyValue")
-        yield entity(f"#{rule}/output", "FormalParameter", name=rule, additionalType="File")
+        yield entity(f"#rule/{rule}/output", "FormalParameter", name=rule, additionalType="File")
 
 
 def workflow_of(project, rules, digest, version):
@@ -176,9 +194,9 @@ def workflow_of(project, rules, digest, version):
         license={"@id": terms},
         creator=links(["#authors"]),
         programmingLanguage={"@id": LANGUAGE},
-        hasPart=links(f"#{rule}/tool" for rule in rules),
-        step=links(f"#{rule}" for rule in rules),
-        output=links(f"#{rule}/output" for rule in rules),
+        hasPart=links(f"#rule/{rule}/tool" for rule in rules),
+        step=links(f"#rule/{rule}" for rule in rules),
+        output=links(f"#rule/{rule}/output" for rule in rules),
     )
     yield entity(LANGUAGE, "ComputerLanguage", version=version, **snakemake)
     yield entity("#snakemake", "SoftwareApplication", softwareVersion=version, **snakemake)
@@ -206,13 +224,14 @@ def run_of(project, paths, jobs):
         author=links(["#authors"]),
         conformsTo=profiles,
         mainEntity={"@id": "Snakefile"},
-        mentions=links(["#run", "#engine"]),
+        mentions=links(["#run", "#engine", *(f"#{name}" for name in jobs)]),
         hasPart=links(paths),
     )
     yield entity(
         "#run",
         "CreateAction",
         name="run of the workflow",
+        description="Snakemake ran the jobs of the workflow whose outputs were lacking or old.",
         instrument=links(["Snakefile"]),
         object=links(path for path in paths if path not in outputs),
         result=links(sorted(outputs)),
@@ -223,6 +242,7 @@ def run_of(project, paths, jobs):
         "#engine",
         "OrganizeAction",
         name="run of Snakemake",
+        description="Snakemake planned and started the jobs.",
         instrument=links(["#snakemake"]),
         object=links(f"#{name}/start" for name in jobs),
         result=links(["#run"]),

@@ -67,7 +67,7 @@ def test_the_crate_has_each_file_and_the_job(folder):
     assert {each["@id"] for each in entities["./"]["hasPart"]} == names
     job = entities["#motion/a"]
     assert job["object"] == [{"@id": "config/config.yaml"}, {"@id": "#motion/a/state"}]
-    assert job["result"] == [{"@id": "results/motion/a.nc"}]
+    assert job["result"] == {"@id": "results/motion/a.nc"}
     assert json.loads(entities["#motion/a/state"]["value"]) == [1.5, None]
     assert entities["#motion/a/seconds"]["value"] == "1.0"
 
