@@ -53,6 +53,8 @@ QUANTILES = [0.5, 0.95]  # of the cycles until the goal
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
+# A rule of release, see `legs.hold`.
+RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
 class Outcome(NamedTuple):
@@ -87,8 +89,9 @@ def release_policies(
         releases = release_set(oscillator, frequency, settling, cells=cells, workers=workers)
         for i, damper in enumerate(dampers):
             runs = Trials(pack(oscillator, damper, frequency), releases, settling, workers)
-            for k, rule in enumerate(runs.rules(max(1, trials // 4), [seed, 1])):
-                outcome = runs.run(rule, trials, [seed, 0])
+            rules = runs.rules(max(1, trials // 4), [seed, 1])
+            outcomes = runs.run(rules, trials, [seed, 0])
+            for k, (rule, outcome) in enumerate(zip(rules, outcomes, strict=True)):
                 for name, values in summary(outcome).items():
                     data[name][i, j, k] = values
                 if rule[0] != SETTLED:
@@ -117,33 +120,41 @@ class Trials(NamedTuple):
     workers: int = 1
 
     def rules(self, trials, seed):
-        """Return the rule of each policy, an argument of `hold`; chosen in trials of their own."""
+        """Return the rule of each policy, as in RULE; chosen in trials of their own."""
 
-        def cost(rule):
-            return np.mean(np.minimum(self.run(rule, trials, seed).cycles, PAPER_CYCLES))
+        def costs(rules):
+            cycles = [outcome.cycles for outcome in self.run(rules, trials, seed)]
+            return np.mean(np.minimum(cycles, PAPER_CYCLES), axis=1)
 
-        best = min([(HOLD, float(cycles), 0) for cycles in HOLDS], key=cost)
+        holds = [(HOLD, float(cycles), 0) for cycles in HOLDS]
+        states = [(STATE, float(cycles), 0) for cycles in HOLDS]
+        of_holds, of_states = np.split(costs(holds + states), 2)
+        best = holds[np.argmin(of_holds)]
         after = sorted({1.0, best[1]})
         phases = [(PHASE, cycles, index) for cycles in after for index in range(PHASES)]
-        states = [(STATE, float(cycles), 0) for cycles in HOLDS]
-        return (SETTLED, 0.0, 0), best, min(phases, key=cost), min(states, key=cost)
+        chosen = phases[np.argmin(costs(phases))], states[np.argmin(of_states)]
+        return [(SETTLED, 0.0, 0), best, *chosen]
 
-    def run(self, rule, trials, seed) -> Outcome:
-        """Return the `Outcome` of trials with a rule; equal seeds give equal random numbers."""
+    def run(self, rules, trials, seed):
+        """Return the `Outcome` of trials with each rule; equal seeds give equal random numbers.
+
+        The trials of all rules are run together, since lanes are full only if motions are many.
+        """
         generator, limit = np.random.default_rng(seed), float(PAPER_CYCLES)
         owner = self.releases.attractors.owner
-        resonance = owner[-1]
-        place, spent, damper = np.full(trials, resonance), np.zeros(trials), np.zeros(trials)
-        impacts, released = np.zeros((2, trials), int)
-        reached, running = np.zeros(trials, bool), np.arange(trials)
+        resonance, count = owner[-1], len(rules) * trials
+        place, spent, damper = np.full(count, resonance), np.zeros(count), np.zeros(count)
+        impacts, released = np.zeros((2, count), int)
+        reached, running = np.zeros(count, bool), np.arange(count)
+        rules = np.repeat(np.array(rules, RULE), trials)
         while len(running):
             # Random phase and place of switching on, phase of release, and state of free motion.
-            draws = generator.random((trials, 4))[running]
+            draws = generator.random((trials, 4))[running % trials]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first
             chosen = first + np.minimum((draws[:, 3] * number).astype(int), number - 1)
             starts = self.releases.attractors.centre[chosen]
-            held = self.hold(starts, draws, limit - spent[running], rule)
+            held = self.hold(starts, draws, limit - spent[running], rules[running])
             damper[running] += held["cycles"]
             impacts[running] += held["impacts"]
             spent[running] += held["cycles"]
@@ -154,20 +165,21 @@ class Trials(NamedTuple):
             reached[rows] = (labels == self.releases.goal) & (spent[rows] <= limit)
             place[rows] = np.where(labels >= 0, labels, resonance)
             running = rows[(labels != self.releases.goal) & (spent[rows] < limit)]
-        return Outcome(reached, np.where(reached, spent, np.inf), damper, impacts, released)
+        columns = reached, np.where(reached, spent, np.inf), damper, impacts, released
+        return list(map(Outcome, *(column.reshape(-1, trials) for column in columns)))
 
-    def hold(self, starts, draws, limits, rule):
+    def hold(self, starts, draws, limits, rules):
         """Return the array of HELD from `hold_many`, computed on several threads."""
         held, stop = np.zeros(len(starts), HELD), np.zeros(1, bool)
         set_ = self.releases
 
         def work(part):
-            runs = starts[part], draws[part], limits[part]
+            runs = starts[part], draws[part], limits[part], rules[part]
             sets = set_.depth, set_.half, self.settling.tolerance
-            hold_many(self.on, set_.p, *runs, rule, *sets, held[part], stop)
+            hold_many(self.on, set_.p, *runs, *sets, held[part], stop)
 
         work(slice(0, 0))
-        ensemble.run_chunks(work, len(starts), self.workers, None, stop, size=8)
+        ensemble.run_chunks(work, len(starts), self.workers, None, stop, size=64)
         return held
 
     def labels(self, states):
@@ -179,7 +191,7 @@ class Trials(NamedTuple):
 
 
 @kernel
-def hold_many(on, off, starts, draws, limits, rule, depth, half, tolerance, held, stop):
+def hold_many(on, off, starts, draws, limits, rules, depth, half, tolerance, held, stop):
     """Switch the damper on, `hold`, and run the free motion to the next strobe, for each trial.
 
     `starts` (n, 2) are Z1 and Z1' at the strobe before switching on; `draws` give the phase of
@@ -195,6 +207,7 @@ def hold_many(on, off, starts, draws, limits, rule, depth, half, tolerance, held
         advance(off, y, none, 0, first, begin, tolerance, work)
         y[2], y[3] = (2.0 * draws[i, 1] - 1.0) * on[CLEARANCE], 0.0
         side, draw, out = side_of(on, y), draws[i, 2], held[i]
+        rule = rules[i].kind, rules[i].cycles, rules[i].phase
         t, released, contacts = hold(
             on, y, side, begin, limits[i], rule, draw, depth, half, tolerance, path, work
         )

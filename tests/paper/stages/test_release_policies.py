@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import solve_ivp
 from scipy.stats import binom
 
-from chatterjee1995.stages.release_policies import Trials, quantile, release_policies
+from chatterjee1995.stages.release_policies import RULE, Trials, quantile, release_policies
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
@@ -44,7 +44,8 @@ def course(state, begin, end, damper):
 @pytest.mark.thorough
 def test_a_hold_agrees_with_scipy(trials):
     start, draws = trials.releases.attractors.centre[-1], np.random.default_rng(4).random((5, 3))
-    held = trials.hold(np.tile(start, (5, 1)), draws, np.full(5, 350.0), (HOLD, 1.3, 0))
+    rules = np.array([(HOLD, 1.3, 0)] * 5, RULE)
+    held = trials.hold(np.tile(start, (5, 1)), draws, np.full(5, 350.0), rules)
     period = 2 * np.pi / W
     for draw, out in zip(draws, held, strict=True):
         strobe = np.pi / 2 / W
@@ -79,9 +80,10 @@ def test_depth_tells_where_free_motions_of_scipy_settle(trials):
     assert told > 15
 
 
-def test_trials_add_up_and_threads_do_not_matter(trials):
-    one = trials.run((STATE, 350.0, 0), 30, 3)
-    two = trials._replace(workers=2).run((STATE, 350.0, 0), 30, 3)
+def test_trials_add_up_and_neither_threads_nor_other_rules_matter(trials):
+    rules = [(HOLD, 1.3, 0), (STATE, 350.0, 0)]
+    one = trials.run(rules, 30, 3)[1]
+    (two,) = trials._replace(workers=2).run(rules[1:], 30, 3)
     for first, second in zip(one, two, strict=True):
         assert_array_equal(first, second)
     assert np.all(one.cycles[one.reached] <= 350) and np.all(np.isinf(one.cycles[~one.reached]))
