@@ -13,19 +13,22 @@ using State = std::array<double, 4>;
 
 struct Motion {
     double damping, stiffness, cubic, amplitude, frequency, clearance, wall, dashpot, heavy;
+    double lag, base, gravity;  // lag: dashpot / wall if walls never pull, otherwise 0
     int side;  // -1 or 1 in contact, 0 in flight
 
     void operator()(const State &y, State &rates, double t) const {
         const double x = y[0], v = y[1], z = y[2], w = y[3];
-        double free = amplitude * std::cos(frequency * t) - damping * v;
-        free -= (stiffness + cubic * x * x) * x;
+        const double drive = amplitude * std::cos(frequency * t);
+        const double free = drive - damping * v - (stiffness + cubic * x * x) * x;
         const double force = side ? wall * (z - side * clearance) + dashpot * w : 0.0;
-        rates = {v, free - force, w, free - heavy * force};
+        rates = {v, free - force, w, free - base * drive + gravity - heavy * force};
     }
 
     // Whether a state is on the other side of the wall than the present phase.
     bool changed(const State &y) const {
-        return side ? side * y[2] < clearance : std::abs(y[2]) > clearance;
+        const double depth = std::abs(y[2]) - clearance;
+        const bool pushed = depth > 0 && depth + lag * std::copysign(std::abs(y[3]), y[2] * y[3]) > 0;
+        return side ? !pushed : pushed;
     }
 };
 
@@ -75,7 +78,7 @@ long advance(Motion motion, State &y, double t, double end, double tolerance, Pe
 
 Motion from(const double *given) {
     return {given[0], given[1], given[2], given[3], given[4], given[5], given[6], given[7],
-            given[8], 0};
+            given[8], given[9], given[10], given[11], 0};
 }
 
 }  // namespace

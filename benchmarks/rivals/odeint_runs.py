@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.rivals import coefficients
+from impact_damper.model.packed import BASE, FRICTION, GRAVITY, LAG
 
 PROGRAM = Path(__file__).with_name("odeint.cpp")
 FLAGS = ("-O3", "-march=native", "-std=c++17", "-shared", "-fPIC")
@@ -50,14 +51,18 @@ def largest(p, states, begin, lead, end, tolerance) -> np.ndarray:
     """Return the largest displacement of each motion from the time `lead` to `end`."""
     sizes = np.empty(len(states))
     states = np.ascontiguousarray(states)
-    _library().largest(
-        np.array(coefficients(p)), len(states), begin, lead, end, tolerance, states, sizes
-    )
+    _library().largest(_given(p), len(states), begin, lead, end, tolerance, states, sizes)
     return sizes
 
 
+def _given(p):
+    """Return the members of Motion in the program; it has no friction."""
+    assert p[FRICTION] == 0
+    return np.array([*coefficients(p), p[LAG], p[BASE], p[GRAVITY]])
+
+
 def prepare(scene, tolerance):
-    given, library = np.array(coefficients(scene.parameters)), _library()
+    given, library = _given(scene.parameters), _library()
 
     def run(starts):
         states, contacts = np.array(starts), np.zeros(len(starts), np.int64)

@@ -3,6 +3,7 @@
 from chatterjee1995.sections.records import Kind, Table, stage
 from chatterjee1995.sections.system import too_many
 from impact_damper.command import machine_file
+from impact_damper.model.machine import MOUNT
 
 
 class Machine(machine_file.MachineEntry):
@@ -22,7 +23,7 @@ class Machine(machine_file.MachineEntry):
     def machines(self, config) -> dict:
         damper, ball = self.damper.values(), self.contact.values()
         stiffness = damper.pop("contact_stiffness", None)
-        damper.pop("inclination", None)  # it is only checked
+        mount = {key: damper.pop(key) for key in MOUNT if key in damper}
         effort = {
             "frequencies": self.band.points,
             "candidates": self.candidates,
@@ -34,6 +35,7 @@ class Machine(machine_file.MachineEntry):
             | damper
             | {
                 "contact": {"HertzContact": ball} if ball else stiffness,
+                "mount": mount or None,
                 "band": [self.band.first, self.band.last],
                 "share": self.share,
                 "displacement_limit": self.displacement_limit,

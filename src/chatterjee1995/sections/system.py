@@ -1,4 +1,4 @@
-"""Keys for the fields of `Oscillator` (except `shaker`) and `Damper`, with bounds and meanings."""
+"""Keys for the fields of `Oscillator` and `Damper` that the paper has, with bounds and meanings."""
 
 import math
 from typing import ClassVar
@@ -16,8 +16,9 @@ BOUNDS, MEANINGS = (
     for key in ("bounds", "meaning")
 )
 BOUNDS["frequency"], MEANINGS["frequency"] = FREQUENCY_RANGE, "W, forcing frequency"
+BEYOND = ("base", "gravity", "friction")
 OSCILLATOR, DAMPER = (
-    [each.name for each in parameters_in(part) if each.name != "shaker"]
+    [each.name for each in parameters_in(part) if each.name not in BEYOND]
     for part in (Oscillator, Damper)
 )
 PARAMETERS = {name: number(MEANINGS[name], **BOUNDS[name]) for name in BOUNDS}

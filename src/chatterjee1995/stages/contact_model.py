@@ -11,11 +11,12 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.data.variables import register
 from impact_damper.kernel.equation import acceleration
+from impact_damper.model.exit_rules import EXIT_RULES
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.motions import ensemble, strobe_map, traces
 from impact_damper.motions.simulate import random_states
-from impact_damper.theory.contact_law import EXIT_RULES, contact, natural_frequency, pull_time
+from impact_damper.theory.contact_law import contact, natural_frequency, pull_time
 
 register(
     """

@@ -62,7 +62,7 @@ class LinearMachine(NamedTuple):
 
     damping_ratio: float
     forcing: np.ndarray
-    falling: int
+    based: bool
     unit: float
     natural_frequency: float
 
@@ -103,8 +103,6 @@ def absorber_responses(
     detunings = _increasing(
         "detunings", read_numbers(UNITLESS, "detunings", detunings, above=-1, most=10)
     )
-    if band is None and machine.base_acceleration is not None:
-        band = frequencies[[0, -1]]
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(shares)), np.nan)
     sizes[0] = response(machine, None, frequencies, shares)
@@ -224,15 +222,11 @@ def linear_machine(machine) -> LinearMachine:
             "machine has no natural frequency to tune to)"
         )
     ratio = machine.viscous_damping / (2 * math.sqrt(stiffness * mass))
-    based = np.array([1.0, 4 * ratio**2])
-    kinds = {
-        "force": (np.ones(1), 0, (machine.force or 0.0) / stiffness),
-        "unbalance": (np.array([0.0, 0.0, 1.0]), 0, (machine.unbalance or 0.0) / mass),
-        "base_displacement": (based, 0, machine.base_displacement),
-        "base_acceleration": (based, 2, (machine.base_acceleration or 0.0) * mass / stiffness),
-    }
-    kind = next(name for name in kinds if getattr(machine, name) is not None)
-    return LinearMachine(ratio, *kinds[kind], machine.natural_frequency)
+    force, unbalance = machine.forcing
+    forcing = (np.array([0.0, 0.0, 1.0]), unbalance / mass)
+    if not unbalance:
+        forcing = (np.ones(1), force / stiffness)
+    return LinearMachine(ratio, forcing[0], machine.is_based, forcing[1], machine.natural_frequency)
 
 
 def tuning_of(machine, absorber) -> Tuning:
@@ -256,13 +250,14 @@ def maxima(linear, tuning, band):
     carried = (4 * z1 * z * f + mass * f**2) * s
     real = np.convolve(host, own) - np.append(carried, 0.0)
     imaginary = 2 * (z1 * own + z * f * host - mass * z * f * s)
-    above = np.convolve(own, own) + np.append((2 * z * f) ** 2 * s, 0.0)
+    # On a moving base the absorber feels the acceleration too, and its link passes the force on.
+    load = 1 + mass if linear.based else 1.0
+    passed = np.array([load * f**2 - 1, -width])
+    above = np.convolve(passed, passed) + np.append((2 * z * f * load) ** 2 * s, 0.0)
     below = polynomial.polyadd(
         np.convolve(real, real), np.convolve(s, np.convolve(imaginary, imaginary))
     )
     above = np.convolve(above, _composed(linear.forcing, s))
-    for _ in range(linear.falling):
-        below = np.convolve(below, s)
     slope = polynomial.polysub(
         np.convolve(polynomial.polyder(above), below),
         np.convolve(above, polynomial.polyder(below)),
@@ -294,14 +289,16 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     scales = machine.scales
     sizes = np.empty((len(frequencies), len(force_shares)))
     for row, hertz in zip(sizes, frequencies, strict=True):
-        oscillator, w = machine.oscillator(hertz), scales.from_si(hertz, "frequency")
+        oscillator, w = machine.oscillator(), scales.from_si(hertz, "frequency")
         force = oscillator.forcing_amplitude(w)
         stiffness = oscillator.linear_frequency**2 - w**2 + 1j * oscillator.damping * w
         if absorber is not None:
             link = scales.from_si(absorber.stiffness, "stiffness")
             link += 1j * w * scales.from_si(absorber.damping, "damping")
             mass = absorber.mass / machine.mass
-            stiffness -= mass * w**2 * link / (link - mass * w**2)
+            passed = mass * link / (link - mass * w**2)
+            stiffness -= w**2 * passed
+            force *= abs(1 + oscillator.base * passed)
         row[:] = [_amplitude(oscillator, stiffness, force * share) for share in force_shares]
     return scales.to_si(sizes, "displacement")
 
@@ -327,11 +324,13 @@ def _amplitude(oscillator, stiffness, force):
 def _squared(linear, tuning, frequency):
     """Return the squared displacement of a linear machine in its unit, at frequencies r."""
     s = np.square(frequency)
-    forcing = polynomial.polyval(s, linear.forcing) / s**linear.falling
+    forcing = polynomial.polyval(s, linear.forcing)
     (mass, f, z), z1 = tuning, linear.damping_ratio
     real = (1 - s) * (f**2 - s) - 4 * z1 * z * f * s - mass * f**2 * s
     imaginary = 2 * (z1 * (f**2 - s) + z * f * (1 - s) - mass * z * f * s)
-    return forcing * ((f**2 - s) ** 2 + (2 * z * f) ** 2 * s) / (real**2 + s * imaginary**2)
+    load = 1 + mass if linear.based else 1.0
+    above = (load * f**2 - s) ** 2 + (2 * z * f * load) ** 2 * s
+    return forcing * above / (real**2 + s * imaginary**2)
 
 
 def _composed(coefficients, inner):
@@ -356,11 +355,6 @@ def _limits(machine, linear, band):
     """Return a band as lowest and highest r."""
     if band is not None:
         return tuple(end / linear.natural_frequency for end in check_band(machine, band))
-    if linear.falling:
-        raise ValueError(
-            "band = None: must be given with base_acceleration (the displacement grows without "
-            "limit as the frequency falls)"
-        )
     return 0.0, math.inf
 
 

@@ -3,7 +3,7 @@
 The force of a wall per unit of primary mass is f = r1 q + D q', with the penetration q, the contact
 stiffness r1 and the dashpot coefficient D. Over a period of the motion,
 
-    work of the external force = loss in the machine's dashpot + loss in contacts.
+    work of the external force = losses in the machine's dashpot, in contacts and by friction.
 
 The measure of noise is n <J^2>, the number n of impacts per unit of time times the mean square of
 their impulses J. By Campbell's theorem this is the two-sided spectral density of the force of
@@ -23,11 +23,13 @@ from numpy.polynomial import chebyshev
 from impact_damper.kernel.equation import energy, forcing_amplitude, spring, spring_slope
 from impact_damper.kernel.single import side_of
 from impact_damper.model.packed import (
+    BASE,
     CLEARANCE,
     CONTACT_STIFFNESS,
     DAMPING,
     DASHPOT,
     FREQUENCY,
+    FRICTION,
     INVERSE_MASS_RATIO,
 )
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
@@ -195,7 +197,11 @@ def _extremes_and_powers(p, panels, time):
     # `py_func` is the Python function of a compiled function; it accepts arrays.
     external = forcing_amplitude.py_func(p) * np.cos(p[FREQUENCY] * panels.times)
     acceleration = external - p[DAMPING] * v - spring.py_func(p, x)
-    powers = external * v, p[DAMPING] * v**2, p[DASHPOT] * rate**2
+    w, loose = panels.states[..., 3], 1 / p[INVERSE_MASS_RATIO]
+    # On a moving base, the force of inertia acts on the loose mass too.
+    supplied = external * (v + p[BASE] * loose * (v - w))
+    spent = p[DAMPING] * v**2 + loose * p[FRICTION] * np.abs(w)
+    powers = supplied, spent, p[DASHPOT] * rate**2
     work, damped, lost = (np.sum(integrals(panels, each)) / time for each in powers)
     first, last = (energy.py_func(p, panels.states[place, place]) for place in (0, -1))
     stored = (last - first) / time

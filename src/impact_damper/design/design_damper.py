@@ -15,7 +15,6 @@ from impact_damper.design.task import TOLERANCES, Effort, Task, labelled
 from impact_damper.model.arguments import read_system
 from impact_damper.model.bounds import names_arguments, shown
 from impact_damper.model.machine import Machine, describe_si
-from impact_damper.theory.contact_law import contact as contact_law
 
 # Errors that numerical methods raise; an addition that fails with one of them is named.
 NUMERICAL = (ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError)
@@ -29,6 +28,7 @@ def design_damper(
     band,
     restitution,
     contact,
+    mount=None,
     tolerances=None,
     displacement_limit=None,
     share=0.95,
@@ -58,10 +58,14 @@ def design_damper(
         Stiffness of the contact, N/m, or the contact of curved bodies. Its stiffness is computed
         for an impact at the speed with which the loose mass crosses the gap of the paper's rule
         (18) in half a forcing cycle, and its pressure for the impacts of the design.
+    mount : dict, optional
+        Arguments of `machine.mounting`: inclination of the gap, such as {"inclination": "90 deg"},
+        friction_coefficient, and normal_force between the loose mass and its floor. Left out, the
+        gap is horizontal and without friction.
     tolerances : dict, optional
-        Largest relative deviations of gap, restitution, contact_stiffness, stiffness, damping and
-        force, such as {"gap": "10 %"}, or absolute ones with a unit, such as {"gap": "0.2 mm"}; by
-        default 20 % of the gap.
+        Largest relative deviations of gap, restitution, contact_stiffness, gravity, friction,
+        stiffness, damping and force, such as {"gap": "10 %"}, or absolute ones with a unit, such as
+        {"gap": "0.2 mm"}; by default 20 % of the gap.
     displacement_limit : float or str, optional
         Displacement of the machine, m, with which the promised one is compared.
     share : float
@@ -107,6 +111,7 @@ def design_damper(
         band=band,
         restitution=restitution,
         contact=contact,
+        mount=mount,
         tolerances=TOLERANCES if tolerances is None else tolerances,
         displacement_limit=displacement_limit,
         share=share,
@@ -168,6 +173,8 @@ def evaluate_damper(
         restitution=damper.restitution,
         contact=damper.contact_stiffness,
         gap=damper.gap,
+        mount={"gravity": damper.gravity, "friction": damper.friction},
+        exit_rule=damper.exit_rule,
         tolerances=TOLERANCES if tolerances is None else tolerances,
         displacement_limit=displacement_limit,
         share=share,
@@ -195,8 +202,7 @@ def answer(task, decide, title, folder, progress) -> xr.Dataset:
     parts.append(labelled({"addition_status": status}, addition=list(ADDITIONS)))
     data = xr.merge(parts, compat="override", join="outer", combine_attrs="override")
     damper = describe_si(task.machine, task.damper(1e-3 * float(decision["design_gap"])))
-    departure = contact_law(task.restitution, 0.0, "no_tension").departure
-    used = task.describe() | {"pull_free_restitution": departure}
+    used = task.describe()
     if "gap" in task.tolerances:
         used["tolerances"]["gap"] = float(task.deviations(float(decision["design_gap"]))[0])
     failed = {key: value for key, value in decision.attrs.items() if key.startswith("failed_")}

@@ -25,6 +25,7 @@ from impact_damper.model.bounds import (
     names_arguments,
     shown,
 )
+from impact_damper.model.exit_rules import NO_TENSION
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.machine import (
     EXCITATIONS,
@@ -32,6 +33,7 @@ from impact_damper.model.machine import (
     MachineDamper,
     TunedAbsorber,
     describe_si,
+    mounting,
 )
 from impact_damper.model.packed import pack
 from impact_damper.model.settling import Settling, check_settling
@@ -41,14 +43,20 @@ from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds,
 
 # Values that may deviate from their nominal ones; the last three belong to the machine. NOMINAL:
 # their factors without a deviation. TOLERANCES: largest relative deviations by default.
-VARIED = ("gap", "restitution", "contact_stiffness", "stiffness", "damping", "force")
+VARIED = (
+    "gap",
+    "restitution",
+    "contact_stiffness",
+    "gravity",
+    "friction",
+    "stiffness",
+    "damping",
+    "force",
+)
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 # Ends of a range or of a confidence interval.
 SIDES = ["lower", "upper"]
-# Acceleration of gravity, m/s^2, and angles between the gap and the horizontal, radian.
-GRAVITY = 9.81
-INCLINATION = {"least": 0, "most": 1.5708}
 # Largest relative deviation, and quantities of absolute ones. The excitation has its own quantity.
 MOST_DEVIATION = 0.9
 ABSOLUTE = {
@@ -147,6 +155,9 @@ class Task:
         Gap of a damper that exists, m; None if it is to be found.
     contact : float or HertzContact
         Stiffness, N/m, or the contact from which it is computed.
+    mount : dict or None
+        Arguments of `machine.mounting`, from which gravity (along the gap, m/s^2) and friction of
+        the loose mass (N) follow.
     contact_stiffness : float
         N/m.
     """
@@ -160,9 +171,13 @@ class Task:
     displacement_limit: float | None = None
     share: float = 0.95
     gap: float | None = None
+    mount: Mapping | None = None
+    exit_rule: str = NO_TENSION
     absorber: TunedAbsorber | None = None
     effort: Effort = field(default_factory=Effort)
     contact_stiffness: float = field(init=False)
+    gravity: float = field(init=False)
+    friction: float = field(init=False)
 
     def __post_init__(self):
         if not isinstance(self.machine, Machine):
@@ -173,6 +188,8 @@ class Task:
         why = "mass of the machine: a heavier loose mass is no damper"
         mass = check_si("mass", self.mass, "mass", least=least, most=self.machine.mass, why=why)
         self._set("mass", mass)
+        for name, value in mounting(mass, **(self.mount or {})).items():
+            self._set(name, value)
         restitution = check_si("restitution", self.restitution, "number", **RESTITUTION_RANGE)
         self._set("restitution", restitution)
         self._check_excitation()
@@ -303,6 +320,11 @@ class Task:
         rules = np.array([1e3 * self.rule_gap(f) for f in self.grid])
         sizes = self.bare[np.isfinite(self.bare)]
         most = 2 * sizes.max() if len(sizes) else ESCAPING * rules.max()
+        if self.gravity:  # the machine may throw the loose mass up to the other wall
+            speeds = 1e-3 * self.bare * 2 * math.pi * self.grid
+            most += (
+                1e3 * np.max(speeds[np.isfinite(speeds)], initial=0) ** 2 / 2 / abs(self.gravity)
+            )
         return LEAST_GAP * min(rules.min(), most), most
 
     @cached_property
@@ -346,31 +368,16 @@ class Task:
     def bare_at(self, frequencies) -> np.ndarray:
         """Return the largest displacement without damper by harmonic balance, mm."""
         turning = self.scales.from_si(np.asarray(frequencies), "frequency")
-        oscillators = [self.machine.oscillator(f) for f in frequencies]
-        sizes = map(balance_amplitudes, oscillators, turning)
+        oscillator = self.machine.oscillator()
+        sizes = [balance_amplitudes(oscillator, w) for w in turning]
         return self.millimetres(np.array([ascending[-1] for ascending in sizes]))
-
-    def check_inclination(self, angle) -> None:
-        """Raise ValueError if the loose mass of an inclined damper (radian) stays on one wall.
-
-        Gravity is not in the equations. Without acceleration above its component along the gap the
-        machine does not lift the loose mass.
-        """
-        least = GRAVITY * math.sin(check_si("inclination", angle, "angle", **INCLINATION))
-        most = float(np.max(1e-3 * self.bare * (2 * math.pi * self.grid) ** 2))
-        if most < least:
-            raise ValueError(
-                f"inclination = {shown(angle)}: the machine accelerates by at most {most:.3g} "
-                f"m/s^2, less than gravity along the gap, {least:.3g} m/s^2, so that the loose "
-                "mass stays on its lower wall"
-            )
 
     @property
     def migration_offer(self) -> str:
         """Whether the machine without damper has a small motion beside a large one in the band."""
         turning = self.scales.from_si(self.grid, "frequency")
-        oscillators = [self.machine.oscillator(f) for f in self.grid]
-        sizes = map(balance_amplitudes, oscillators, turning)
+        oscillator = self.machine.oscillator()
+        sizes = [balance_amplitudes(oscillator, w) for w in turning]
         return "yes" if any(len(each) > 1 for each in sizes) else "no"
 
     @property
@@ -396,7 +403,7 @@ class Task:
 
     def rule_gap(self, frequency) -> float:
         """Return the gap (m) by rule (18) of the paper at a frequency (Hz)."""
-        force = self.machine.oscillator(frequency).forcing_amplitude(
+        force = self.machine.oscillator().forcing_amplitude(
             self.scales.from_si(frequency, "frequency")
         )
         return 2 * self.scales.to_si(force, "force") / (self.mass * (2 * math.pi * frequency) ** 2)
@@ -412,32 +419,25 @@ class Task:
             gap=gap * varied["gap"],
             restitution=min(1.0, self.restitution * varied["restitution"]),
             contact_stiffness=self.contact_stiffness * varied["contact_stiffness"],
+            gravity=self.gravity * varied["gravity"],
+            friction=self.friction * varied["friction"],
+            exit_rule=self.exit_rule,
         )
 
     def system(self, gap, frequency, factors=NOMINAL) -> tuple:
         """Return oscillator, damper and frequency W in the scales of the nominal machine."""
         varied = dict(zip(VARIED, factors, strict=True))
-        oscillator = self.machine.oscillator(frequency)
+        oscillator = self.machine.oscillator()
         oscillator = replace(
             oscillator,
             damping=oscillator.damping * varied["damping"],
             linear_frequency=oscillator.linear_frequency * math.sqrt(varied["stiffness"]),
             cubic=oscillator.cubic * varied["stiffness"],
-            force=oscillator.force * self._force(frequency, varied),
+            force=oscillator.force * varied["force"],
             unbalance=oscillator.unbalance * varied["force"],
         )
         damper = self.damper(gap, factors).scaled(self.scales)
         return oscillator, damper, float(self.scales.from_si(frequency, "frequency"))
-
-    def _force(self, frequency, varied):
-        """Return the factor of the force, which spring and dashpot transmit from a moving base."""
-        machine = self.machine
-        if machine.force is not None or machine.unbalance is not None:
-            return varied["force"]
-        angular = 2 * math.pi * frequency
-        spring, dashpot = machine.linear_stiffness, machine.viscous_damping * angular
-        deviated = math.hypot(spring * varied["stiffness"], dashpot * varied["damping"])
-        return varied["force"] * deviated / math.hypot(spring, dashpot)
 
     def packed(self, gap, frequency, factors=NOMINAL) -> np.ndarray:
         """Return the packed parameters of `system`."""
@@ -462,6 +462,9 @@ class Task:
             "displacement_limit": self.displacement_limit,
             "share": self.share,
             "gap": self.gap,
+            "gravity": self.gravity,
+            "friction": self.friction,
+            "exit_rule": self.exit_rule,
             "absorber": self.absorber and asdict(self.absorber),
             "compared_settling": asdict(self.hurried),
         }

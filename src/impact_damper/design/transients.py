@@ -15,7 +15,7 @@ from impact_damper.data.datasets import flag
 from impact_damper.design.task import labelled
 from impact_damper.kernel.equation import energy
 from impact_damper.model.families import FORCING
-from impact_damper.model.packed import FORCE, FREQUENCY, UNBALANCE, cubic_spring, pack
+from impact_damper.model.packed import FREQUENCY, cubic_spring, pack
 from impact_damper.motions.records import envelope
 
 # The machine without the damper, and with it.
@@ -100,14 +100,9 @@ def forced(machine, damper, frequencies):
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
     for end in (frequencies.max(), frequencies.min()):
-        p = pack(machine.oscillator(end), scaled, scales.from_si(end, "frequency"))
+        p = pack(machine.oscillator(), scaled, scales.from_si(end, "frequency"))
     rows = np.tile(p, (len(frequencies), 1))
-    # `machine.forcing` returns the parts of the forcing at one frequency. Its third part, the
-    # shaker, is 0: it replaces the motion of the base only where the frequency varies.
-    forces, unbalances, _ = np.array([machine.forcing(each) for each in frequencies]).T
     rows[:, FREQUENCY] = scales.from_si(frequencies, "frequency")
-    rows[:, FORCE] = scales.from_si(forces, "force")
-    rows[:, UNBALANCE] = scales.from_si(unbalances, "unbalance")
     return rows
 
 
@@ -135,7 +130,7 @@ def decay(machine, damper, displacement):
     """
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
-    p = pack(machine.oscillator(scales.to_si(1.0, "frequency")), scaled, 1.0)
+    p = pack(machine.oscillator(), scaled, 1.0)
     p[list(FORCING.values())] = 0.0
     y = np.array([scales.from_si(displacement, "displacement"), 0.0, 0.0, 0.0])
     rest, rows, begin, end = energy.py_func(p, REST * y), [], 0.0, "limit"

@@ -1,8 +1,8 @@
 """The equation of motion of the primary mass without the damper, and its Taylor series.
 
-    Z1'' = (F + U W^2 + V/W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
+    Z1'' = (F + U W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
-This is equation (3) of the paper with four more parameters k3, F, U and V of `Oscillator`. The
+This is equation (3) of the paper with three more parameters k3, F and U of `Oscillator`. The
 recurrence and the names in the generated lines stand in docs/explanation/series.md.
 """
 
@@ -17,8 +17,9 @@ from impact_damper.model.packed import (
     DAMPING,
     FORCE,
     FREQUENCY,
+    GRAVITY,
     INVERSE_MASS_RATIO,
-    SHAKER,
+    LAG,
     STIFFNESS,
     UNBALANCE,
 )
@@ -26,13 +27,12 @@ from impact_damper.model.packed import (
 
 @kernel_only
 def forcing_amplitude(p, lane=0, lanes=1):
-    """Return the amplitude F + U W^2 + V/W^2 of the forcing per unit of primary mass.
+    """Return the amplitude F + U W^2 of the forcing per unit of primary mass.
 
     `p` has a row of `lanes` numbers for each parameter; `lane` is the index of one of them.
     """
     frequency = p[FREQUENCY * lanes + lane]
-    without = p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
-    return without + p[SHAKER * lanes + lane] / (frequency * frequency)
+    return p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
 
 
 @partial(kernel_only, fastmath=False)
@@ -91,7 +91,9 @@ def energy(p, y):
     if p[INVERSE_MASS_RATIO] > 0.0:
         total += 0.5 * (v - y[3]) ** 2 / p[INVERSE_MASS_RATIO]
         depth = max(abs(y[2]) - p[CLEARANCE], 0.0)
-        total += 0.5 * p[CONTACT_STIFFNESS] * depth * depth
+        pushed = depth + p[LAG] * (y[3] if y[2] > 0.0 else -y[3]) > 0.0
+        total += 0.5 * p[CONTACT_STIFFNESS] * depth * depth if pushed else 0.0
+        total += p[GRAVITY] * (x - y[2]) / p[INVERSE_MASS_RATIO]
     return total
 
 
@@ -112,13 +114,14 @@ def beginning(at):
     yield "linear = stiffness + 2.0 * s0"
 
 
-def motion(order, phase, constants):
+def motion(order, phase, constants, across):
     """Yield the lines for the series of a step up to an order, in a phase, "flight" or "contact".
 
-    Before these lines x0, x1, the names of `beginning`, and `cosine` and `sine` of the forcing's
-    phase, times its amplitude, must have values; in contact also q0, q1, `r1` and `mobility` =
-    1 + 1/rm. The function `constants` of k returns the lines for the coefficients that are the same
-    in all steps of a trajectory: h/k, D/k, and e[k] without its factor cosine or sine.
+    Before these lines x0, x1, the names of `beginning`, a constant acceleration `push`, and
+    `cosine` and `sine` of the forcing's phase, times its amplitude, must have values; in contact
+    also q0, q1, `r1` and `mobility` = 1 + 1/rm, and with `across` the names of `Writer.series`. The
+    function `constants` of k returns the lines for the coefficients that are the same in all steps
+    of a trajectory: h/k, D/k, and e[k] without its factor cosine or sine.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -128,8 +131,12 @@ def motion(order, phase, constants):
         if k > 1:
             yield from _without_damping(k, drive)
         else:
-            yield f"c{k} = {drive} - {'linear' if k else 'stiffness'} * x{k}"
-        yield from _accelerations(k, phase)
+            push = "" if k else " + push"
+            yield f"c{k} = {drive}{push} - {'linear' if k else 'stiffness'} * x{k}"
+        if across:
+            moved = "base_sine" if k % 2 else "base_cosine"
+            yield f"m{k} = c{k} - e{k} * {moved}" + (" + draw" if k == 0 else "")
+        yield from _accelerations(k, phase, "m" if across else "c")
 
 
 def tangent(order, phase, constants):
@@ -143,7 +150,7 @@ def tangent(order, phase, constants):
         terms = [f"u{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: (max(j, k - j), j))]
         terms += [f"u{k} * x0"] if k > 0 else []
         yield f"c{k} = -{' - '.join([*terms, f'linear * x{k}'])}"
-        yield from _accelerations(k, phase)
+        yield from _accelerations(k, phase, "c")
 
 
 def squares(count):
@@ -201,14 +208,15 @@ def _without_damping(k, drive):
     yield f"c{k} = {' - '.join([early, *newest])} - linear * x{k}"
 
 
-def _accelerations(k, phase):
-    """Yield the lines for g[k] and x[k+2], and in contact q[k+2], from c[k]."""
+def _accelerations(k, phase, loose):
+    """Yield the lines for g[k] and x[k+2] from c[k], in contact also q[k+2] from `loose`[k]."""
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
     factor = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"
     if phase == "contact":
         yield f"f{k} = r1 * q{k} + d{k} * {b}"
-        yield f"b{k} = g{k} - mobility * f{k}"
+        yield f"l{k} = {loose}{k} - h{k} * {a}"
+        yield f"b{k} = l{k} - mobility * f{k}"
         yield f"q{k + 2} = {factor!r} * b{k}"
     yield f"a{k} = g{k} - f{k}" if phase == "contact" else f"a{k} = g{k}"
     yield f"x{k + 2} = {factor!r} * a{k}"

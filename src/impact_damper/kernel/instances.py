@@ -17,7 +17,15 @@ from itertools import chain
 from impact_damper.kernel import equation
 from impact_damper.kernel.compiling import CACHE_DIRECTORY
 from impact_damper.kernel.straight_lines import straight
-from impact_damper.kernel.templates import contact, forcing, root_search, separation, step
+from impact_damper.kernel.templates import (
+    across,
+    contact,
+    forcing,
+    friction,
+    root_search,
+    separation,
+    step,
+)
 from impact_damper.model import packed
 
 # Orders of the Taylor series. With these the integration is cheapest at medium errors.
@@ -32,13 +40,17 @@ CONTACT_ORDER = 23
 #                 without the force of the wall (G), of the slope of the spring's nonlinear force
 #                 (U, for tangents); and coefficients that are the same in all steps: the forcing
 #                 without its factor cosine or sine (E), h/k (H) and D/k (D)
-# A tangent has its STATE, and then the TANGENT_SERIES of its Z1 (DX) and penetration (DQ).
+# A tangent has its STATE, a number KEPT while the loose mass sticks, and then the TANGENT_SERIES of
+# its Z1 (DX) and penetration (DQ).
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
     "COSINE SINE KNOWN TURNS ANGLE T Z1 Z1_SLOPE Z1_CURVE Z1_JERK "
     "DEPTH DEPTH_SLOPE DEPTH_CURVE DEPTH_JERK BOUND CHANGE TAIL FINE SCALE WALL MODE LOW HIGH "
-    "NATURAL END_Z1 END_Z1_SLOPE END_DEPTH END_DEPTH_SLOPE"
+    "NATURAL END_Z1 END_Z1_SLOPE END_DEPTH END_DEPTH_SLOPE "
+    "DRAW BASE_COSINE BASE_SINE ACROSS MOST SWAYS SWAY SWAY_SLOPE SWAY_CURVE SWAY_JERK JERK_BOUND "
+    "PUSH ROUGH SLIDE BEND STICKS STUCK HELD_Z2 LIMIT TURN FREE_DAMPING FREE_STIFFNESS FREE_CUBIC "
+    "FREE_CONTACT FREE_DASHPOT"
 ).split()
 SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH
 SERIES = "X Q G U E H D".split()
@@ -81,10 +93,11 @@ def _source(writer):
         "EARLY": 3 * (writer.orders["flight"] - 1) // 5 + 1,
         "SIZE": writer.rows["ROWS"] * writer.lanes,
         "TANGENT_SIZE": writer.rows["TANGENT_ROWS"] * writer.tangents,
+        "KEPT": len(STATE) * writer.tangents,
     }
     constants |= {name: writer.rows[name] * writer.lanes for name in [*SINGLE, *SERIES]}
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
-    templates = forcing, root_search, contact, separation, step
+    templates = forcing, root_search, across, friction, contact, separation, step
     return "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])
 
 
@@ -96,11 +109,11 @@ def rows(flight_order, contact_order):
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
     series = {name: len(SINGLE) + length * j for j, name in enumerate(SERIES)}
-    tangent = {name: len(STATE) + length * j for j, name in enumerate(TANGENT_SERIES)}
+    tangent = {name: len(STATE) + 1 + length * j for j, name in enumerate(TANGENT_SERIES)}
     ends = {
         "PARTS": len(SINGLE) + length * len(SERIES),
         "ROWS": len(SINGLE) + length * len(SERIES) + 4 * SUMS,
-        "TANGENT_ROWS": len(STATE) + length * len(TANGENT_SERIES),
+        "TANGENT_ROWS": len(STATE) + 1 + length * len(TANGENT_SERIES),
     }
     return single | series | tangent | ends
 
@@ -172,8 +185,11 @@ class Writer:
             return lambda k: self._computed(k, names)
         return lambda k: [f"{name.lower()}{k} = {self.at(name, k)}" for name in names]
 
-    def series(self, phase):
-        """Return a kernel that fills the series of a step: X and G, and in contact Q."""
+    def series(self, phase, across=False):
+        """Return a kernel that fills the series of a step: X and G, and in contact Q.
+
+        The one with `across` has the acceleration that acts on the loose mass alone (`across`).
+        """
         lines = [
             f"cosine = {self.at('COSINE')}",
             f"sine = {self.at('SINE')}",
@@ -181,6 +197,7 @@ class Writer:
             # Adding 0.0 keeps LLVM from loading x0 and x1 as one vector, which would wait until
             # the stores of both are complete.
             f"x1 = {self.at('Y1')} + 0.0",
+            f"push = {self.at('PUSH')}",
             *equation.beginning(self.at),
             *self._factors(phase),
         ]
@@ -189,9 +206,16 @@ class Writer:
                 f"q0 = {self.at('Y2')} - {self.at('SIDE')} * {self.at('CLEARANCE')}",
                 f"q1 = {self.at('Y3')}",
             ]
+        if across:
+            lines += [
+                f"draw = {self.at('DRAW')}",
+                f"base_cosine = {self.at('BASE_COSINE')}",
+                f"base_sine = {self.at('BASE_SINE')}",
+            ]
         constants = self._constants(phase, tangent=False)
-        lines += equation.motion(self.orders[phase], phase, constants)
-        return self.function(f"{phase}_series", self._stored(lines, f"{self.moving(phase)}G"))
+        lines += equation.motion(self.orders[phase], phase, constants, across)
+        name = f"{phase}_series_across" if across else f"{phase}_series"
+        return self.function(name, self._stored(lines, f"{self.moving(phase)}G"))
 
     def squares(self, phase):
         """Return a kernel that fills U, for the tangents, from the series of a step."""
@@ -255,6 +279,7 @@ class Source(Writer):
             *([self.constant_series()] if self.lanes == 1 else []),
             self.circular(),
             *(self.series(phase) for phase in self.orders),
+            self.series("contact", across=True),
             *(self.squares(phase) for phase in self.orders),
             *(self.tangent_series(phase) for phase in self.orders),
             *(self.tangent_value(phase) for phase in self.orders),
@@ -264,6 +289,8 @@ class Source(Writer):
             self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
             # Upper bounds on |g|. In flight g is Z1''.
             self.sums("flight_bound", "flight", "LENGTH", bound),
+            self.sums("flight_jerk", "flight", "LENGTH", {"JERK_BOUND": "|G'|"}),
+            self.sums("contact_jerk", "contact", "LENGTH", {"Z1_JERK": "|G'|"}),
             self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
             # An upper bound on the change of Z1': the sum of the moduli of its terms after the
             # first.
@@ -339,7 +366,8 @@ class Source(Writer):
             stiff, lossy = self.at("CONTACT_STIFFNESS"), self.at("DASHPOT")
             z1, depth = self.at(f"Z1_{derivative}"), self.at(f"DEPTH_{derivative}")
             yield f"{force} = {stiff} * {self.at(depth_row)} + {lossy} * {self.at(rate)}"
-            yield f"{depth} = {z1} - {mobility} * {force}"
+            sway = self.at(f"SWAY_{derivative}")
+            yield f"{depth} = {z1} + {sway} - {mobility} * {force}"
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):

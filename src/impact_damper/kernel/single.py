@@ -18,10 +18,10 @@ from impact_damper.kernel.compiling import (
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.instances import rows
 from impact_damper.model import packed
-from impact_damper.model.packed import CLEARANCE
+from impact_damper.model.packed import CLEARANCE, LAG
 
 _ONE = instances.instance(1)
-constant_series = _ONE.constant_series
+constant_series, find_sway = _ONE.constant_series, _ONE.find_sway
 flight_step, contact_step = by_address(_ONE.flight_step), by_address(_ONE.contact_step)
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
 # Index in a workspace at which the numbers of the tangents begin; a multiple of CACHE_LINE.
@@ -29,6 +29,8 @@ BEHIND = -(-SIZE // CACHE_LINE) * CACHE_LINE
 SIDE, TIME, LONGEST = _ONE.SIDE, _ONE.TIME, _ONE.LONGEST
 TOLERANCE, LENGTH = _ONE.TOLERANCE, _ONE.LENGTH
 PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _ONE.Q
+T, SWAY, SWAY_SLOPE, STUCK = _ONE.T, _ONE.SWAY, _ONE.SWAY_SLOPE, _ONE.STUCK
+DRAW, BASE_COSINE, BASE_SINE, E = _ONE.DRAW, _ONE.BASE_COSINE, _ONE.BASE_SINE, _ONE.E
 FLIGHT_ORDER, CONTACT_ORDER = _ONE.FLIGHT_ORDER, _ONE.CONTACT_ORDER
 # Indices in a workspace at which the series of the tangents begin. Each coefficient has COLUMNS
 # numbers, one for each tangent.
@@ -116,11 +118,52 @@ def step(p, y, side, t, longest, tolerance, work):
     return (longest if has_escaped(p, y[0], y[1]) else length), side
 
 
+@kernel_only
+def state_in_step(work, side, y, t):
+    """Return the state at the time t within the step that `step` did from the state y."""
+    a = pointer(work)
+    if side == 0:
+        x, v = polynomial(work[X:], FLIGHT_ORDER, t)
+        a[T] = t
+        find_sway(a)
+        z = x + (y[2] - y[0]) + (y[3] - y[1]) * t + a[SWAY]
+        w = v + (y[3] - y[1]) + a[SWAY_SLOPE]
+    else:
+        x, v = polynomial(work[X:], CONTACT_ORDER, t)
+        q, w = polynomial(work[Q:], CONTACT_ORDER, t)
+        z = side * a[PARAMETERS + CLEARANCE] + q
+    if a[STUCK] > 0.0:
+        return x, v, y[2], 0.0
+    return x, v, z, w
+
+
+@kernel_only
+def series_of_loose_mass(work, side, y, c):
+    """Write the coefficients of Z2 over a step from the state y into c; return their order."""
+    a = pointer(work)
+    order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
+    for k in range(order + 1):
+        c[k] = a[X + k] if side == 0 else a[Q + k]
+    if side != 0:
+        c[0] += side * a[PARAMETERS + CLEARANCE]
+    else:
+        c[0] += y[2] - y[0]
+        c[1] += y[3] - y[1]
+        for k in range(order - 1):
+            moved = a[E + k] * (a[BASE_SINE] if k % 2 else a[BASE_COSINE])
+            c[k + 2] += ((a[DRAW] if k == 0 else 0.0) - moved) / ((k + 1) * (k + 2))
+    if a[STUCK] > 0.0:
+        c[0] = y[2]
+        for k in range(1, order + 1):
+            c[k] = 0.0
+    return order
+
+
 @kernel
 def side_of(p, y):
     """Return the wall that the loose mass touches or moves into, -1 or 1, or 0 in flight."""
-    if y[2] > p[CLEARANCE] or (y[2] == p[CLEARANCE] and y[3] > 0.0):
-        return 1
-    if y[2] < -p[CLEARANCE] or (y[2] == -p[CLEARANCE] and y[3] < 0.0):
-        return -1
-    return 0
+    wall = 1 if y[2] > 0.0 else -1
+    depth = abs(y[2]) - p[CLEARANCE]
+    if depth < 0.0 or (p[LAG] > 0.0 and depth + p[LAG] * wall * y[3] <= 0.0):
+        return 0
+    return wall if depth > 0.0 or wall * y[3] > 0.0 else 0

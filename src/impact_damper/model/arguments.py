@@ -68,20 +68,16 @@ def read_system(system, damper=None, *, needs_damper=False) -> Model:
     return Model(replace(system, scales=UNITLESS), damper)
 
 
-def read_forced(system, damper, frequency, *, exact=True, needs_damper=False) -> Model:
-    """Return the model of `system` and `damper` at a frequency, in Hz for a machine.
-
-    Without `exact` the force of a moving base is the approximation over a range of frequencies.
-    """
+def read_forced(system, damper, frequency, *, needs_damper=False) -> Model:
+    """Return the model of `system` and `damper` at a frequency, in Hz for a machine."""
     if not isinstance(system, Machine):
         model = read_system(system, damper, needs_damper=needs_damper)
         frequency = check_number("frequency", frequency, **FREQUENCY_RANGE)
         return model._replace(frequency=frequency)
     damper, scaled = _read_machine_damper(system, damper, needs_damper)
     frequency = system.check_frequency("frequency", frequency)
-    oscillator = system.oscillator(frequency if exact else None)
     own = system.scales.from_si(frequency, "frequency")
-    return Model(oscillator, scaled, own, system, damper)
+    return Model(system.oscillator(), scaled, own, system, damper)
 
 
 def _read_machine_damper(machine, damper, needs_damper):

@@ -6,7 +6,7 @@ import numpy as np
 
 from impact_damper.model.arguments import read_span
 from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
-from impact_damper.model.packed import FORCE, SHAKER, UNBALANCE, pack
+from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
 # Parameters that can vary along a branch, each with the dataclass that holds it. A branch is
@@ -16,7 +16,7 @@ PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillat
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
 # Index in the packed array (see `packed`) of each part of the forcing amplitude.
-FORCING = {"force": FORCE, "unbalance": UNBALANCE, "shaker": SHAKER}
+FORCING = {"force": FORCE, "unbalance": UNBALANCE}
 
 
 def facts_of(parameter) -> tuple:

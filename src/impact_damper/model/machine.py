@@ -14,14 +14,19 @@ from impact_damper.model.bounds import (
     check_number,
     names_arguments,
 )
+from impact_damper.model.exit_rules import NO_TENSION
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.text import with_unit
 from impact_damper.model.units import Scales, check_si, convert, optional, physical
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
-# Largest damping ratio for which `Machine.oscillator` approximates the force of a moving base over
-# a range of frequencies. The relative error is then below 2e-4 up to 5 times the natural frequency.
-LIGHT = 0.02
+# Acceleration of gravity, m/s^2, and allowed angles (radian) and coefficients of `mounting`.
+GRAVITY = 9.81
+ANGLES = {"least": 0, "most": 1.5708}
+FRICTIONS = {"least": 0, "most": 10}
+# Keys of a damper in a machine's file that are arguments of `mounting`.
+MOUNT = ("inclination", "friction_coefficient", "normal_force")
+GRAVITIES = {"least": -1e3, "most": 1e3}
 # Largest damping ratio. At 1, critical damping, the machine no longer vibrates.
 MOST_DAMPING = 0.99
 
@@ -41,6 +46,13 @@ class MachineDamper:
         "number", "coefficient of restitution", **RESTITUTION_RANGE, default=1.0
     )
     contact_stiffness: float = physical("stiffness", "stiffness of the contact", above=0)
+    gravity: float = physical(
+        "acceleration", "component of gravity along the gap", **GRAVITIES, default=0.0
+    )
+    friction: float = physical(
+        "force", "Coulomb friction of the loose mass on its floor", least=0, most=1e9, default=0.0
+    )
+    exit_rule: str = NO_TENSION
 
     def __post_init__(self):
         convert(self)
@@ -75,6 +87,9 @@ class MachineDamper:
             clearance=scales.from_si(self.clearance_each_side, "clearance"),
             restitution=self.restitution,
             contact_stiffness=scales.from_si(self.contact_stiffness, "stiffness"),
+            gravity=scales.from_si(self.gravity, "acceleration"),
+            friction=scales.from_si(self.friction / self.mass, "acceleration"),
+            exit_rule=self.exit_rule,
         )
 
     def __str__(self):
@@ -96,8 +111,8 @@ class Machine:
     linear stiffness, and the damping as damping ratio, quality factor or damping. Give one
     excitation. Functions that take a machine take frequencies in Hz, states in m and m/s, and
     return datasets in mm, Hz, N, m/s and s. The force of an unbalance is unbalance w^2. On a moving
-    base the spring must be linear, and displacements are measured in a frame at rest, because the
-    loose mass of a damper feels no force from the base.
+    base displacements of the machine are relative to the base, and both masses feel its
+    acceleration. The spring is measured about rest, under the weight of the machine.
 
     Raises
     ------
@@ -170,15 +185,6 @@ class Machine:
             names = " and ".join(given) or "none of them"
             raise ValueError(
                 f"excitation = {names}: must be one of {', '.join(EXCITATIONS)}, and one alone"
-            )
-        if given[0].startswith("base") and self.cubic_stiffness:
-            instead = "force" if given == ["base_acceleration"] else "unbalance"
-            raise ValueError(
-                f"cubic_stiffness = {with_unit(self.cubic_stiffness, 'N/m^3')}: must be 0 with "
-                f"{given[0]} (relative to the base, the loose mass would feel the base's "
-                "acceleration too; in a frame at rest the spring's force would not be harmonic). "
-                f"Without a damper, mass times {given[0]} as {instead} gives the motion relative "
-                "to the base"
             )
 
     def _derive(self):
@@ -262,7 +268,7 @@ class Machine:
         if self.base_displacement is not None:
             return self.base_displacement
         if self.base_acceleration is not None:
-            return self.base_acceleration * self.mass / stiffness
+            return static_deflection(self.mass * self.base_acceleration, stiffness, cubic)
         return math.sqrt(stiffness / cubic) if stiffness and cubic else 1e-3
 
     @property
@@ -284,82 +290,127 @@ class Machine:
         x = self._static_deflection()
         return self.linear_stiffness * x + abs(self.cubic_stiffness) * x**3
 
-    def oscillator(self, frequency=None) -> Oscillator:
-        """Return the dimensionless oscillator: the machine in its scales.
-
-        With a moving base its force holds for the given frequency (Hz) alone. Without a frequency
-        it is A (k + c^2 w^2/(2 k)), A = a/w^2 for `base_acceleration`. The relative error of the
-        force, (2 damping_ratio w/wn)^4/8, must be small: a machine with strong damping is refused.
-        """
+    def oscillator(self) -> Oscillator:
+        """Return the dimensionless oscillator: the machine in its scales."""
         scales = self.scales
-        force, unbalance, shaker = self.forcing(frequency)
+        force, unbalance = self.forcing
         return Oscillator(
             damping=scales.from_si(self.viscous_damping, "damping"),
             linear_frequency=math.sqrt(scales.from_si(self.linear_stiffness, "stiffness")),
             cubic=scales.from_si(self.cubic_stiffness, "cubic_stiffness"),
             force=scales.from_si(force, "force"),
             unbalance=scales.from_si(unbalance, "unbalance"),
-            shaker=scales.from_si(shaker, "shaker"),
+            base=float(self.is_based),
             scales=scales,
         )
 
-    def forcing(self, frequency=None) -> tuple[float, float, float]:
-        """Return F (N), U (kg m) and V (N/s^2) of the force's amplitude F + U w^2 + V/w^2.
+    @property
+    def is_based(self) -> bool:
+        """Whether the base moves; displacements of the machine are then relative to it."""
+        return self.base_displacement is not None or self.base_acceleration is not None
 
-        The force of a moving base is A sqrt(k^2 + c^2 w^2), or as in `oscillator`.
-        """
-        if self.force is not None:
-            return self.force, 0.0, 0.0
-        if self.unbalance is not None:
-            return 0.0, self.unbalance, 0.0
-        stiffness, damping = self.linear_stiffness, self.viscous_damping
-        if frequency is not None:
-            angular = 2 * math.pi * frequency
-            amplitude = self.base_displacement or self.base_acceleration / angular**2
-            return amplitude * math.hypot(stiffness, damping * angular), 0.0, 0.0
-        ratio = damping / (2 * math.sqrt(stiffness * self.mass))
-        given = "base_acceleration" if self.base_displacement is None else "base_displacement"
-        why = f"for a range of frequencies with {given}: the force is approximated"
-        check_si("damping_ratio", ratio, "number", most=LIGHT, why=why)
-        softness = damping**2 / (2 * stiffness)
-        if self.base_displacement is None:
-            return self.base_acceleration * softness, 0.0, self.base_acceleration * stiffness
-        return self.base_displacement * stiffness, self.base_displacement * softness, 0.0
+    @property
+    def forcing(self) -> tuple[float, float]:
+        """F (N) and U (kg m) of the amplitude F + U w^2 of the force or of the force of inertia."""
+        if self.is_based:
+            moved = self.base_displacement or 0.0
+            return self.mass * (self.base_acceleration or 0.0), self.mass * moved
+        return self.force or 0.0, self.unbalance or 0.0
 
     def check_frequency(self, name, value) -> float:
         """Return a forcing frequency in Hz, or raise an error that names the allowed range."""
         bounds = self.scales.range_to_si(FREQUENCY_RANGE, "frequency")
         return check_si(name, value, "frequency", **bounds)
 
-    def damper(self, *, mass, gap=None, clearance_each_side=None, **contact) -> MachineDamper:
+    def damper(self, *, mass, gap=None, clearances=None, mount=None, **contact) -> MachineDamper:
         """Return a damper for this machine.
 
-        Parameters ---------- mass : float, str or pint.Quantity
+        Parameters
+        ----------
+        mass : float, str or pint.Quantity
             kg.
-        gap, clearance_each_side : float, str or pint.Quantity
-            Full play of the loose mass from wall to wall, m, or half of it in its place.
+        gap : float, str or pint.Quantity
+            Full play of the loose mass from wall to wall, m.
+        clearances : sequence of 2 floats, str or pint.Quantity
+            In place of `gap`, the clearances on both sides of the loose mass at rest, m. Motions
+            depend on their sum only, because nothing holds the loose mass between the walls.
+        mount : dict, optional
+            Arguments of `mounting`, such as {"inclination": "90 deg"}.
         contact
-            The arguments contact_stiffness and restitution of `MachineDamper`.
+            The arguments contact_stiffness, restitution and exit_rule of `MachineDamper`.
 
-        Raises ------ TypeError, ValueError
+        Raises
+        ------
+        TypeError, ValueError
             If a value is out of range, in general or for this machine.
         """
-        if (gap is None) == (clearance_each_side is None):
+        if (gap is None) == (clearances is None):
             raise ValueError(
-                "gap: must be given, the full play, or clearance_each_side in its place, and not "
-                "both"
+                "gap: must be given, the full play, or clearances in its place, and not both"
             )
         if "each side" in getattr(gap, "attrs", {}).get("long_name", ""):
             raise ValueError(
-                f"gap = {gap.item():g} {gap.units}: must be the full play; for a clearance of a "
-                "dataset, which is the clearance on each side, use clearance_each_side"
+                f"gap = {gap.item():g} {gap.units}: must be the full play; a clearance of a "
+                "dataset is on each side, and twice as much is the gap"
             )
         if gap is None:
-            name = "clearance_each_side"
-            gap = 2 * check_si(name, clearance_each_side, "clearance", above=0)
-        damper = MachineDamper(mass=mass, gap=gap, **contact)
+            sides = zip(("clearances[0]", "clearances[1]"), clearances, strict=True)
+            gap = sum(check_si(name, value, "clearance", above=0) for name, value in sides)
+        damper = MachineDamper(mass=mass, gap=gap, **mounting(mass, **(mount or {})), **contact)
         damper.check_for(self)
         return damper
+
+
+def mounting(
+    mass,
+    *,
+    inclination=None,
+    gravity=None,
+    friction_coefficient=0.0,
+    normal_force=None,
+    friction=None,
+) -> dict:
+    """Return gravity along the gap (m/s^2) and friction (N) of a loose mass, keyed by name.
+
+    Parameters
+    ----------
+    mass : float, str or pint.Quantity
+        Loose mass, kg.
+    inclination, gravity : float, str or pint.Quantity, optional
+        Angle between the gap and the horizontal, radian, such as "90 deg" for a vertical gap; or
+        the component of gravity along the gap, m/s^2. Left out, the gap is horizontal.
+    friction_coefficient : float or str
+        Coefficient of Coulomb friction between the loose mass and its floor.
+    normal_force : float, str or pint.Quantity, optional
+        Force between the loose mass and its floor, N; by default its weight across the gap.
+    friction : float, str or pint.Quantity, optional
+        The force of friction, N, in place of the two arguments before.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is out of range, or two values exclude each other.
+    """
+    mass = check_si("mass", mass, "mass", above=0)
+    coefficient = check_si("friction_coefficient", friction_coefficient, "number", **FRICTIONS)
+    if inclination is not None and gravity is not None:
+        raise ValueError("gravity: must be left out with inclination, from which it follows")
+    if friction is not None and (coefficient or normal_force is not None):
+        raise ValueError(
+            "friction: must be left out with friction_coefficient and normal_force, from which it "
+            "follows"
+        )
+    angle = 0.0 if inclination is None else check_si("inclination", inclination, "angle", **ANGLES)
+    along = GRAVITY * math.sin(angle)
+    if gravity is not None:
+        along = check_si("gravity", gravity, "acceleration", **GRAVITIES)
+    if friction is None:
+        across = GRAVITY * math.cos(angle)
+        normal = mass * across
+        if normal_force is not None:
+            normal = check_si("normal_force", normal_force, "force", least=0, most=1e9)
+        friction = coefficient * normal
+    return {"gravity": along, "friction": friction}
 
 
 @names_arguments
@@ -369,6 +420,8 @@ class TunedAbsorber:
 
     Each value is a number in the SI unit, text with units, or a quantity of pint.
 
+    Examples
+    --------
     >>> TunedAbsorber(mass="0.6 kg", stiffness="9e3 N/m", damping=20).stiffness
     9000.0
     """

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from impact_damper.model.bounds import MOST_STIFF, check_frequency
+from impact_damper.model.exit_rules import NO_TENSION
 from impact_damper.model.parameters import (
     NONLINEAR,
     Oscillator,
@@ -15,7 +16,9 @@ from impact_damper.model.parameters import (
 from impact_damper.model.text import number
 
 # W, the fields of `Oscillator` in their order, with omega_l^2 in place of omega_l, and then d0, r1,
-# 1/rm and the coefficient 2 zeta_c sqrt(r1 rm) of the dashpot.
+# 1/rm, the coefficient of the dashpot, the LAG of the rule by which a contact ends (0, or DASHPOT /
+# CONTACT_STIFFNESS for walls that never pull), component of gravity along the gap, and
+# the acceleration of the loose mass by friction.
 FIELDS = [each.name for each in parameters_in(Oscillator)]
 NAMES = (
     "FREQUENCY",
@@ -24,10 +27,14 @@ NAMES = (
     "CONTACT_STIFFNESS",
     "INVERSE_MASS_RATIO",
     "DASHPOT",
+    "LAG",
+    "GRAVITY",
+    "FRICTION",
 )
 COUNT = len(NAMES)
-FREQUENCY, DAMPING, STIFFNESS, CUBIC, FORCE, UNBALANCE, SHAKER = range(COUNT - 4)
-CLEARANCE, CONTACT_STIFFNESS, INVERSE_MASS_RATIO, DASHPOT = range(COUNT - 4, COUNT)
+FREQUENCY, DAMPING, STIFFNESS, CUBIC, FORCE, UNBALANCE, BASE = range(COUNT - 7)
+CLEARANCE, CONTACT_STIFFNESS, INVERSE_MASS_RATIO, DASHPOT = range(COUNT - 7, COUNT - 3)
+LAG, GRAVITY, FRICTION = range(COUNT - 3, COUNT)
 
 
 def pack(oscillator, damper, frequency) -> np.ndarray:
@@ -60,6 +67,9 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     p[CONTACT_STIFFNESS] = damper.contact_stiffness
     p[INVERSE_MASS_RATIO] = 1 / damper.mass_ratio
     p[DASHPOT] = damper.dashpot
+    p[LAG] = p[DASHPOT] / p[CONTACT_STIFFNESS] if damper.exit_rule == NO_TENSION else 0.0
+    p[GRAVITY] = damper.gravity
+    p[FRICTION] = damper.friction
     return p
 
 

@@ -19,6 +19,7 @@ from impact_damper.model.bounds import (
     names_arguments,
     shown,
 )
+from impact_damper.model.exit_rules import EXIT_RULES, ZERO_PENETRATION, damping_ratio
 from impact_damper.model.units import UNITLESS, Scales
 
 
@@ -58,14 +59,14 @@ def check_damper(damper):
 class Oscillator:
     """Harmonically forced Duffing oscillator, equation (3) without the damper, dimensionless.
 
-    Its force has the amplitude F + U W^2 + V/W^2. U stands for a rotating unbalance, V for a base
-    with the acceleration V/omega_l^2 at each frequency; Z1 is then the displacement in a frame at
-    rest, and the spring must be linear.
+    Its force has the amplitude F + U W^2. U stands for a rotating unbalance, or for a moving base
+    with a constant displacement. On a moving base Z1 is the displacement relative to the base, the
+    force is the force of inertia, and `base` is 1, because the loose mass feels it too.
 
     Raises
     ------
     TypeError, ValueError
-        If a value is not a number or out of range, or if `shaker` is given with a cubic spring.
+        If a value is not a number or out of range.
 
     Examples
     --------
@@ -98,16 +99,17 @@ class Oscillator:
     unbalance: float = parameter(
         AMPLITUDE_RANGE, "unbalance", "U", "adds U W^2 to the amplitude of the force", default=0.0
     )
-    shaker: float = parameter(
-        AMPLITUDE_RANGE, "shaker", "V", "adds V/W^2 to the amplitude of the force", default=0.0
+    base: float = parameter(
+        {"least": 0.0, "most": 1.0},
+        "number",
+        "B",
+        "share of the force, per unit of mass, that accelerates the loose mass too",
+        default=0.0,
     )
     scales: Scales = field(default=UNITLESS, repr=False, compare=False, kw_only=True)
 
     def __post_init__(self):
         _check(self)
-        if self.shaker:
-            why = "on a moving base the force of a nonlinear spring is not harmonic"
-            self._refuse(self._terms, f"with {self.told('shaker')} ({why})")
 
     @property
     def _terms(self) -> list:
@@ -158,14 +160,17 @@ class Oscillator:
         return sum(slopes)
 
     def forcing_amplitude(self, frequency):
-        """Return the amplitude F + U W^2 + V/W^2 of the force at forcing frequencies W."""
-        return self.force + self.unbalance * frequency**2 + self.shaker / frequency**2
+        """Return the amplitude F + U W^2 of the force at forcing frequencies W."""
+        return self.force + self.unbalance * frequency**2
 
 
 @names_arguments
 @dataclass(frozen=True)
 class Damper:
     """Loose mass in a gap whose walls have a spring and a dashpot (figures 1 and 9 of the paper).
+
+    A contact ends by `exit_rule`: "zero_penetration" is the paper's rule, in which the walls may
+    pull, and with "no_tension" they never do (`exit_rules`).
 
     Raises
     ------
@@ -175,7 +180,8 @@ class Damper:
     Examples
     --------
     >>> Damper(mass_ratio=0.12, clearance=2.0)
-    Damper(mass_ratio=0.12, clearance=2.0, restitution=1.0, contact_stiffness=2000.0)
+    Damper(mass_ratio=0.12, clearance=2.0, restitution=1.0, contact_stiffness=2000.0, gravity=0.0,
+           friction=0.0, exit_rule='zero_penetration')
     """
 
     mass_ratio: float = parameter(
@@ -194,15 +200,33 @@ class Damper:
     contact_stiffness: float = parameter(
         STIFFNESS_RANGE, "stiffness", "r1", "stiffness of the contact springs", default=2000.0
     )
+    gravity: float = parameter(
+        {"least": -1e6, "most": 1e6},
+        "acceleration",
+        "G",
+        "component of gravity along the gap, towards the wall at Z2 = d0",
+        default=0.0,
+    )
+    friction: float = parameter(
+        AMPLITUDE_RANGE,
+        "acceleration",
+        "f",
+        "Coulomb friction of the loose mass on its floor, per unit of its mass",
+        default=0.0,
+    )
+    exit_rule: str = ZERO_PENETRATION
 
     def __post_init__(self):
         _check(self)
+        if self.exit_rule not in EXIT_RULES:
+            raise ValueError(
+                f"exit_rule = {shown(self.exit_rule)}: must be one of {', '.join(EXIT_RULES)}"
+            )
 
     @property
     def contact_damping(self) -> float:
         """Damping ratio zeta_c of the contact for this restitution, equation (25)."""
-        logarithm = math.log(self.restitution)
-        return -logarithm / math.sqrt((1 + self.mass_ratio) * (math.pi**2 + logarithm**2))
+        return damping_ratio(self.restitution, self.exit_rule) / math.sqrt(1 + self.mass_ratio)
 
     @property
     def dashpot(self) -> float:
@@ -210,9 +234,23 @@ class Damper:
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)
 
 
+def check_closed_form(oscillator, damper):
+    """Raise TypeError or ValueError if closed forms do not know a damper of an oscillator."""
+    check_damper(damper)
+    told = oscillator.scales.told
+    why = "must be 0 in closed forms and harmonic balance with a damper; simulate it instead"
+    for part, name in ((damper, "gravity"), (damper, "friction"), (oscillator, "base")):
+        if getattr(part, name):
+            raise ValueError(f"{told(name, getattr(part, name), _kind(part, name))}: {why}")
+
+
+def _kind(part, name):
+    return part.__dataclass_fields__[name].metadata["kind"]
+
+
 def parameters_in(part) -> list:
     """Return the fields of a dataclass, or of its instance, that hold parameters."""
-    return [each for each in fields(part) if each.type is not Scales]
+    return [each for each in fields(part) if "symbol" in each.metadata]
 
 
 # The nonlinear terms of the spring's force: power of Z1 by name; and the highest power.

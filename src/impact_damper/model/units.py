@@ -52,7 +52,6 @@ QUANTITIES = {
     "cubic_stiffness": Quantity("N/m^3", length=-2, time=-2, mass=1),
     "damping": Quantity("N s/m", time=-1, mass=1),
     "unbalance": Quantity("kg m", length=1, mass=1),
-    "shaker": Quantity("N/s^2", length=1, time=-4, mass=1),
     "pressure": Quantity("Pa", length=-1, time=-2, mass=1),
     "impulse": Quantity("N s", length=1, time=-1, mass=1),
     "energy": Quantity("J", length=2, time=-2, mass=1),

@@ -7,10 +7,18 @@ import numpy as np
 from impact_damper.kernel.compiling import inlined, kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
-from impact_damper.kernel.single import X, assign, polynomial, side_of, step, workspace
-from impact_damper.model.packed import CLEARANCE, FREQUENCY
+from impact_damper.kernel.single import (
+    X,
+    assign,
+    polynomial,
+    side_of,
+    state_in_step,
+    step,
+    workspace,
+)
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
-from impact_damper.motions.traces import record_beginning, series_of_step
+from impact_damper.motions.traces import record_beginning
 
 # A harmonic below PHASELESS times the harmonic of Z1 is a rounding error, so it has no phase.
 PHASELESS = 1e-9
@@ -124,8 +132,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
             final = k == len(states) - 1 and ahead == end
             while sample < last and (final or STROBE + sample * spacing < ahead * frequency):
                 phase = STROBE + sample * spacing
-                x, _, z, _ = series_of_step(work, before, start, phase / frequency - t)
-                z += before * p[CLEARANCE] if before != 0 else 0.0
+                x, _, z, _ = state_in_step(work, before, start, phase / frequency - t)
                 cosine, sine = weight * math.cos(phase), weight * math.sin(phase)
                 sums[0, 0] += x * cosine
                 sums[0, 1] -= x * sine

@@ -6,10 +6,9 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import (
     CONTACT_ORDER,
     FLIGHT_ORDER,
-    Q,
-    X,
     assign,
     polynomial,
+    series_of_loose_mass,
     side_of,
     step,
     workspace,
@@ -39,15 +38,8 @@ def list_turns(p, states, phases, tolerance, turns):
         while t < end:
             assign(start, y)
             before = side
-            order, first = (FLIGHT_ORDER, X) if side == 0 else (CONTACT_ORDER, Q)
             length, side = step(p, y, side, t, end - t, tolerance, work)
-            for i in range(order + 1):
-                c[i] = work[first + i]
-            if before == 0:
-                c[0] += start[2] - start[0]
-                c[1] += start[3] - start[1]
-            else:
-                c[0] += before * p[CLEARANCE]
+            order = series_of_loose_mass(work, before, start, c)
             _, begun = polynomial(c, order, 0.0)
             for piece in range(1, PIECES + 1):
                 place = length * piece / PIECES

@@ -7,24 +7,11 @@ import numpy as np
 
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
-from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
-from impact_damper.kernel.single import LENGTH, Q, X, assign, polynomial, side_of, step, workspace
-from impact_damper.model.packed import CLEARANCE
+from impact_damper.kernel.single import LENGTH, assign, side_of, state_in_step, step, workspace
 
 # Number of steps of a trace in one call of its kernel, which takes a fraction of a second; and rows
 # of the log at first, since allocating a large log takes longer than a short motion.
 STEPS_AT_ONCE, ROWS = 50_000, 64
-
-
-@kernel_only
-def series_of_step(work, side, y, t):
-    """Return Z1, Z1', Z2, Z2' at the time t in a step from y; in contact q in place of Z2."""
-    if side == 0:
-        x, v = polynomial(work[X:], FLIGHT_ORDER, t)
-        return x, v, x + (y[2] - y[0]) + (y[3] - y[1]) * t, v + (y[3] - y[1])
-    x, v = polynomial(work[X:], CONTACT_ORDER, t)
-    q, w = polynomial(work[Q:], CONTACT_ORDER, t)
-    return x, v, q, w
 
 
 def trace(p, state, begin, times, tolerance):
@@ -68,12 +55,11 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
         length, side = step(p, y, side, t, left, tolerance, work)
         gone = has_escaped(p, y[0], y[1])
         while sample < len(times) and (times[sample] - t < length or length >= left):
-            x, v, z, w = series_of_step(work, before, start, min(times[sample] - t, length))
+            x, v, z, w = state_in_step(work, before, start, min(times[sample] - t, length))
             if gone and times[sample] - t > work[LENGTH]:
                 x, v, z, w = np.nan, np.nan, np.nan, np.nan
             states[sample, 0], states[sample, 1] = x, v
-            states[sample, 2] = z + (before * p[CLEARANCE] if before != 0 else 0.0)
-            states[sample, 3] = w
+            states[sample, 2], states[sample, 3] = z, w
             sample += 1
         t += length
         if before == 0 and side != 0:

@@ -174,7 +174,7 @@ def orbit_branches(
     """
     if motions is not None:
         return _all_branches(system, damper, span, motions, progress)
-    model = read_forced(system, damper, frequency, exact=parameter != "frequency")
+    model = read_forced(system, damper, frequency)
     parameter, span = read_followed(model, parameter, span)
     family, value, ends = family_of(*model[:3], parameter, span)
     state, orbit = _checked_orbit(model, state, period, None)

@@ -73,7 +73,7 @@ class QuietOrbits(NamedTuple):
 def straight_flight_end(oscillator, clearance, restitution) -> float:
     """Return the frequency W at which the quiet orbit folds, in the limit of straight flight.
 
-    There W^2 d0/f is sqrt(1 + k^2) with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2 + V/W^2.
+    There W^2 d0/f is sqrt(1 + k^2) with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2.
     """
     if restitution == 1:
         return np.inf
@@ -81,8 +81,7 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
     left = clearance - most * oscillator.unbalance
     if left <= 0:
         return np.inf
-    half = oscillator.force * most / (2 * left)
-    return float(np.sqrt(half + np.hypot(half, np.sqrt(oscillator.shaker * most / left))))
+    return float(np.sqrt(oscillator.force * most / left))
 
 
 def is_symmetric_pair(records):

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from scipy.optimize import brentq
 
-EXIT_RULES = ("zero_penetration", "no_tension")
+from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
@@ -58,12 +58,6 @@ class _Wave(NamedTuple):
         return brentq(self, top, bottom, xtol=1e-15, rtol=1e-14)
 
 
-def damping_ratio(restitution) -> float:
-    """Return the damping ratio z of the relative motion, from e = exp(-pi z/sqrt(1 - z^2))."""
-    logarithm = math.log(1 / restitution)
-    return logarithm / math.hypot(math.pi, logarithm)
-
-
 def natural_frequency(damper) -> float:
     """Return wn = sqrt(r1 (1 + 1/rm)) of a `Damper`; an elastic contact lasts pi/wn."""
     return math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
@@ -79,7 +73,7 @@ def _waves(restitution, load):
 
 
 def contact(restitution, load, rule) -> Exit:
-    """Return how a contact ends by one of EXIT_RULES."""
+    """Return how a contact ends by one of `exit_rules.EXIT_RULES`."""
     penetration, force = _waves(restitution, load)
     end = (penetration if rule == "zero_penetration" else force).first_fall()
     if end == math.inf:

@@ -11,9 +11,9 @@ def peak_frequency(oscillator) -> float:
 
         (1 - g U^2/h^2) s^2 - (wl^2 + 2 g F U/h^2) s - g F^2/h^2 = 0.
 
-    A shaker (V > 0) has a linear spring, for which Wp = wl. Of two solutions with a softening
-    spring the peak is the one with the smaller amplitude. The maximum of the response curve
-    (`free_oscillator.maximum_response`) lies at a slightly lower frequency.
+    Of two solutions with a softening spring the peak is the one with the smaller amplitude. The
+    maximum of the response curve (`free_oscillator.maximum_response`) lies at a slightly lower
+    frequency.
     """
     stiffness, hardening = oscillator.linear_frequency**2, oscillator.hardening
     scale = hardening / oscillator.damping**2

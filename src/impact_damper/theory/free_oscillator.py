@@ -88,14 +88,12 @@ def resonance(oscillator, frequency) -> Resonance:
 
 
 def maximum_response(oscillator) -> Point:
-    """Return the maximum of the free response curve over W, with V > 0 the one at resonance.
+    """Return the maximum of the free response curve over W.
 
     The curve has the amplitude a at the roots W of (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2
     + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. At the maximum its discriminant, quadratic in a^2,
     is zero.
     """
-    if oscillator.shaker:
-        return _peak_on_a_shaker(oscillator)
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening
     static = force + unbalance * stiffness
@@ -115,28 +113,6 @@ def maximum_response(oscillator) -> Point:
         f"{oscillator.told('force', 'unbalance', 'cubic')}: it falls from W = 0 on, "
         "rises without end, or goes over the barrier of a softening spring"
     )
-
-
-def _peak_on_a_shaker(oscillator):
-    """Return the local maximum of the response with V > 0, where the derivative of a^2 vanishes.
-
-    For a linear spring a^2 = f^2/D. With s = W^2, f = F + U s + V/s, D = s^2 + b s + wl^4 and
-    b = h^2 - 2 wl^2, the derivative of a^2 by s has the sign of 2 f' D - f D'.
-    """
-    stiffness = oscillator.linear_frequency**2
-    force, unbalance, shaker = oscillator.force, oscillator.unbalance, oscillator.shaker
-    b, c = oscillator.damping**2 - 2 * stiffness, stiffness**2
-    middle = 2 * unbalance * c - force * b - 4 * shaker
-    slope = Polynomial([-2 * shaker * c, -3 * shaker * b, middle, unbalance * b - 2 * force])
-    squares = polynomial_roots(slope.coef)
-    squares = squares[(squares > 0) & (slope.deriv()(squares) < 0)]
-    if len(squares) == 0:
-        raise ValueError(
-            f"{oscillator.told('damping')}: the response has no peak, with "
-            f"{oscillator.told('shaker')} it falls from W = 0 on"
-        )
-    frequency = float(np.sqrt(squares[0]))
-    return Point(frequency, float(free_solutions(oscillator, frequency).amplitude[0]))
 
 
 @lru_cache

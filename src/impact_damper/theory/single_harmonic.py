@@ -9,7 +9,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from impact_damper.model.bounds import check_frequency
-from impact_damper.model.parameters import check_damper
+from impact_damper.model.parameters import check_closed_form, check_damper
 from impact_damper.model.text import plain
 from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.roots import polynomial_roots, smooth_roots
@@ -41,6 +41,7 @@ def rigid_solutions(oscillator, damper, frequency) -> Solutions:
     than 1, d0/f, k3 f^2 and a/f replace d0, k3 and a.
     """
     check_elastic(damper)
+    check_closed_form(oscillator, damper)
     frequency = check_frequency(frequency)
     force = oscillator.forcing_amplitude(frequency)
     if force == 0:
@@ -69,6 +70,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
     `smooth_roots` finds all roots of the entire function cos^6(p) G(p) up to rounding.
     """
+    check_closed_form(oscillator, damper)
     balance = _Balance(oscillator, damper, check_frequency(frequency))
     lower, upper = balance.angle_range()
     if not lower < upper:
@@ -80,7 +82,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
 def resting_solutions(oscillator, damper, frequency) -> Solutions:
     """Return the free solutions with a < d0, in which the loose mass is at rest and Z2 = Z1."""
-    check_damper(damper)
+    check_closed_form(oscillator, damper)
     free = free_solutions(oscillator, frequency)
     inside = free.amplitude < damper.clearance
     return Solutions(free.amplitude[inside], free.amplitude[inside], free.phase[inside])

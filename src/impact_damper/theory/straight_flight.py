@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from impact_damper.model.bounds import check_number
-from impact_damper.model.parameters import check_damper
+from impact_damper.model.parameters import check_closed_form
 from impact_damper.theory.contact_law import damping_ratio, natural_frequency
 
 # Number of impulses q that are compared before the minimum of max |x| is refined.
@@ -123,7 +123,7 @@ class Flight(NamedTuple):
 
 def flight_of(oscillator, damper, frequency) -> Flight:
     """Return the `Flight` for a damper, whose clearance is not used."""
-    check_damper(damper)
+    check_closed_form(oscillator, damper)
     if oscillator.forcing_amplitude(1.0) == 0:
         raise ValueError(f"{oscillator.told('force', 'unbalance')}: a quiet motion needs a forcing")
     frequency = check_number(

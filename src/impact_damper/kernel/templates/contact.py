@@ -12,9 +12,10 @@ SAG = 0.13
 
 @kernel_only
 def loose_mass(a, i, t):
-    """Return Z2 and Z2' at time t of a flight, in which Z2 - Z1 is a linear function of time."""
+    """Return Z2 and Z2' at time t of a flight, in which Z2 - Z1 is a linear function plus SWAY."""
     drift = a[Y3 + i] - a[Y1 + i]
-    return a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t, a[Z1_SLOPE + i] + drift
+    place = a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t
+    return place + a[SWAY + i], a[Z1_SLOPE + i] + drift + a[SWAY_SLOPE + i]
 
 
 @kernel_only
@@ -22,7 +23,7 @@ def first_guess(a, i):
     """Return the time of the contact by the first three terms of the series of the distance."""
     distance = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
     speed = abs(a[Y3 + i])
-    bend = a[WALL + i] * a[G + i]
+    bend = a[WALL + i] * (a[G + i] + a[ACROSS + i])
     return 2.0 * distance / (speed + math.sqrt(max(speed * speed + 2.0 * bend * distance, 0.0)))
 
 
@@ -34,8 +35,9 @@ def distance_ahead(a, i, t):
     """
     z, w = loose_mass(a, i, t)
     closing = a[WALL + i] * w
+    curve = a[Z1_CURVE + i] + a[SWAY_CURVE + i]
     distance = min(a[CLEARANCE + i], FAR) - a[WALL + i] * z
-    return distance, distance / closing, a[WALL + i] * a[Z1_CURVE + i] / closing
+    return distance, distance / closing, a[WALL + i] * curve / closing
 
 
 @kernel_only
@@ -49,9 +51,11 @@ def expect_contact(a):
     for i in range(LANES):
         length = a[LENGTH + i]
         wall = a[WALL + i] = 1.0 if a[Y3 + i] > 0.0 else -1.0
-        reached = wall * (a[Y2 + i] + length * (a[Y3 + i] + 0.5 * length * a[G + i]))
-        a[MODE + i] = BRACKET if reached > a[CLEARANCE + i] else MISSED
-        expected += 1 if reached > a[CLEARANCE + i] else 0
+        bend = 0.5 * length * (a[G + i] + a[ACROSS + i])
+        reached = wall * (a[Y2 + i] + length * (a[Y3 + i] + bend))
+        reaches = reached > a[CLEARANCE + i] and not is_outside(a, i) and a[STUCK + i] == 0.0
+        a[MODE + i] = BRACKET if reaches else MISSED
+        expected += 1 if reaches else 0
     if expected > 0:
         guess_contact(a)
 
@@ -62,6 +66,7 @@ def guess_contact(a):
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
     flight_early(a)
+    find_sway(a)
     for i in range(LANES):
         _, first, bend = distance_ahead(a, i, a[T + i])
         t = a[T + i] + chebyshev(first, bend)
@@ -78,23 +83,24 @@ def find_contact(a):
     Z1 and its slope at T, which must be known before the call. A T below LENGTH means that
     `expect_contact` expects a contact at T; the contact may lie slightly later.
 
-    Bounds decide most flights without a search, for any spring. CHANGE is the sum of the moduli of
-    all terms of Z1' after the first, at T. The loose mass first moves to the wall `ahead`.
+    Bounds decide most flights without a search, for any spring. `change` is the sum of the moduli
+    of all terms of Z2' after the first, at T. The loose mass first moves to the wall `ahead`.
 
-    - `clear`: Z1 and therefore Z2 deviate from their chords by at most SAG CHANGE T. If the wall
+    - `clear`: Z2 deviates from its chord by at most SAG `change` T. If the wall
       ahead is further away at both ends, it is not met.
     - `left`: the chord gives a lower bound on the distance to the wall behind, and the first speed
-      minus CHANGE another. If their mean is positive, this wall is not met.
+      minus `change` another. If their mean is positive, this wall is not met.
     - `certain`: the speeds at both ends give lower bounds on the speed. If their mean is positive,
       the velocity keeps its sign: only the wall ahead can be met, and only once.
     """
     undecided = 0
     expected = 0
+    find_sway(a)
     for i in range(LANES):
         t = a[T + i]
         clearance = min(a[CLEARANCE + i], FAR)
         speed = abs(a[Y3 + i])
-        change = a[CHANGE + i]
+        change = a[CHANGE + i] + a[MOST + i] * t
         wall = 1.0 if a[Y3 + i] > 0.0 else -1.0
         z, final = loose_mass(a, i, t)
         ahead = clearance - wall * z
@@ -105,6 +111,7 @@ def find_contact(a):
         certain = speed + wall * final > change
         awaited = certain and t < a[LENGTH + i]
         missed = not awaited and ((clear and left) or (certain and ahead > 0.0))
+        missed = missed or is_outside(a, i) or a[STUCK + i] > 0.0
         a[WALL + i] = wall
         a[MODE + i] = MISSED if missed else (BRACKET if certain else MARCH)
         expected += 1 if awaited else 0
@@ -122,6 +129,7 @@ def meet_expected(a):
     Return the number of lanes that are still undecided.
     """
     flight_curve(a)
+    find_sway(a)
     undecided = 0
     for i in range(LANES):
         t = a[T + i]
@@ -157,11 +165,12 @@ def search_contact(a):
     while running > 0:
         flight_slope(a)
         flight_curve(a)
+        find_sway(a)
         running = 0
         for i in range(LANES):
             t = a[T + i]
             mode = a[MODE + i]
-            bound = a[BOUND + i]
+            bound = a[BOUND + i] + a[MOST + i]
             clearance = min(a[CLEARANCE + i], FAR)
             fine = ROUNDING * clearance
             z, w = loose_mass(a, i, t)

@@ -10,6 +10,8 @@ search:
     ENDING    the search has reached the end of the step in mode MARCH without a root.
     MET       the root has been found.
     MISSED    the step certainly contains no root.
+    MET_DEEP  the root has been found, and it lies at a depth (`across.find_return`).
+    TURNED    the loose mass turns, or begins to slide, before the root (`friction.find_turn`).
 """
 
 import math
@@ -23,7 +25,7 @@ ROUNDING = 2.0**-50
 # The iteration for a root ends once (move / bending time)^3, the size of the first term that it
 # neglects, is below LAST_MOVE times the tolerance. The bending time is |f'/f''|.
 LAST_MOVE = 0.01
-MARCH, BRACKET, ENDING, MET, MISSED = 0.0, 1.0, 2.0, 3.0, 4.0
+MARCH, BRACKET, ENDING, MET, MISSED, MET_DEEP, TURNED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0
 # TINY prevents divisions by zero. FAR replaces infinity, because 0 times infinity is NaN.
 TINY = 1e-300
 FAR = 1e200

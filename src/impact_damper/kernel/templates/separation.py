@@ -1,4 +1,9 @@
-"""Template (see `step`): search for the separation, at which a contact ends."""
+"""Template (see `step`): search for the separation, at which a contact ends.
+
+A contact ends when q + LAG q' falls to zero, where q is the penetration. With LAG = 0 this is the
+paper's rule, in which the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS it is the time at
+which the force of the wall becomes zero.
+"""
 
 import math
 
@@ -57,11 +62,13 @@ def predict_separation(a):
         g = a[COSINE + i] - spring(a, x, i, LANES) - h * v
         slope = spring_slope(a, x, i, LANES)
         drift = -a[FREQUENCY + i] * a[SINE + i] - slope * v - h * g
-        half = math.pi / math.sqrt(max(natural * natural - 0.25 * loss * loss, TINY))
-        mean = wall * (g + 0.5 * half * drift) + h * w / mobility
+        slowest = 0.01 * natural * natural
+        half = math.pi / math.sqrt(max(natural * natural - 0.25 * loss * loss, slowest))
+        mean = wall * (g + a[ACROSS + i] + 0.5 * half * drift) + h * w / mobility
         left = fast_exp2(-0.5 * loss * half / math.log(2.0))
         begun = half + (1.0 + left) * mean / (left * w * natural * natural + TINY)
         guess = begun if q == 0.0 else time_to_zero(q, w, natural)
+        guess = guess - a[LAG + i]
         a[NATURAL + i] = natural
         a[LENGTH + i] = length
         a[T + i] = guess if 0.0 < guess < length else length
@@ -69,19 +76,20 @@ def predict_separation(a):
 
 @kernel_only
 def find_separation(a):
-    """Move T to the first time in [0, LENGTH] at which the penetration returns to zero.
+    """Move T to the first time in [0, LENGTH] at which q + LAG q' falls to zero.
 
     Before the call T is a guess. If there is a separation, MODE becomes MET. If there is certainly
     none, T becomes LENGTH and MODE becomes MISSED. END_Z1, END_DEPTH and the rows of their slopes
     receive the values of Z1, of the penetration q and of both slopes at T.
 
     In q'' = g - w^2 q - D q', w is the natural frequency of the contact, D = DASHPOT (1 + 1/rm),
-    and g, bounded by the sum G of the moduli of its terms (BOUND), does not come from the wall. The
+    and g, bounded by the sum G of the moduli of its terms, does not come from the wall. The
     radius R = (q'^2 + w^2 q^2)^(1/2) grows at most at the rate G and falls at most at the rate
     G + D R, which bounds |q''|. The phase of (w q, q') turns at the rate w, with a deviation of at
-    most G/R + D/2. If this is below PHASE_MARGIN w, q has at most one root in the step, and the
-    search begins in mode BRACKET.
+    most G/R + D/2. If this is below PHASE_MARGIN w, q + LAG q', which is zero twice in a turn, has
+    at most one root in the step, and the search begins in mode BRACKET.
     """
+    find_sway(a)
     contact_values(a)
     uncertain = 0
     for i in range(LANES):
@@ -90,18 +98,23 @@ def find_separation(a):
         length = a[LENGTH + i]
         natural = a[NATURAL + i]
         loss = a[DASHPOT + i] * (1.0 + a[INVERSE_MASS_RATIO + i])
-        rest = a[BOUND + i]
+        rest = a[BOUND + i] + a[MOST + i]
         speed = math.sqrt(w * w + natural * natural * q * q)
         least = 0.99 * fast_exp2(-loss * length / math.log(2.0)) * speed - rest * length
         certain = least > 0.0 and rest + 0.5 * loss * least < PHASE_MARGIN * natural * least
         a[BOUND + i] = rest + (natural + loss) * (speed + rest * length)
-        a[FINE + i] = ROUNDING * (abs(q) + abs(w) * length)
+        a[JERK_BOUND + i] = natural * natural * (speed + rest * length) + loss * a[BOUND + i]
+        a[FINE + i] = ROUNDING * (abs(q) + abs(w) * (length + a[LAG + i]))
         a[LOW + i] = 0.0
         a[HIGH + i] = FAR
-        a[MODE + i] = BRACKET if certain else MARCH
-        a[T + i] = a[T + i] if certain else 0.0
-        uncertain += 0 if certain else 1
+        # A loose mass that sticks does not separate.
+        stuck = a[STUCK + i] > 0.0
+        a[MODE + i] = ENDING if stuck else (BRACKET if certain else MARCH)
+        a[T + i] = length if stuck else (a[T + i] if certain else 0.0)
+        uncertain += 0 if certain and not stuck else 1
     if uncertain > 0:
+        bound_lagging(a)
+        find_sway(a)
         contact_values(a)
     running = 1
     while running > 0:
@@ -109,9 +122,10 @@ def find_separation(a):
         for i in range(LANES):
             t = a[T + i]
             mode = a[MODE + i]
-            f = a[SIDE + i] * a[DEPTH + i]
-            slope = a[SIDE + i] * a[DEPTH_SLOPE + i]
-            curve = a[SIDE + i] * a[DEPTH_CURVE + i]
+            lag = a[LAG + i]
+            f = a[SIDE + i] * (a[DEPTH + i] + lag * a[DEPTH_SLOPE + i])
+            slope = a[SIDE + i] * (a[DEPTH_SLOPE + i] + lag * a[DEPTH_CURVE + i])
+            curve = a[SIDE + i] * (a[DEPTH_CURVE + i] + lag * a[DEPTH_JERK + i])
             fine = a[FINE + i]
             move = 0.0
             if mode == MARCH:
@@ -128,4 +142,19 @@ def find_separation(a):
             store_end(a, i, DEPTH, END_DEPTH, move, a[MODE + i] <= ENDING)
             running += store_search(a, i, mode, t, move)
         if running > 0:
+            find_sway(a)
             contact_values(a)
+
+
+@kernel_only
+def bound_lagging(a):
+    """Add LAG times a bound on |q'''| to BOUND, which then bounds |(q + LAG q')''|."""
+    lagging = 0
+    for i in range(LANES):
+        lagging += 1 if a[LAG + i] > 0.0 else 0
+        a[Z1_JERK + i] = 0.0
+    if lagging > 0:
+        contact_jerk(a)
+    for i in range(LANES):
+        jerk = a[Z1_JERK + i] + a[FREQUENCY + i] * a[MOST + i] + a[JERK_BOUND + i]
+        a[BOUND + i] += a[LAG + i] * jerk

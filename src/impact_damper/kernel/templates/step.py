@@ -23,6 +23,7 @@ CONTACT_ORDER: int
 EARLY: int
 SIZE: int
 TANGENT_SIZE: int
+KEPT: int
 
 # Bits of the float 1.0.
 ONE = 1023 << 52
@@ -32,6 +33,9 @@ SAFETY = 0.05
 # A flight is shortened only if its last terms exceed `largest_tail` by the factor EXCESS. Its
 # length is a prediction, and without this margin many flights would be computed twice.
 EXCESS = 4.0
+# Longest step of a loose mass that a wall no longer pushes, before it has left the wall, in units
+# of LAG, the time in which the force of the wall would fall to 1/e.
+OUTSIDE = 2.0
 # A flight that cannot advance ends in a contact if its distance from the wall is below this share
 # of the clearance.
 NEAREST = 1e-9
@@ -118,12 +122,20 @@ def end_flight(a):
 def flight_step(a):
     """Step trajectories in flight; SIDE becomes the wall at which a contact begins, or 0."""
     forcing(a)
-    flight_series(a)
+    load_across(a)
+    if a[STICKS] > 0.0:
+        series_held(a, False)
+    else:
+        flight_series(a)
     predict_length(a)
     walls = 0
+    outside = 0
     for i in range(LANES):
         a[MODE + i] = MISSED
         walls += 1 if a[CLEARANCE + i] < math.inf else 0
+        outside += 1 if is_outside(a, i) else 0
+    if outside > 0:
+        shorten_outside(a)
     if walls > 0:
         expect_contact(a)
     look_ahead(a)
@@ -131,6 +143,11 @@ def flight_step(a):
     if walls > 0:
         flight_change(a)
         find_contact(a)
+    if outside > 0:
+        find_return(a)
+    if a[ROUGH] > 0.0:
+        find_turn(a, False)
+    find_sway(a)
     for i in range(LANES):
         t = a[T + i]
         # Within rounding of a wall the bounds on the distance leave a step that does not advance.
@@ -138,21 +155,37 @@ def flight_step(a):
         stuck = a[TIME + i] + t == a[TIME + i] and t < a[LONGEST + i] and near * a[Y3 + i] > 0.0
         stuck = stuck and near * a[Y2 + i] > (1.0 - NEAREST) * a[CLEARANCE + i]
         a[WALL + i] = near if stuck else a[WALL + i]
-        met = a[MODE + i] == MET or stuck
+        deep = a[MODE + i] == MET_DEEP
+        met = a[MODE + i] == MET or deep or stuck
         offset = a[Y2 + i] - a[Y0 + i]
         drift = a[Y3 + i] - a[Y1 + i]
-        flown = a[END_Z1 + i] + offset + drift * t
+        flown = a[END_Z1 + i] + offset + drift * t + a[SWAY + i]
         a[Y0 + i] = a[END_Z1 + i]
         a[Y1 + i] = a[END_Z1_SLOPE + i]
-        a[Y2 + i] = a[WALL + i] * a[CLEARANCE + i] if met else flown
-        a[Y3 + i] = a[END_Z1_SLOPE + i] + drift
+        a[Y2 + i] = a[WALL + i] * a[CLEARANCE + i] if met and not deep else flown
+        a[Y3 + i] = a[END_Z1_SLOPE + i] + drift + a[SWAY_SLOPE + i]
         a[SIDE + i] = a[WALL + i] if met else 0.0
         a[LENGTH + i] = t
+    if a[ROUGH] > 0.0:
+        end_turn(a)
+    if a[STICKS] > 0.0:
+        let_go(a)
+
+
+@kernel_only
+def shorten_outside(a):
+    """Shorten LENGTH in lanes whose loose mass begins behind the surface of the unloaded wall."""
+    for i in range(LANES):
+        shorter = min(a[LENGTH + i], OUTSIDE * a[LAG + i])
+        a[LENGTH + i] = shorter if is_outside(a, i) else a[LENGTH + i]
+        a[T + i] = a[LENGTH + i]
 
 
 @kernel_only
 def flight_tangents(a, d):
     """Integrate tangents over the flight that `flight_step` has just integrated."""
+    if a[STICKS] > 0.0:
+        keep_tangents(a, d)
     flight_squares(a)
     flight_tangent_series(a, d)
     for i in range(TANGENTS):
@@ -163,15 +196,21 @@ def flight_tangents(a, d):
         d[2 * TANGENTS + i] += d[i] + d[3 * TANGENTS + i] * a[LENGTH + i % LANES]
         d[3 * TANGENTS + i] += d[TANGENTS + i]
     dashpot_jump(a, d, -1.0)
+    if a[ROUGH] > 0.0:
+        friction_jump(a, d)
 
 
 @kernel_only
 def contact_tangents(a, d):
     """Integrate tangents over the step in contact that `contact_step` has just integrated."""
+    if a[STICKS] > 0.0:
+        keep_tangents(a, d)
     contact_squares(a)
     contact_tangent_series(a, d)
     contact_tangent_value(a, d)
     dashpot_jump(a, d, 1.0)
+    if a[ROUGH] > 0.0:
+        friction_jump(a, d)
 
 
 @kernel_only
@@ -179,12 +218,14 @@ def dashpot_jump(a, d, direction):
     """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
 
     The dashpot's force sets in (direction -1) or ends (direction +1). Only this force jumps, so the
-    jump is proportional to the tangent's Z2, and the matrix has determinant 1.
+    jump is proportional to the tangent's Z2, and the matrix has determinant 1. Where the force of
+    the wall begins or ends at a depth it is 0 there, and nothing jumps.
     """
     for i in range(TANGENTS):
         j = i % LANES
         begun = a[SIDE + j] != 0.0
         crossed = begun if direction < 0.0 else not begun
+        crossed = crossed and abs(a[Y2 + j]) == a[CLEARANCE + j]
         jump = direction * a[DASHPOT + j] * d[2 * TANGENTS + i] if crossed else 0.0
         d[TANGENTS + i] += jump
         d[3 * TANGENTS + i] += jump * (1.0 + a[INVERSE_MASS_RATIO + j])
@@ -194,8 +235,14 @@ def dashpot_jump(a, d, direction):
 def contact_step(a):
     """Step trajectories in contact; SIDE becomes 0 where the contact ends."""
     forcing(a)
+    load_across(a)
     predict_separation(a)
-    contact_series(a)
+    if a[STICKS] > 0.0:
+        series_held(a, True)
+    elif a[SWAYS] > 0.0:
+        contact_series_across(a)
+    else:
+        contact_series(a)
     look_ahead(a)
     contact_bound(a)
     beyond = 0
@@ -210,12 +257,18 @@ def contact_step(a):
             a[T + i] = min(a[T + i], a[LENGTH + i])
         contact_bound(a)
     find_separation(a)
+    if a[ROUGH] > 0.0:
+        find_turn(a, True)
     for i in range(LANES):
         separated = a[MODE + i] == MET
         wall = a[SIDE + i] * a[CLEARANCE + i]
         a[Y0 + i] = a[END_Z1 + i]
         a[Y1 + i] = a[END_Z1_SLOPE + i]
-        a[Y2 + i] = wall if separated else wall + a[END_DEPTH + i]
+        a[Y2 + i] = wall if separated and a[LAG + i] == 0.0 else wall + a[END_DEPTH + i]
         a[Y3 + i] = a[END_DEPTH_SLOPE + i]
         a[SIDE + i] = 0.0 if separated else a[SIDE + i]
         a[LENGTH + i] = a[T + i]
+    if a[ROUGH] > 0.0:
+        end_turn(a)
+    if a[STICKS] > 0.0:
+        let_go(a)

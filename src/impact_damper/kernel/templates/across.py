@@ -1,0 +1,144 @@
+"""Template (see `step`): acceleration across, Z2'' - Z1'' without the force of a wall, and returns.
+
+It is DRAW - BASE A cos(W T): the component of gravity along the gap, and the acceleration of a
+moving base, which acts on both masses where Z1 is measured from the base. SWAY is its integral over
+the step, taken twice from 0. Both are 0 for a damper without gravity on a base at rest.
+"""
+
+import math
+
+from impact_damper.kernel.compiling import kernel_only
+
+LANES: int
+
+# Phase angles below this take (x - sin x) / x^3 from its series.
+SMALL = 0.5
+
+
+@kernel_only
+def is_outside(a, i):
+    """Return whether the loose mass of a flight begins behind the surface of the unloaded wall."""
+    return abs(a[Y2 + i]) > a[CLEARANCE + i] and a[STUCK + i] == 0.0
+
+
+@kernel_only
+def load_across(a):
+    """Compute ACROSS at the beginning of the step, its bound MOST, and whether it acts (SWAYS)."""
+    acting = 0.0
+    rough = 0.0
+    for i in range(LANES):
+        rough = max(rough, a[FRICTION + i])
+        acting = max(acting, max(abs(a[GRAVITY + i]), a[BASE + i]))
+    acting = max(acting, rough)
+    # All rows are 0 in steps in which nothing acts.
+    if acting > 0.0 or a[SWAYS] > 0.0:
+        for i in range(LANES):
+            a[DRAW + i] = a[GRAVITY + i]
+            a[BASE_COSINE + i] = a[BASE + i] * a[COSINE + i]
+            a[BASE_SINE + i] = a[BASE + i] * a[SINE + i]
+        load_friction(a)
+        for i in range(LANES):
+            a[ACROSS + i] = a[DRAW + i] - a[BASE_COSINE + i]
+            size = abs(a[BASE_COSINE + i]) + abs(a[BASE_SINE + i])
+            a[MOST + i] = abs(a[DRAW + i]) + size
+            a[SWAY + i] = 0.0
+            a[SWAY_SLOPE + i] = 0.0
+            a[SWAY_CURVE + i] = 0.0
+            a[SWAY_JERK + i] = 0.0
+        a[SWAYS] = acting
+        a[ROUGH] = rough
+
+
+@kernel_only
+def find_sway(a):
+    """Compute SWAY and its three derivatives at T, in steps in which the acceleration acts."""
+    if a[SWAYS] > 0.0:
+        for i in range(LANES):
+            t = a[T + i]
+            angle = a[FREQUENCY + i] * t
+            square = angle * angle
+            sine = math.sin(angle)
+            cosine = math.cos(angle)
+            half = math.sin(0.5 * angle)
+            series = (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0))) / 6.0
+            series += square**4 / 39916800.0
+            # (1 - cos x) / x^2 and (x - sin x) / x^3.
+            first = 2.0 * half * half / square if square > 1e-16 else 0.5
+            second = series if square < SMALL * SMALL else (angle - sine) / (angle * square)
+            c = a[BASE_COSINE + i]
+            s = a[BASE_SINE + i]
+            draw = a[DRAW + i]
+            a[SWAY + i] = t * t * (0.5 * draw - (c * first - s * angle * second))
+            a[SWAY_SLOPE + i] = t * (draw - (c * (1.0 - square * second) - s * angle * first))
+            a[SWAY_CURVE + i] = draw - (c * cosine - s * sine)
+            a[SWAY_JERK + i] = a[FREQUENCY + i] * (c * sine + s * cosine)
+
+
+@kernel_only
+def find_return(a):
+    """Find the contact within [0, T] of lanes whose loose mass begins behind the wall's surface.
+
+    There the wall pushes again once f = q + LAG q' rises to zero at a depth q > 0; otherwise a
+    contact begins at q = 0 as usual. MODE, WALL, T and the rows END_ become those of
+    `find_contact`; MODE is MET_DEEP if the contact begins at a depth.
+
+    If the speed s out of the wall is certain to exceed LAG times a bound on |q''|, f falls.
+    """
+    flight_bound(a)
+    flight_jerk(a)
+    running = 0
+    for i in range(LANES):
+        t = a[T + i]
+        bound = a[BOUND + i] + a[MOST + i]
+        a[BOUND + i] = bound
+        a[JERK_BOUND + i] += a[FREQUENCY + i] * a[MOST + i]
+        speed = abs(a[Y3 + i])
+        change = a[CHANGE + i] + a[MOST + i] * t
+        falls = a[Y2 + i] * a[Y3 + i] < 0.0 and speed - change > a[LAG + i] * bound
+        falls = falls and (speed + change) * t < 2.0 * a[CLEARANCE + i]
+        searched = is_outside(a, i) and not falls
+        a[WALL + i] = (1.0 if a[Y2 + i] > 0.0 else -1.0) if searched else a[WALL + i]
+        a[MODE + i] = MARCH if searched else a[MODE + i]
+        a[LENGTH + i] = t
+        a[T + i] = 0.0 if searched else t
+        running += 1 if searched else 0
+    while running > 0:
+        flight_slope(a)
+        flight_curve(a)
+        find_sway(a)
+        running = 0
+        for i in range(LANES):
+            t = a[T + i]
+            mode = a[MODE + i]
+            if mode == MARCH:
+                t, mode = step_outside(a, i, t)
+            elif mode == ENDING:
+                mode = MISSED
+            running += store_search(a, i, mode, t, 0.0)
+
+
+@kernel_only
+def step_outside(a, i, t):
+    """Return the next time and mode of a search in mode MARCH of `find_return`."""
+    wall, lag, bound = a[WALL + i], a[LAG + i], a[BOUND + i]
+    clearance = a[CLEARANCE + i]
+    z, w = loose_mass(a, i, t)
+    q = wall * z - clearance
+    slope = wall * w
+    f = q + lag * slope
+    rise = slope + lag * wall * (a[Z1_CURVE + i] + a[SWAY_CURVE + i])
+    fine = ROUNDING * (clearance + lag * abs(slope))
+    bent = bound + lag * a[JERK_BOUND + i]
+    # Both q and f must be positive for a contact with this wall.
+    deep = safe_advance(-q, slope, bound) if q <= fine else 0.0
+    pressed = safe_advance(-f, rise, bent) if f <= fine else 0.0
+    across = safe_advance(2.0 * clearance + q, -slope, bound)
+    here = q >= -fine and f >= -fine and (q > fine or slope > 0.0) and (f > fine or rise > 0.0)
+    other = 2.0 * clearance + q <= fine and slope < 0.0
+    shortest = math.sqrt(8.0 * fine / (bent + TINY))
+    ahead = max(min(max(deep, pressed), across), max(shortest, ROUNDING * t))
+    a[WALL + i] = -wall if other else wall
+    following = min(t + ahead, a[LENGTH + i])
+    ending = MARCH if following < a[LENGTH + i] else ENDING
+    met = MET_DEEP if here and q > fine else MET
+    return t if here or other else following, met if here or other else ending

@@ -1,0 +1,251 @@
+"""Template (see `step`): Coulomb friction of the loose mass on its floor.
+
+Sliding in the direction SLIDE = sign(Z2'), friction adds -FRICTION SLIDE to the acceleration across
+and PUSH to Z1''. A loose mass that sticks (STUCK) moves with the primary mass,
+
+    (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T)),
+
+while the friction that this needs, per unit of loose mass, stays below FRICTION.
+"""
+
+import math
+
+from impact_damper.kernel.compiling import kernel_only
+from impact_damper.kernel.equation import spring
+
+LANES: int
+CONTACT_ORDER: int
+FLIGHT_ORDER: int
+TANGENTS: int
+KEPT: int
+
+
+@kernel_only
+def load_friction(a):
+    """Decide at the beginning of a step in which direction the loose mass slides, or if it sticks.
+
+    After a turn or while it sticks Z2' is exactly 0.
+    """
+    a[STICKS] = 0.0
+    for i in range(LANES):
+        friction = a[FRICTION + i]
+        w = a[Y3 + i]
+        inverse = a[INVERSE_MASS_RATIO + i]
+        a[PUSH + i] = 0.0
+        a[STUCK + i] = 0.0
+        if friction > 0.0:
+            g = a[COSINE + i] - a[DAMPING + i] * a[Y1 + i] - spring(a, a[Y0 + i], i, LANES)
+            across = a[GRAVITY + i] - a[BASE_COSINE + i]
+            needed = (g + across) * inverse / (1.0 + inverse) - inverse * wall_force(a, i)
+            a[SLIDE + i] = 1.0 if (w if w != 0.0 else needed) > 0.0 else -1.0
+            a[PUSH + i] = -friction * a[SLIDE + i] / inverse
+            a[DRAW + i] = a[GRAVITY + i] - friction * a[SLIDE + i]
+            if w == 0.0 and abs(needed) < friction:
+                a[STUCK + i] = 1.0
+                a[STICKS] = 1.0
+                a[PUSH + i] = -a[GRAVITY + i] / (1.0 + inverse)
+                a[DRAW + i] = a[GRAVITY + i]
+
+
+@kernel_only
+def wall_force(a, i):
+    """Return the force of the wall on the primary mass at the beginning of a step."""
+    wall = a[SIDE + i]
+    depth = a[Y2 + i] - wall * a[CLEARANCE + i]
+    force = a[CONTACT_STIFFNESS + i] * depth + a[DASHPOT + i] * a[Y3 + i]
+    return force if wall != 0.0 else 0.0
+
+
+@kernel_only
+def hold(a):
+    """Replace parameters of lanes that stick by those of both masses moving together."""
+    for i in range(LANES):
+        inverse = a[INVERSE_MASS_RATIO + i]
+        share = inverse / (1.0 + inverse)
+        stuck = a[STUCK + i] > 0.0
+        a[FREE_DAMPING + i] = a[DAMPING + i]
+        a[FREE_STIFFNESS + i] = a[STIFFNESS + i]
+        a[FREE_CUBIC + i] = a[CUBIC + i]
+        a[FREE_CONTACT + i] = a[CONTACT_STIFFNESS + i]
+        a[FREE_DASHPOT + i] = a[DASHPOT + i]
+        a[HELD_Z2 + i] = a[Y2 + i]
+        a[DAMPING + i] *= share if stuck else 1.0
+        a[STIFFNESS + i] *= share if stuck else 1.0
+        a[CUBIC + i] *= share if stuck else 1.0
+        a[CONTACT_STIFFNESS + i] *= 0.0 if stuck else 1.0
+        a[DASHPOT + i] *= 0.0 if stuck else 1.0
+    load_rates(a)
+
+
+@kernel_only
+def let_go(a):
+    """Restore the parameters that `hold` has replaced."""
+    for i in range(LANES):
+        a[DAMPING + i] = a[FREE_DAMPING + i]
+        a[STIFFNESS + i] = a[FREE_STIFFNESS + i]
+        a[CUBIC + i] = a[FREE_CUBIC + i]
+        a[CONTACT_STIFFNESS + i] = a[FREE_CONTACT + i]
+        a[DASHPOT + i] = a[FREE_DASHPOT + i]
+    load_rates(a)
+
+
+@kernel_only
+def load_rates(a):
+    """With one lane, fill the constant series h/k and D/k again."""
+    if LANES == 1:
+        for k in range(max(FLIGHT_ORDER, CONTACT_ORDER) - 1):
+            a[H + k] = a[DAMPING] * (1.0 / max(k, 1))
+            a[D + k] = a[DASHPOT] * (1.0 / max(k, 1))
+
+
+@kernel_only
+def series_held(a, touching):
+    """Fill the series of a step while the parameters of lanes that stick are replaced."""
+    hold(a)
+    for i in range(LANES):
+        inverse = a[INVERSE_MASS_RATIO + i]
+        share = (inverse + a[BASE + i]) / (1.0 + inverse)
+        a[LOW + i] = a[COSINE + i]
+        a[HIGH + i] = a[SINE + i]
+        a[COSINE + i] *= share if a[STUCK + i] > 0.0 else 1.0
+        a[SINE + i] *= share if a[STUCK + i] > 0.0 else 1.0
+    if touching:
+        contact_series_across(a)
+    else:
+        flight_series(a)
+    for i in range(LANES):
+        a[COSINE + i] = a[LOW + i]
+        a[SINE + i] = a[HIGH + i]
+
+
+@kernel_only
+def find_turn(a, touching):
+    """Find the first turn (Z2' = 0 of a mass that slides) or slip (of one that sticks) before T.
+
+    In these lanes MODE becomes TURNED, and T and the rows END_ those of the turn or slip. Other
+    lanes keep theirs.
+    """
+    if touching:
+        contact_jerk(a)
+    else:
+        flight_jerk(a)
+    running = 0
+    for i in range(LANES):
+        rough = a[FRICTION + i] > 0.0
+        jerk = (a[Z1_JERK + i] if touching else a[JERK_BOUND + i]) + a[FREQUENCY + i] * a[MOST + i]
+        jerk += a[JERK_BOUND + i] if touching and a[STUCK + i] == 0.0 else 0.0
+        a[BOUND + i] = jerk
+        a[LIMIT + i] = a[T + i]
+        a[TURN + i] = MARCH if rough else MISSED
+        a[T + i] = 0.0 if rough else a[T + i]
+        running += 1 if rough else 0
+    while running > 0:
+        if touching:
+            find_sway(a)
+            contact_values(a)
+        else:
+            flight_slope(a)
+            flight_curve(a)
+            find_sway(a)
+        running = 0
+        for i in range(LANES):
+            if a[TURN + i] == MARCH:
+                step_to_turn(a, i, touching)
+                running += 1 if a[TURN + i] == MARCH else 0
+
+
+@kernel_only
+def step_to_turn(a, i, touching):
+    """Advance the search of `find_turn` in one lane by one step."""
+    t, bound = a[T + i], a[BOUND + i]
+    stuck = a[STUCK + i] > 0.0
+    if touching:
+        w, curve, rise = a[DEPTH_SLOPE + i], a[DEPTH_CURVE + i], 0.0
+    else:
+        w = a[Z1_SLOPE + i] + (a[Y3 + i] - a[Y1 + i]) + a[SWAY_SLOPE + i]
+        curve = a[Z1_CURVE + i] + a[SWAY_CURVE + i]
+    if stuck:
+        force = wall_force_held(a, i) if touching else 0.0
+        needed = a[Z1_CURVE + i] + a[SWAY_CURVE + i] - a[INVERSE_MASS_RATIO + i] * force
+        f = a[FRICTION + i] - abs(needed)
+        rise = a[Z1_JERK + i] + a[SWAY_JERK + i]
+        closing = rise * needed > 0.0
+        fine = 4.0 * ROUNDING * a[FRICTION + i]
+        ahead = max(f, 0.0) / (bound + TINY)
+        a[SLIDE + i] = 1.0 if needed > 0.0 else -1.0
+    else:
+        f = a[SLIDE + i] * w
+        slowing = -a[SLIDE + i] * curve
+        closing = slowing > 0.0 and t > 0.0
+        fine = ROUNDING * (abs(a[Y3 + i]) + bound * a[LIMIT + i] * a[LIMIT + i])
+        ahead = safe_advance(f, slowing, bound)
+    met = closing and (f <= fine or t + ahead == t)
+    shortest = math.sqrt(8.0 * fine / (bound + TINY)) if f <= fine else 0.0
+    following = t + max(ahead, max(shortest, ROUNDING * t))
+    if met:
+        a[TURN + i] = MET
+        a[MODE + i] = TURNED
+        a[BEND + i] = curve
+        a[END_Z1 + i] = a[Z1 + i]
+        a[END_Z1_SLOPE + i] = a[Z1_SLOPE + i]
+        a[END_DEPTH + i] = a[DEPTH + i]
+        a[END_DEPTH_SLOPE + i] = 0.0
+    elif following < a[LIMIT + i]:
+        a[T + i] = following
+    else:
+        a[TURN + i] = MISSED
+        a[T + i] = a[LIMIT + i]
+
+
+@kernel_only
+def wall_force_held(a, i):
+    """Return the constant force of the wall on a loose mass that sticks at a depth."""
+    return a[FREE_CONTACT + i] * (a[Y2 + i] - a[SIDE + i] * a[CLEARANCE + i])
+
+
+@kernel_only
+def end_turn(a):
+    """Set Z2' to 0 after a turn, and to a number of the right sign where the mass begins to slide.
+
+    A loose mass that sticks keeps its Z2.
+    """
+    for i in range(LANES):
+        slipped = a[STUCK + i] > 0.0 and a[MODE + i] == TURNED
+        held = a[STUCK + i] > 0.0 and not slipped
+        still = held or (a[MODE + i] == TURNED and not slipped)
+        a[Y3 + i] = 0.0 if still else a[Y3 + i]
+        a[Y3 + i] = TINY * a[SLIDE + i] if slipped else a[Y3 + i]
+        a[Y2 + i] = a[HELD_Z2 + i] if a[STUCK + i] > 0.0 else a[Y2 + i]
+
+
+@kernel_only
+def keep_tangents(a, d):
+    """Hold parameters for the tangents of lanes that stick, and keep the tangents' Z2."""
+    hold(a)
+    for i in range(TANGENTS):
+        d[KEPT + i] = d[2 * TANGENTS + i]
+
+
+@kernel_only
+def friction_jump(a, d):
+    """Multiply tangents by the saltation matrix of a turn, and end what `keep_tangents` began.
+
+    At a turn friction jumps by J, and Z2'' before it is b: Z1' jumps by -rm J/b, and Z2' by
+    -(1 + rm) J/b times the tangent's Z2', to 0 if the loose mass sticks. Nothing jumps at a slip.
+    """
+    for i in range(TANGENTS):
+        j = i % LANES
+        inverse = a[INVERSE_MASS_RATIO + j]
+        limit = a[FRICTION + j]
+        stuck = a[STUCK + j] > 0.0
+        before = limit * a[SLIDE + j]
+        needed = a[BEND + j] * inverse / (1.0 + inverse) + before
+        jump = min(max(needed, -limit), limit) - before
+        turned = a[MODE + j] == TURNED and not stuck
+        ratio = jump / a[BEND + j] * d[3 * TANGENTS + i] if turned else 0.0
+        d[TANGENTS + i] -= ratio / inverse if turned else 0.0
+        d[3 * TANGENTS + i] -= ratio * (1.0 + 1.0 / inverse) if turned else 0.0
+        d[2 * TANGENTS + i] = d[KEPT + i] if stuck else d[2 * TANGENTS + i]
+        d[3 * TANGENTS + i] = 0.0 if stuck else d[3 * TANGENTS + i]
+    if a[STICKS] > 0.0:
+        let_go(a)

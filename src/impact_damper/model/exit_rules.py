@@ -1,0 +1,37 @@
+"""The two rules for the end of a contact, and the damping that a restitution means under each.
+
+The penetration of a free contact obeys u'' + 2 z u' + u = 0 in natural units of time, with the
+damping ratio z, and the wall pushes with u + 2 z u'. Under `zero_penetration`, the paper's rule
+(25), a contact ends when u = 0, and the wall pulls before. Under `no_tension` it ends when the
+force is 0; with z = sin(A) the restitution is then exp(-(pi - 2 A) tan A) (Schwager and Poeschel,
+Physical Review E 78, 2008, 051304), and with z = cosh B > 1 it is exp(-2 B coth B).
+"""
+
+import math
+from functools import cache
+
+ZERO_PENETRATION, NO_TENSION = EXIT_RULES = ("zero_penetration", "no_tension")
+# Angles or arguments up to this distance from critical damping count as critical.
+CRITICAL = 1e-6
+
+
+def restitution(ratio) -> float:
+    """Return the restitution under `no_tension` for a damping ratio z."""
+    if abs(ratio - 1) < CRITICAL:
+        return math.exp(-2)
+    if ratio < 1:
+        angle = math.asin(ratio)
+        return math.exp(-(math.pi - 2 * angle) * math.tan(angle))
+    argument = math.acosh(ratio)
+    return math.exp(-2 * argument / math.tanh(argument))
+
+
+@cache
+def damping_ratio(restitution_, rule=ZERO_PENETRATION) -> float:
+    """Return the damping ratio z of the relative motion that gives a restitution under a rule."""
+    logarithm = math.log(1 / restitution_)
+    if rule == ZERO_PENETRATION or not logarithm:
+        return logarithm / math.hypot(math.pi, logarithm)
+    from scipy.optimize import brentq  # Snakemake's dry runs import this module
+
+    return brentq(lambda z: restitution(z) - restitution_, 0.0, 10.0, xtol=1e-15, rtol=1e-14)
