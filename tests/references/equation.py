@@ -8,6 +8,7 @@ import math
 from dataclasses import replace
 
 from impact_damper.model.packed import (
+    BASE,
     CLEARANCE,
     CONTACT_STIFFNESS,
     CUBIC,
@@ -15,8 +16,9 @@ from impact_damper.model.packed import (
     DASHPOT,
     FORCE,
     FREQUENCY,
+    FRICTION,
+    GRAVITY,
     INVERSE_MASS_RATIO,
-    SHAKER,
     STIFFNESS,
     UNBALANCE,
 )
@@ -28,14 +30,14 @@ SPRINGS = {
     "shaken": Oscillator(0.2, 0.8, cubic=0.3, force=0.4, unbalance=0.15),
     "unbalance": Oscillator(0.1, 1.0, cubic=0.02, force=0.0, unbalance=0.3),
     "soft and shaken": Oscillator(0.1, 1.0, cubic=-0.1, force=0.05, unbalance=0.05),
-    "on a shaker": Oscillator(0.1, 1.2, cubic=0.0, force=0.1, unbalance=0.05, shaker=0.4),
+    "on a base": Oscillator(0.1, 1.2, cubic=0.1, force=0.1, unbalance=0.05, base=1.0),
     "hard": Oscillator(0.3, 0.0, cubic=20.0, force=5.0),
 }
 
 
 def amplitude(p):
     """Return the amplitude of the forcing."""
-    return p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2 + p[SHAKER] / p[FREQUENCY] ** 2
+    return p[FORCE] + p[UNBALANCE] * p[FREQUENCY] ** 2
 
 
 def spring(p, x):
@@ -63,17 +65,23 @@ def contact(p, side, z, w):
     return p[CONTACT_STIFFNESS] * (z - side * p[CLEARANCE]) + p[DASHPOT] * w
 
 
-def rates(p, side=0):
+def rates(p, side=0, slide=1):
     """Return the function (t, y) -> y' of the state (Z1, Z1', Z2, Z2'), for SciPy.
 
-    `side` is the wall in contact, or 0.
+    `side` is the wall in contact, or 0, and `slide` the sign of Z2', or 0 if the loose mass sticks.
     """
 
     def right(t, y):
         x, v, z, w = y
-        free = flight(p, x, v, math.cos(p[FREQUENCY] * t))
+        cosine = math.cos(p[FREQUENCY] * t)
+        free = flight(p, x, v, cosine)
         force = contact(p, side, z, w) if side else 0.0
-        return [v, free - force, w, free - force - p[INVERSE_MASS_RATIO] * force]
+        across = p[GRAVITY] - p[BASE] * amplitude(p) * cosine
+        if slide == 0:
+            return [v, free - (free + across) / (1 + p[INVERSE_MASS_RATIO]), 0.0, 0.0]
+        rub = p[FRICTION] * slide
+        own = free - force - rub / p[INVERSE_MASS_RATIO] if rub else free - force
+        return [v, own, w, own + across - rub - p[INVERSE_MASS_RATIO] * force]
 
     return right
 
@@ -93,9 +101,8 @@ KNOWN = {name: each for name, each in SPRINGS.items() if has_closed_forms(each)}
 def in_other_units(oscillator, damper, frequency, length, time):
     """Return oscillator, damper and frequency in other units: the motion Z/length over T/time.
 
-    The equation Z1'' + h Z1' + omega_l^2 Z1 + k3 Z1^3 = (F + U W^2 + V/W^2) cos(W T) keeps its
-    form. F, U and V are the fields `force`, `unbalance` and `shaker` of `Oscillator`. If both units
-    are powers of two, the conversion is exact.
+    The equation Z1'' + h Z1' + omega_l^2 Z1 + k3 Z1^3 = (F + U W^2) cos(W T) keeps its form. If
+    both units are powers of two, the conversion is exact.
     """
     acceleration = length / time**2
     other = replace(
@@ -105,12 +112,13 @@ def in_other_units(oscillator, damper, frequency, length, time):
         cubic=oscillator.cubic * (length * time) ** 2,
         force=oscillator.force / acceleration,
         unbalance=oscillator.unbalance / length,
-        shaker=oscillator.shaker / acceleration * time**2,
     )
     if damper is not None:
         damper = replace(
             damper,
             clearance=damper.clearance / length,
             contact_stiffness=damper.contact_stiffness * time**2,
+            gravity=damper.gravity / acceleration,
+            friction=damper.friction / acceleration,
         )
     return other, damper, frequency * time

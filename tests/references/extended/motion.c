@@ -9,7 +9,10 @@
    root, one change means one root; with more changes the interval is halved.
 
    Z2 is kept as its distance from the wall that was touched last. A state on that wall is then
-   exactly zero, so that this root can be divided out and cannot hide the next root. */
+   exactly zero, so that this root can be divided out and cannot hide the next root.
+
+   A contact ends when the depth plus `lag` times its rate falls to zero. If this is at a depth, the
+   wall pushes again once the sum rises to zero before the depth is zero. Friction must be 0. */
 
 #include <math.h>
 #include <string.h>
@@ -21,8 +24,8 @@ enum { DONE, LOG_FULL, TOO_MANY_STEPS };
 
 /* The members bear the names of the packed parameters, in their order. */
 typedef struct {
-    real frequency, damping, stiffness, cubic, force, unbalance, shaker, clearance,
-        contact_stiffness, inverse_mass_ratio, dashpot;
+    real frequency, damping, stiffness, cubic, force, unbalance, base, clearance,
+        contact_stiffness, inverse_mass_ratio, dashpot, lag, gravity, friction;
 } Parameters;
 
 /* One step: Taylor coefficients of Z1, of the distance z of Z2 from the wall, of Z1^2, and of
@@ -168,7 +171,7 @@ static void expand(const Run *run, Series *s)
 {
     const Parameters *p = run->p;
     real w = p->frequency, phase = w * run->t;
-    real factor = p->force + p->unbalance * w * w + p->shaker / (w * w);
+    real factor = p->force + p->unbalance * w * w;
     real drive[4] = {cosl(phase), -sinl(phase), -cosl(phase), sinl(phase)};
     int touching = run->side != 0, columns = touching ? 4 : 2;
     memset(s, 0, sizeof *s);
@@ -183,7 +186,8 @@ static void expand(const Run *run, Series *s)
         real rest = drive[k % 4] * factor - p->damping * (k + 1) * s->x[k + 1]
                     - p->stiffness * s->x[k] - p->cubic * cube - force;
         s->x[k + 2] = rest / both;
-        s->z[k + 2] = (rest - p->inverse_mass_ratio * force) / both;
+        real across = (k == 0 ? p->gravity : 0) - p->base * drive[k % 4] * factor;
+        s->z[k + 2] = (rest + across - p->inverse_mass_ratio * force) / both;
         factor *= w / (k + 1);
         for (int i = 0; i < columns; i++) {
             real *dx = s->dx[i], *dz = s->dz[i];
@@ -214,14 +218,42 @@ static void height(const Run *run, const Series *s, int side, real *c)
     c[0] += side * run->origin - run->p->clearance;
 }
 
+/* The height plus `lag` times its rate, which has the sign of the wall's force. */
+static void push(const Run *run, const Series *s, int side, real *c)
+{
+    height(run, s, side, c);
+    for (int k = 0; k < ORDER; k++) c[k] += side * run->p->lag * (k + 1) * s->z[k + 1];
+}
+
 /* Time of the first event within `length`, or `length` without event; `wall` becomes the wall in
-   contact afterwards, or 0. */
-static real first_event(const Run *run, const Series *s, real length, int *wall)
+   contact afterwards, or 0. `left` becomes 1 if the time is that at which Z2 leaves a wall that no
+   longer pushes. */
+static real first_event(const Run *run, const Series *s, real length, int *wall, int *left)
 {
     real c[TERMS], found;
+    int outside = run->origin * run->y[2] > 0;
     *wall = run->side;
+    *left = 0;
+    if (outside && !run->side) {
+        int side = run->origin > 0 ? 1 : -1;
+        height(run, s, side, c);
+        if (roots(c, length, 0, &found, 1)) {
+            *left = 1;
+            length = found;
+        }
+        real slope[TERMS], rising[MOST_ROOTS];
+        push(run, s, side, c);
+        differentiate(c, slope);
+        int count = roots(c, length, 0, rising, MOST_ROOTS);
+        for (int i = count - 1; i >= 0; i--)
+            if (value(slope, rising[i]) > 0) {
+                *wall = side, *left = 0;
+                length = rising[i];
+            }
+        return length;
+    }
     if (run->side) {
-        height(run, s, run->side, c);
+        push(run, s, run->side, c);
         if (roots(c, length, 1, &found, 1)) {
             *wall = 0;
             length = found;
@@ -353,10 +385,10 @@ static void look_for_extremes(const Series *s, real length, real *extremes)
 
 static int start_side(const Run *run, const real *y)
 {
-    real d = run->p->clearance;
-    if (y[2] > d || (y[2] == d && y[3] > 0)) return 1;
-    if (y[2] < -d || (y[2] == -d && y[3] < 0)) return -1;
-    return 0;
+    real depth = fabsl(y[2]) - run->p->clearance;
+    int wall = y[2] > 0 ? 1 : -1;
+    if (depth < 0 || (run->p->lag > 0 && depth + run->p->lag * wall * y[3] <= 0)) return 0;
+    return depth > 0 || wall * y[3] > 0 ? wall : 0;
 }
 
 /* Append a contact with `wall` that begins now. */
@@ -389,7 +421,7 @@ int motion(const double *packed, const real *first, real start, const real *time
     new_instant(&run);
     memcpy(run.y, first, sizeof run.y);
     run.side = start_side(&run, first);
-    if (isfinite(p.clearance) && (run.side || fabsl(first[2]) == p.clearance)) {
+    if (isfinite(p.clearance) && fabsl(first[2]) >= p.clearance) {
         run.origin = copysignl(p.clearance, first[2]);
         run.y[2] -= run.origin;
     }
@@ -397,13 +429,13 @@ int motion(const double *packed, const real *first, real start, const real *time
     for (long i = 0; i < n && run.status == DONE; i++) {
         extremes[2 * i] = INFINITY, extremes[2 * i + 1] = -INFINITY;
         while (run.t < times[i] && run.status == DONE) {
-            int wall;
+            int wall, left_wall;
             expand(&run, &s);
             real now = fmaxl(fmaxl(1, fabsl(run.y[0])), fmaxl(fabsl(run.y[1]), fabsl(run.y[3])));
             real allowed = settings[0] * now, left = times[i] - run.t;
             real longest = fminl(settings[1], reach(s.x, allowed));
             if (run.side) longest = fminl(longest, reach(s.z, allowed));
-            real length = first_event(&run, &s, fminl(longest, left), &wall);
+            real length = first_event(&run, &s, fminl(longest, left), &wall, &left_wall);
             if (isfinite(p.clearance)) look_for_turnings(&run, &s, length);
             look_for_extremes(&s, length, extremes + 2 * i);
             Matrix step = step_derivative(&s, length);
@@ -414,18 +446,21 @@ int motion(const double *packed, const real *first, real start, const real *time
             differentiate(s.z, slope), run.y[3] = value(slope, length);
             run.t = length == left ? times[i] : run.t + length;
             if (++steps > 10000000) run.status = TOO_MANY_STEPS;
+            if (left_wall) run.y[2] = 0;
             if (wall == run.side) continue;
-            saltation(&run, wall ? -1 : 1);
+            /* The force jumps only at the wall's surface. */
+            int deep = run.side ? p.lag > 0 : run.origin == wall * p.clearance && run.y[2] * wall > 0;
+            if (!deep) saltation(&run, wall ? -1 : 1);
             new_instant(&run);
             if (wall) {
                 begun++;
-                run.origin = wall * p.clearance;
+                if (!deep) run.origin = wall * p.clearance;
                 begin_contact(&run, wall, contacts, &logged);
             } else {
                 contacts[5 * logged - 3] = run.t;
                 contacts[5 * logged - 1] = run.y[3];
             }
-            run.y[2] = 0;
+            if (!deep) run.y[2] = 0;
             run.side = wall;
         }
         real *y = states + 4 * i;

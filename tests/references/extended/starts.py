@@ -48,7 +48,9 @@ KINDS = {
     "softening spring": {"linear_frequency": (2.0, 4.0), "cubic": (-0.05, 0.0)},
     "other forces": {"cubic": (0.1, 10.0), "force": (0.1, 10.0), "unbalance": (0.1, 3.0)},
     "no force": {"linear_frequency": (0.0, 2.0), "force": (0.0, 0.0)},
-    "on a shaker": {"linear_frequency": (0.3, 2.0), "cubic": (0.0, 0.0), "shaker": (0.1, 3.0)},
+    "moving base": {"linear_frequency": (0.3, 2.0), "cubic": (0.1, 1.0), "base": (0.5, 1.0)},
+    "gravity": {"gravity": (0.05, 2.0)},
+    "walls that never pull": {"restitution": (0.05, 0.9), "gravity": (-0.5, 0.5)},
 }
 # Other parameters of the oscillator are drawn one at a time.
 _DRAWN = set(USUAL).union(*KINDS.values())
@@ -76,13 +78,14 @@ def _draw(random, bounds):
     return random.uniform(low, high)
 
 
-def _parameters(random, ranges, elastic):
+def _parameters(random, ranges, elastic, rule):
     """Return random packed parameters from ranges by name."""
     drawn = {name: _draw(random, bounds) for name, bounds in ranges.items()}
     if elastic:
         drawn["restitution"] = 1.0
     oscillator = Oscillator(**pick(Oscillator, drawn))
-    return pack(oscillator, Damper(**pick(Damper, drawn)), drawn["frequency"])
+    damper = Damper(**pick(Damper, drawn), exit_rule=rule)
+    return pack(oscillator, damper, drawn["frequency"])
 
 
 def _graze(random, p, state, start, end):
@@ -116,7 +119,8 @@ def draw(kind, count, seed):
 
 def _start(random, kind, index):
     """Return one row of `Starts`."""
-    p = _parameters(random, USUAL | KINDS[kind], elastic=index % 2 == 0)
+    rule = "no_tension" if kind == "walls that never pull" else "zero_penetration"
+    p = _parameters(random, USUAL | KINDS[kind], index % 2 == 0, rule)
     period = 2 * math.pi / p[FREQUENCY]
     start = random.uniform(0, period)
     times = start + period * np.arange(1, PERIODS + 1)
