@@ -33,13 +33,13 @@ def wilson(successes, total):
     return np.concatenate([[successes / total], wilson_intervals(successes, total)])
 
 
-def bounding_rank(share, total) -> int:
+def bounding_rank(share, total, doubt=DOUBT) -> int:
     """Return the rank k such that the k-th largest of `total` values bounds a share of all values.
 
-    The bound holds with 95 % confidence for any distribution (S. S. Wilks, Ann. Math. Stat. 12,
-    1941). k is 0 if there are too few values.
+    The bound holds with the confidence 1 - doubt for any distribution (S. S. Wilks, Ann. Math.
+    Stat. 12, 1941). k is 0 if there are too few values.
     """
-    return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= DOUBT))
+    return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= doubt))
 
 
 def starts_needed(share) -> int:

@@ -21,20 +21,23 @@ LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)
 KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 # Purposes for which starts are drawn. The index is part of the seed, so that no start is used both
 # for a choice and for its confirmation.
-STREAMS = ("search", "compared", "confirmed", "orbit", "forces", "masses")
+STREAMS = ("search", "compared", "confirmed", "orbit", "forces", "masses", "repeated")
 # Cells for which a thread draws starts at once, motions that a thread follows at once, and cells
-# whose motions are followed together.
+# that are followed before bounds are compared again.
 DRAWN, FOLLOWED, TOGETHER = 4, 8, 8
 # Motions that do not settle belong to one regime if their records, in order of size, differ by a
 # factor of at most APART from one to the next.
 APART = 1.3
-# A record is known if the motions of the regime were run for POOLED cycles in all, and the last
-# doubling of this number let it grow by less than GROWN. Run for MOST_POOLED cycles, it counts as
-# it is, with a flag. Before, it may grow by MISSING for each doubling up to POOLED.
-POOLED, GROWN, MOST_POOLED = 25_000, 0.01, 200_000
-MISSING = 0.025
-# A motion that approaches an orbit may exceed it by SLACK.
-SLACK = 0.001
+# A regime counts with the displacement that it exceeds once in HORIZON cycles, extrapolated from
+# the TAIL largest peaks of BLOCK cycles. All its motions together are run for POOLED cycles at
+# least and for MOST_POOLED at most.
+BLOCK, TAIL, HORIZON = 50, 50, 100_000
+POOLED, MOST_POOLED = 50_000, 200_000
+# A record over fewer cycles may grow by MISSING for each doubling up to POOLED.
+MISSING = 0.06
+# If the records of the four quarters of a run differ by at most STEADY, the regime is a torus.
+# A motion that approaches an orbit may exceed it by as much as SLACK.
+STEADY, SLACK = 0.002, 0.001
 # Cycles in which a motion that is followed must settle to be found on an orbit.
 CHECKED = 100
 
@@ -79,12 +82,10 @@ class Motions:
         At the last strobe.
     settled : array of bool, shape (m, n)
         Whether the motion is on an orbit.
-    peaks, earlier : array, shape (m, n)
-        Largest displacement of the orbit or so far, and before the last doubling.
-    cycles : array, shape (m,)
-        Cycles over which motions that have not settled were measured.
-    followed : array of bool, shape (m,)
-        Whether the motions were followed beyond the first run.
+    peaks : array, shape (m, n)
+        Largest displacement of the orbit, or so far.
+    blocks : array of arrays, shape (m,)
+        Peaks of motions that are followed: each of shape (n, blocks), one for BLOCK cycles.
     """
 
     task: object
@@ -93,121 +94,117 @@ class Motions:
     states: np.ndarray
     settled: np.ndarray
     peaks: np.ndarray
-    earlier: np.ndarray
-    cycles: np.ndarray
-    followed: np.ndarray
+    blocks: np.ndarray
 
     def regimes(self, k) -> list:
         """Return the regimes of cell k, each as an array of places of motions not settled."""
         places = np.flatnonzero(~self.settled[k])
         order = places[np.argsort(self.peaks[k, places], kind="stable")]
         sizes = self.peaks[k, order]
-        return np.split(order, 1 + np.flatnonzero(sizes[1:] > APART * sizes[:-1]))
+        found = np.split(order, 1 + np.flatnonzero(sizes[1:] > APART * sizes[:-1]))
+        return [regime for regime in found if len(regime)]
 
-    def growth(self, k, regime) -> float:
-        """Return how much the record of a regime grew in the last doubling."""
-        if np.isinf(self.peaks[k, regime]).any():
-            return 0.0
-        return self.peaks[k, regime].max() / self.earlier[k, regime].max() - 1
-
-    def is_known(self, k, regime) -> bool:
-        """Return whether the record of a regime is known, or will not be known better."""
-        pooled = self.cycles[k] * len(regime)
-        certain = self.followed[k] and pooled >= POOLED and self.growth(k, regime) < GROWN
-        return certain or pooled >= MOST_POOLED or np.isinf(self.peaks[k, regime]).any()
+    def measured(self, k, regime) -> tuple:
+        """Return the displacement with which a regime counts, whether it is known, and tested."""
+        record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
+        peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
+        pooled = BLOCK * np.isfinite(peaks).sum()
+        if np.isinf(record):
+            return record, True, True
+        if pooled < POOLED:
+            cycles = max(pooled, len(regime) * self.task.effort.settling.watched)
+            return record * (1 + MISSING * np.log2(max(2, POOLED / cycles))), False, False
+        quarters = np.nanmax(peaks, axis=0)
+        quarters = [part.max() for part in np.array_split(quarters, 4)]
+        if np.ptp(quarters) <= STEADY * record:
+            return (1 + STEADY) * record, True, True
+        middle = peaks.shape[1] // 2
+        tested = np.nanmax(peaks[:, middle:]) <= return_level(peaks[:, :middle])
+        return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
     def numbers(self, k) -> tuple:
         """Return the displacement with which each start of cell k counts, and if it is known."""
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
-            if len(regime):
-                known[regime] = self.is_known(k, regime)
-                left = max(GROWN, self.growth(k, regime))
-                if not known[regime[0]] and self.cycles[k] * len(regime) < POOLED:
-                    doublings = np.log2(POOLED / (self.cycles[k] * len(regime)))
-                    left = max(left, MISSING * doublings)
-                sizes[regime] = self.peaks[k, regime].max() * (1 + left)
+            sizes[regime], known[regime], _ = self.measured(k, regime)
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return the displacement of the start of a rank in each cell, shape (m,), and if known."""
-        found = np.empty(len(self.peaks)), np.empty(len(self.peaks), bool)
+        """Return displacement and place of the start of a rank in each cell, and if it is known."""
+        found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)
             place = np.argsort(-sizes, kind="stable")[rank - 1]
-            found[0][k], found[1][k] = sizes[place], known[place]
+            found[0][k], found[1][k], found[2][k] = sizes[place], place, known[place]
         return found
 
     def grows(self, k) -> bool:
-        """Return whether a record of cell k still grew when it was run for MOST_POOLED."""
-        return any(self.growth(k, regime) >= GROWN for regime in self.regimes(k) if len(regime))
+        """Return whether a record of cell k exceeded its extrapolation after MOST_POOLED cycles."""
+        results = [self.measured(k, regime) for regime in self.regimes(k)]
+        return any(known and not tested for _, known, tested in results)
 
-    def largest(self, rank) -> np.ndarray:
-        """Return the bounds of all cells, after the largest one is known."""
+    def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
+        """Return the bounds of all cells, after the largest one is known, if it is above `least`.
+
+        Cells `left_out` are not followed.
+        """
         while True:
-            bounds, known = self.bounds(rank)
-            largest = np.max(bounds, where=known, initial=0.0)
-            unsure = np.flatnonzero(~known & (bounds > largest))
+            bounds, places, known = self.bounds(rank)
+            unsure = known == 0
+            unsure[list(left_out)] = known[list(left_out)] = False
+            largest = max(least, np.max(bounds, where=known == 1, initial=0.0))
+            unsure = np.flatnonzero(unsure & (bounds > largest))
             if not len(unsure):
                 return bounds
-            self.follow(unsure[np.argsort(-bounds[unsure], kind="stable")[:TOGETHER]])
+            for k in unsure[np.argsort(-bounds[unsure], kind="stable")[:TOGETHER]]:
+                self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
-    def follow(self, cells) -> None:
-        """Run the motions of some cells that have not settled for another doubling.
+    def follow(self, k, regime) -> None:
+        """Run the motions of a regime of cell k as long again, or at first for half of POOLED.
 
-        The first time, what was measured before is forgotten, because transients may have lasted,
-        and all motions of a cell together are run for POOLED cycles.
+        What was measured before they were followed is forgotten, because transients may have
+        lasted.
         """
-        first = cells[~self.followed[cells]]
-        if len(first):
-            self.followed[first] = True
-            self._settle(first)
-            loud = ~self.settled[first]
-            self.peaks[first] = np.where(loud, 0.0, self.peaks[first])
-            half = np.ceil(POOLED / 2 / np.maximum(loud.sum(axis=1), 1))
-            self.cycles[first] = np.maximum(half, self.task.effort.settling.watched)
-            self._run(first)
-        self._settle(cells)
-        self.earlier[cells] = self.peaks[cells]
-        self._run(cells)
-        self.cycles[cells] *= 2
+        loud = regime[~self._settle(k, regime)]
+        if not len(loud):
+            return
+        done = np.isfinite(self.blocks[k][loud]).sum(axis=1)
+        number = done.max() or int(np.ceil(POOLED / 2 / BLOCK / len(loud)))
+        peaks = np.full((len(self.settled[k]), number), np.nan)
+        peaks[loud] = self._run(k, loud, number)
+        self.blocks[k] = np.hstack([self.blocks[k], peaks])
+        before = np.where(done > 0, self.peaks[k, loud], 0.0)
+        self.peaks[k, loud] = np.maximum(before, peaks[loud].max(axis=1))
 
-    def _places(self, cells):
-        """Return rows and columns of the motions of some cells that have not settled."""
-        chosen = np.isin(np.arange(len(self.peaks)), cells)
-        return np.nonzero(~self.settled & chosen[:, None])
-
-    def _run(self, cells):
-        """Run each motion of some cells that has not settled for the `cycles` of its cell."""
-        rows, columns = self._places(cells)
+    def _run(self, k, places, number):
+        """Return the peaks of motions of cell k in a number of blocks, shape (motions, number)."""
         tolerance, stop = self.task.effort.settling.tolerance, np.zeros(1, bool)
-        for length in np.unique(self.cycles[rows]):
-            these = self.cycles[rows] == length
-            i, j = rows[these], columns[these]
-            given, states, peaks = self.parameters[i], self.states[i, j], self.peaks[i, j]
+        states, peaks = self.states[k, places], np.zeros((number, len(places)))
+        parameters = np.repeat(self.parameters[k : k + 1], len(places), axis=0)
 
-            def work(part, given=given, states=states, peaks=peaks, length=length):
-                follow_peaks(given[part], states[part], length, tolerance, peaks[part], stop)
+        def work(part):
+            for row in peaks:
+                follow_peaks(parameters[part], states[part], BLOCK, tolerance, row[part], stop)
 
-            work(slice(0, 0))
-            ensemble.run_chunks(work, len(i), self.task.effort.workers, None, stop, size=FOLLOWED)
-            self.states[i, j], self.peaks[i, j] = states, peaks
+        ensemble.run_chunks(work, len(places), self.task.effort.workers, None, stop, size=FOLLOWED)
+        self.states[k, places] = states
+        return peaks.T
 
-    def _settle(self, cells):
-        """Find the motions of some cells that have settled meanwhile."""
-        rows, columns = self._places(cells)
+    def _settle(self, k, places):
+        """Return which motions of cell k have settled meanwhile."""
         effort = self.task.effort
         found = ensemble.settle(
-            self.parameters[rows],
-            self.states[rows, columns],
+            np.repeat(self.parameters[k : k + 1], len(places), axis=0),
+            self.states[k, places],
             Settling(effort.settling.tolerance, CHECKED, CHECKED, 1, 0),
             from_strobe=True,
             workers=effort.workers,
         )
         on = np.isin(found["outcome"], KEPT)
-        self.settled[rows[on], columns[on]] = True
-        self.peaks[rows[on], columns[on]] = found["maximum_displacement"][on]
-        self.states[rows, columns] = found["state"]
+        self.settled[k, places[on]] = True
+        self.peaks[k, places[on]] = found["maximum_displacement"][on]
+        self.states[k, places] = found["state"]
+        return on
 
     def join(self, other) -> "Motions":
         """Return these motions and others, in this order."""
@@ -231,6 +228,9 @@ def run(task, cells, count, stream, progress=None) -> Motions:
         progress=progress,
     ).reshape(len(cells), count)
     peaks, settled = records["maximum_displacement"], np.isin(records["outcome"], LASTING)
+    blocks = np.empty(len(cells), object)
+    for k in range(len(cells)):
+        blocks[k] = np.empty((count, 0))
     return Motions(
         task=task,
         parameters=parameters,
@@ -238,7 +238,19 @@ def run(task, cells, count, stream, progress=None) -> Motions:
         states=records["state"].copy(),
         settled=settled | np.isinf(peaks),
         peaks=peaks.copy(),
-        earlier=peaks.copy(),
-        cycles=np.full(len(cells), task.effort.settling.watched),
-        followed=np.zeros(len(cells), bool),
+        blocks=blocks,
     )
+
+
+def return_level(peaks) -> float:
+    """Return the displacement that motions exceed once in HORIZON cycles, from peaks of blocks.
+
+    The excesses over a high level are taken as exponential (S. Coles, An Introduction to
+    Statistical Modeling of Extreme Values, 2001, chapter 4). The tail of a bounded motion is
+    shorter, so that the level is rather too large.
+    """
+    peaks = np.sort(peaks[np.isfinite(peaks)])
+    tops = peaks[-TAIL - 1 :]
+    expected = HORIZON / BLOCK * (len(tops) - 1) / len(peaks)
+    excess = np.mean(tops[1:] - tops[0]) if len(tops) > 1 else 0.0
+    return float(max(tops[-1], tops[0] + excess * np.log(max(expected, 1.0))))

@@ -6,26 +6,41 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import flag
-from impact_damper.data.design_variables import KEEPS, WORTH
 from impact_damper.data.shares import bounding_rank, starts_needed
 from impact_damper.design.absorbers import absorber_responses
-from impact_damper.design.promise import Promise, factor_sets, gap_sets
+from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import Curve, score, search, search_around
-from impact_damper.design.task import SIDES, VARIED, Task, labelled
+from impact_damper.design.task import NOMINAL, SIDES, VARIED, Task, labelled
 
 # A promised displacement is confirmed once it is at most CONFIRMED times the value of any other gap
 # in the search. At most ROUNDS gaps are tried.
 CONFIRMED, ROUNDS = 1.1, 4
 # A promised displacement above SURPRISE times the one of the search is also looked for nearby.
 SURPRISE = 1.1
+# Gaps around the chosen one keep the promised displacement up to this factor.
+KEEPS = 1.1
+# A damper that takes less than this share off the largest displacement is not worth building.
+WORTH = 0.25
 
 
 class Tried(NamedTuple):
-    """A gap (mm) with its `Promise`, and the promised displacement if the gap alone deviates."""
+    """A gap (mm) with its `Promise`."""
 
     gap: float
     promise: Promise
-    by_gap: float
+
+    @property
+    def harmful(self) -> np.ndarray:
+        """Nominal factors, and the worst ones of the values other than the gap."""
+        worst = self.promise.sets[self.promise.worst[0]].copy()
+        worst[0] = 1
+        return np.unique([NOMINAL, worst], axis=0)
+
+    @property
+    def by_gap(self) -> float:
+        """Promised displacement if at most the gap deviates, mm."""
+        only = (self.promise.sets[:, 1:] == 1).all(axis=1)
+        return float(self.promise.by_set()[only].max())
 
 
 def find_gap(task: Task, progress=None) -> xr.Dataset:
@@ -36,44 +51,51 @@ def find_gap(task: Task, progress=None) -> xr.Dataset:
         if any(each.gap == choice.gap for each in tried):
             status = "confirmed"
             break
-        tried.append(confirm(task, choice.gap, turn, curve, progress))
+        sets = np.vstack([factor_sets(task, choice.gap), curve.worst_inside(choice.gap)])
+        tried.append(confirm(task, choice.gap, turn, sets, progress))
+        learn(task, tried[-1], turn, curve, progress)
         best = min(tried, key=lambda each: each.promise.size)
-        harm = best.promise.size / best.by_gap if np.isfinite(best.by_gap) else 1.0
-        if best.promise.size <= CONFIRMED * harm * curve.choose().size:
+        if best.promise.size <= CONFIRMED * curve.choose().size:
             status = "confirmed"
             break
     best = min(tried, key=lambda each: each.promise.size)
     if len(tried) > 1:  # the smallest of several numbers is too small on average
-        best = confirm(task, best.gap, len(tried), curve, progress)
+        best = confirm(task, best.gap, len(tried), best.promise.sets, progress)
     return conclude(task, best, curve, status)
 
 
 def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
     """Return the decision on the gap of the task."""
     gap = 1e3 * task.gap
-    curve = search_around(task, gap, progress)
-    found = confirm(task, gap, 0, curve, progress)
+    found = confirm(task, gap, 0, factor_sets(task, gap), progress)
+    curve = search_around(task, gap, found.harmful, progress)
     return conclude(task, found, curve, "given")
 
 
-def confirm(task, gap, turn, curve, progress=None) -> Tried:
-    """Return the promise of a gap (mm) from new starts, and put what it shows into the curve."""
+def confirm(task, gap, turn, sets, progress=None) -> Tried:
+    """Return the promise of a gap (mm) from new starts."""
     stream = "confirmed", turn
-    promise = Promise(task, 1e-3 * gap, factor_sets(task, gap), stream, progress=progress).refined()
-    sizes = promise.by_set()
-    few = len(gap_sets(task, gap))
-    frequencies = [promise.over_frequency(k) for k in range(few)]
-    worst = [f[np.argmax(bounds)] for f, bounds in frequencies]
-    by_gap, t = float(sizes[:few].max()), task.deviations(gap)[0]
-    expected = curve.within(np.array([gap * (1 - t)]), np.array([gap * (1 + t)]))[0]
-    curve.put(gap * promise.sets[:few, 0], sizes[:few], worst, replace=True)
-    if by_gap > SURPRISE * expected:
+    return Tried(gap, Promise(task, 1e-3 * gap, sets, stream, progress=progress).refined())
+
+
+def learn(task, tried, turn, curve, progress=None) -> None:
+    """Put what a promise shows into the curve, and look nearby if it is worse than expected."""
+    gap, promise = tried.gap, tried.promise
+    sizes, factors = promise.by_set(), promise.sets[:, 0]
+    expected = curve.within(*np.array(task.gap_ends(gap))[:, None])[0]
+    worst = [
+        frequency[np.argmax(size)]
+        for frequency, size in map(promise.over_frequency, range(len(sizes)))
+    ]
+    for factor in np.unique(factors):
+        k = int(np.argmax(np.where(factors == factor, sizes, -np.inf)))
+        curve.put([gap * factor], [sizes[k]], [worst[k]], replace=True)
+    if promise.size > SURPRISE * expected:
         # The worst frequency lies between those of the search, or few starts lead to the motion.
-        reach = SURPRISE * (1 + t)
+        reach = SURPRISE * factors.max()
         near = curve.gaps[(curve.gaps > gap / reach) & (curve.gaps < gap * reach)]
-        count, stream = starts_needed(task.share), ("compared", 100 + turn)
-        curve.put(near, *score(task, near, np.unique(worst), count, stream, progress))
-    return Tried(gap, promise, by_gap)
+        given = np.unique(worst), starts_needed(task.share), ("compared", 100 + turn), progress
+        curve.put(near, *score(task, near, *given, tried.harmful)[:2])
 
 
 def conclude(task, found, curve, status) -> xr.Dataset:
@@ -121,7 +143,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
         "peak_status": flag("peak_status", "known" if promise.peak_known else "not_known"),
         "record_status": flag(
             "record_status",
-            "still_grows" if promise.motions.grows(int(np.argmax(promise.bounds))) else "known",
+            "still_grows" if promise.grows else "known",
         ),
         "largest_bare_displacement": most,
         "largest_bare_frequency": task.worst_frequency,

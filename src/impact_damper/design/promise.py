@@ -3,9 +3,10 @@
 import itertools
 
 import numpy as np
+from scipy.special import bdtr
 
-from impact_damper.data.shares import bounding_rank
-from impact_damper.design.cells import Cell, run
+from impact_damper.data.shares import DOUBT, bounding_rank
+from impact_damper.design.cells import STREAMS, Cell, run
 from impact_damper.design.task import NOMINAL, VARIED
 
 # Largest number of corners of the tolerances; of more, some are drawn.
@@ -14,6 +15,10 @@ CORNERS = 8
 # that of all sets. A peak is known if the last splitting of the intervals beside it raised it by
 # at most PEAK, and a parabola through it and its neighbours exceeds it by at most as much.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
+# Motions are rare in a cell if its bound is larger than RARE times the displacement that the share
+# of its starts exceeds which is allowed. Such a cell is run again with MORE times as many starts,
+# SOME cells at once, until one keeps its bound up to KEPT.
+RARE, MORE, SOME, KEPT = 1.2, 4, 8, 0.95
 
 
 class Promise:
@@ -26,8 +31,9 @@ class Promise:
         Index of the set, and frequency (Hz), in the order of `motions`.
     bounds : array, shape (cells,)
         Displacement, mm, below which the machine stays from at least `task.share` of the starts.
-    peak_known : bool
-        Whether the peak over the frequency is known to PEAK.
+    peak_known, grows : bool
+        Whether the peak over the frequency is known to PEAK, and whether the record of motions
+        that do not settle exceeded its extrapolation.
 
     If the worst of the true quantiles of the cells exceeded the largest bound, the bound of this
     one cell would be below its own quantile, which has a probability of at most 5 %. Many cells
@@ -37,20 +43,54 @@ class Promise:
     def __init__(self, task, gap, sets, stream, count=None, frequencies=None, progress=None):
         self.task, self.gap, self.sets = task, gap, np.asarray(sets)
         self.stream, self.count = stream, count or task.effort.starts
-        self.progress = progress
+        self.progress, self.grows = progress, False
         self.rank = bounding_rank(task.share, self.count)
         self.cells, self.motions, self.peak_known = [], None, True
+        self.again = {}  # dimensionless bounds of cells that were run again
         grid = task.grid if frequencies is None else frequencies
         self.add([(k, f) for k in range(len(self.sets)) for f in grid])
 
     def add(self, cells) -> None:
         """Run cells, and bound the displacements of all."""
-        made = [Cell(self.gap, f, tuple(self.sets[k])) for k, f in cells]
         stream = (*self.stream, len(self.cells))
-        motions = run(self.task, made, self.count, stream, self.progress)
+        motions = run(self.task, self._made(cells), self.count, stream, self.progress)
         self.motions = motions if self.motions is None else self.motions.join(motions)
         self.cells += cells
-        self.bounds = self.task.millimetres(self.motions.largest(self.rank))
+        self._repeat_rare()
+        bounds = self.motions.largest(self.rank, max(self.again.values(), default=0.0), self.again)
+        for place, bound in self.again.items():
+            bounds[place] = bound
+        self.bounds = self.task.millimetres(bounds)
+        worst = int(np.argmax(bounds))
+        self.grows |= worst not in self.again and self.motions.grows(worst)
+
+    def _made(self, cells):
+        return [Cell(self.gap, f, tuple(self.sets[k])) for k, f in cells]
+
+    def _repeat_rare(self) -> None:
+        """Run cells in which rare motions decide with more starts.
+
+        Together both bounds of a cell are wrong with a probability of at most DOUBT.
+        """
+        allowed = int((1 - self.task.share) * self.count) + 1
+        usual, bounds = (self.motions.bounds(rank)[0] for rank in (allowed, self.rank))
+        for place, bound in self.again.items():
+            usual[place] = bounds[place] = bound
+        rare = np.flatnonzero(bounds > RARE * np.maximum(usual, usual.max()))
+        rare = [place for place in rare[np.argsort(-bounds[rare])] if place not in self.again]
+        total = MORE * self.count
+        used = bdtr(self.rank - 1, self.count, 1 - self.task.share)
+        rank = bounding_rank(self.task.share, total, DOUBT - used)
+        while rare and rank:
+            some, rare = rare[:SOME], rare[SOME:]
+            made = self._made([self.cells[place] for place in some])
+            stream = "repeated", STREAMS.index(self.stream[0]), *self.stream[1:], len(self.again)
+            motions = run(self.task, made, total, stream, self.progress)
+            found = motions.largest(rank, usual.max())
+            self.again |= dict(zip(some, found, strict=True))
+            self.grows |= motions.grows(int(np.argmax(found)))
+            if found.max() > KEPT * bounds[some].min():
+                return
 
     def refined(self) -> "Promise":
         """Run further frequencies until the largest displacement between them is known."""
@@ -135,3 +175,10 @@ def gap_sets(task, gap) -> np.ndarray:
     """Return the rows of `factor_sets` in which at most the gap deviates."""
     rows = factor_sets(task, gap)
     return rows[(rows[:, 1:] == np.array(NOMINAL)[1:]).all(axis=1)]
+
+
+def other_sets(task, gap) -> np.ndarray:
+    """Return the factors of all other values in `factor_sets`, with the gap as it is."""
+    rows = factor_sets(task, gap)
+    rows[:, 0] = 1
+    return np.unique(rows, axis=0)

@@ -1,7 +1,7 @@
 """The search for the gap: a curve of largest displacements over the gap, refined where it is small.
 
-Few starts at few frequencies give the curve. The value of a nominal gap is the largest displacement
-within the tolerance of the gap.
+Few starts at few frequencies give the curve. Near the best gaps, the other values deviate too. The
+value of a nominal gap is the largest displacement within the tolerance of the gap.
 """
 
 from typing import NamedTuple
@@ -10,14 +10,15 @@ import numpy as np
 
 from impact_damper.data.sweeps import runs_of_true
 from impact_damper.design.cells import Cell, run
-from impact_damper.design.task import Task
+from impact_damper.design.promise import other_sets
+from impact_damper.design.task import NOMINAL, Task
 
 # First search over all gaps: largest number of gaps, of frequencies, and starts.
 GAPS, FREQUENCIES, STARTS = 40, 9, 12
 # Comparison near the best gaps: frequencies, starts, and rounds of at most `candidates` gaps.
-CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 4
-# Typical record of a regime divided by the record of few motions over a short time.
-RECORD = 1.1
+CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 6
+# Typical level of a regime (`cells.return_level`) divided by a record of few motions.
+RECORD = 1.2
 # Neighbouring displacements with a larger ratio are a jump. Intervals between gaps, as logarithms,
 # are split down to SMOOTH, or FINE at a jump.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
@@ -48,6 +49,7 @@ class Curve:
         self.task = task
         self.gaps, self.sizes, self.worst = np.empty((3, 0))
         self.close = np.empty(0, bool)
+        self.sets = [NOMINAL]  # factors of the other values that harm most near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
         """Add values at gaps; at a known gap the larger value stays unless replaced."""
@@ -109,16 +111,29 @@ class Curve:
         return max(good, key=lambda each: each.high / each.low)
 
     def keeping(self, gap, size) -> tuple:
-        """Return the ends of the gaps around `gap` with at most a size, and the sizes beyond."""
-        k = int(np.argmin(np.abs(np.log(self.gaps / gap))))
+        """Return the ends of the gaps around `gap` with at most a size, and the sizes beyond.
+
+        The gaps within the tolerance belong to them.
+        """
         ends, beyond = [], []
-        for step in (-1, 1):
-            j = k
-            while 0 <= j + step < len(self.gaps) and self.sizes[j + step] <= size:
-                j += step
-            ends.append(float(self.gaps[j]))
-            beyond.append(self.sizes[j + step] if 0 <= j + step < len(self.gaps) else np.nan)
+        for end, step in zip(self.task.gap_ends(gap), (-1, 1), strict=True):
+            outside = (self.sizes > size) & (step * (self.gaps / end - 1) > 1e-9)
+            loud = np.flatnonzero(outside)[:: int(step)]
+            last = loud[0] - step if len(loud) else (len(self.gaps) - 1 if step > 0 else 0)
+            ends.append(float(step * max(step * self.gaps[last], step * end)))
+            beyond.append(self.sizes[loud[0]] if len(loud) else np.nan)
         return ends, beyond
+
+    def worst_inside(self, gap) -> np.ndarray:
+        """Return factors for the worst gap within the tolerance, if it is not an end or `gap`."""
+        low, high = self.task.gap_ends(gap)
+        inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
+        known = np.array([low, gap, high])
+        if not len(inside) or self.sizes[inside].max() <= self.within(known, known).max():
+            return np.empty((0, len(NOMINAL)))
+        rows = np.array(self.sets, float)
+        rows[:, 0] = self.gaps[inside[np.argmax(self.sizes[inside])]] / gap
+        return rows
 
     def critical(self) -> np.ndarray:
         """Return the worst frequencies at gaps that do nearly as well as the best."""
@@ -157,36 +172,45 @@ def middle_gap(first, last) -> float:
     return middle
 
 
-def score(task, gaps, frequencies, starts, stream, progress=None) -> tuple:
-    """Return the largest displacement (mm) of few motions at each gap (mm), and its frequency.
+def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
+    """Return displacements (mm) at gaps (mm), and their frequency and set of factors.
 
-    Motions that have not settled count with RECORD times their largest displacement so far.
+    A displacement is the largest one over frequencies and sets, each without the starts that are
+    half of the share allowed to exceed it. Motions that have not settled count with RECORD times
+    their largest displacement so far.
     """
-    cells = [Cell(1e-3 * gap, f) for gap in gaps for f in frequencies]
+    conditions = [(f, tuple(each)) for f in frequencies for each in sets]
+    cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
     motions = run(task, cells, starts, stream, progress)
-    sizes = (motions.peaks * np.where(motions.settled, 1.0, RECORD)).max(axis=1)
-    table = task.millimetres(sizes).reshape(len(gaps), len(frequencies))
-    return table.max(axis=1), np.asarray(frequencies)[table.argmax(axis=1)]
+    sizes = np.sort(motions.peaks * np.where(motions.settled, 1.0, RECORD), axis=1)
+    sizes = sizes[:, -1 - round(starts * (1 - task.share) / 2)]
+    table = task.millimetres(sizes).reshape(len(gaps), len(conditions))
+    worst = table.argmax(axis=1)
+    return table.max(axis=1), [conditions[k][0] for k in worst], [conditions[k][1] for k in worst]
 
 
 def search(task, progress=None, rounds=ROUNDS) -> Curve:
     """Return the curve over all gaps, refined at its jumps and where it is small."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = np.geomspace(*task.gap_span, min(GAPS, 3 * task.effort.candidates + 4))
-    curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress), close=False)
+    first = score(task, gaps, few, STARTS, ("search",), progress)
+    curve.put(gaps, *first[:2], close=False)
     for turn in range(rounds):
         gaps = curve.unclear()[: task.effort.candidates]
         if not len(gaps):
             break
         few = task.few(CLOSE_FREQUENCIES, *curve.critical())
-        stream = "compared", turn
-        curve.put(gaps, *score(task, gaps, few, CLOSE_STARTS, stream, progress))
+        sets = curve.sets if turn else other_sets(task, gaps[0])
+        given = few, CLOSE_STARTS, ("compared", turn), progress, sets
+        sizes, worst, harmful = score(task, gaps, *given)
+        curve.put(gaps, sizes, worst)
+        curve.sets = np.unique([NOMINAL, *harmful], axis=0)
     return curve
 
 
-def search_around(task, gap, progress=None) -> Curve:
-    """Return a curve around a gap (mm) that is given."""
+def search_around(task, gap, sets, progress=None) -> Curve:
+    """Return a curve around a gap (mm) that is given, with sets of factors of other values."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = gap * np.geomspace(0.5, 2, 2 * task.effort.candidates + 1)
-    curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress))
+    curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress, sets)[:2])
     return curve
