@@ -15,10 +15,10 @@ CORNERS = 8
 # that of all sets. A peak is known if the last splitting of the intervals beside it raised it by
 # at most PEAK, and a parabola through it and its neighbours exceeds it by at most as much.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-# Motions are rare in a cell if its bound is larger than RARE times the displacement that the share
-# of its starts exceeds which is allowed. Such a cell is run again with MORE times as many starts,
-# SOME cells at once, until one keeps its bound up to KEPT.
-RARE, MORE, SOME, KEPT = 1.2, 4, 8, 0.95
+# Motions are rare in a cell if its bound is larger than RARE times the displacement that twice the
+# share allowed of its starts exceeds. Such a cell is run again with MORE times as many starts, SOME
+# cells at once, until one keeps its bound up to KEPT.
+RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
 class Promise:
@@ -72,7 +72,7 @@ class Promise:
 
         Together both bounds of a cell are wrong with a probability of at most DOUBT.
         """
-        allowed = int((1 - self.task.share) * self.count) + 1
+        allowed = int(2 * (1 - self.task.share) * self.count) + 1
         usual, bounds = (self.motions.bounds(rank)[0] for rank in (allowed, self.rank))
         for place, bound in self.again.items():
             usual[place] = bounds[place] = bound
