@@ -158,7 +158,7 @@ def test_a_return_level_of_an_exponential_tail(length):
 
 
 def test_a_rare_motion_is_bounded_with_more_starts(monkeypatch):
-    """Made-up motions: 0.8 % of all starts are large. Among 96 there are often two, which decide."""
+    """Made-up motions: 0.8 % of all starts are large; among 96 there are often two."""
 
     def made_up(task, cells, count, stream, progress=None):
         random = np.random.default_rng([count, *stream[1:]])
