@@ -252,12 +252,16 @@ def run_of(project, paths, jobs):
 def crate(root, results, paths):
     """Return the metadata of the crate of some files, and the number of jobs that made them."""
     jobs = jobs_of(root, set(paths))
-    if not jobs:
+    read, made = (
+        {path for job in jobs.values() for path in job[key]} for key in ("input", "output")
+    )
+    unknown = [path for path in paths if path.endswith(".nc") and path not in made]
+    if unknown or not jobs:
         raise ValueError(
-            f"{root / '.snakemake'} has no record of a job: run `make reproduce` first"
+            f"{root / '.snakemake'} has no record of the jobs that made {len(unknown)} datasets, such as "
+            f"{unknown[:1]}: they come from another run or from a cache; delete them and run again"
         )
-    lost = {path for job in jobs.values() for path in job["input"]}.difference(paths)
-    if lost:
+    if lost := read.difference(paths):
         raise ValueError(f"inputs of jobs are not in the archive: {', '.join(sorted(lost))}")
     project = tomllib.loads((root / "pyproject.toml").read_text())["project"]
     rules = sorted({job["rule"] for job in jobs.values()})
