@@ -258,7 +258,7 @@ def crate(root, results, paths):
     unknown = [path for path in paths if path.endswith(".nc") and path not in made]
     if unknown or not jobs:
         raise ValueError(
-            f"{root / '.snakemake'} has no record of the jobs that made {len(unknown)} datasets, such as "
+            f"{root / '.snakemake'} lacks the jobs that made {len(unknown)} datasets, such as "
             f"{unknown[:1]}: they come from another run or from a cache; delete them and run again"
         )
     if lost := read.difference(paths):
