@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from chatterjee1995.methods import fourier
 from chatterjee1995.methods.integrator import Run, stopped
 from chatterjee1995.methods.integrators.taylor import (
     FLIGHT,
@@ -15,6 +16,7 @@ from chatterjee1995.methods.integrators.taylor import (
     step_work,
     work_of_steps,
 )
+from chatterjee1995.methods.many_harmonics import Balance, Solution, solve, state_of
 from chatterjee1995.methods.rigid_impacts import (
     MOST_IMPACTS,
     mended_orbit,
@@ -28,9 +30,8 @@ from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import SPRING_POWER
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.theory import fourier, single_harmonic
+from impact_damper.theory import single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
-from impact_damper.theory.many_harmonics import Balance, Solution, solve, state_of
 
 # Operations of the search for all solutions of the full balance (7), and of the rigid balance (14).
 FULL_WORK, RIGID_WORK = 100 * 130 + 10 * 32**3, 10 * (6**3 + 5**3) + 6 * 10 * 12

@@ -4,6 +4,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import linear_sum_assignment
 
+from chatterjee1995.methods import fourier, hill
+from chatterjee1995.methods.many_harmonics import Balance, refine, single_term, solve, state_of
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import register
 from impact_damper.kernel.equation import forcing_amplitude
@@ -11,8 +13,6 @@ from impact_damper.model.packed import DAMPING, FREQUENCY, cubic_spring, pack
 from impact_damper.model.parameters import describe
 from impact_damper.motions.simulate import simulate
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.theory import fourier, hill
-from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
 
 register(
     """

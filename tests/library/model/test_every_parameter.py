@@ -13,6 +13,7 @@ from references import equation, extended
 from references.equation import SPRINGS
 
 from chatterjee1995.methods.equations import rate
+from chatterjee1995.methods.many_harmonics import Balance
 from impact_damper.kernel import batch
 from impact_damper.kernel import equation as kernel
 from impact_damper.model.families import FORCING
@@ -34,7 +35,6 @@ from impact_damper.theory.free_oscillator import (
     maximum_response,
     resonance,
 )
-from impact_damper.theory.many_harmonics import Balance
 from impact_damper.theory.single_harmonic import (
     impacting_solutions,
     resting_solutions,
@@ -146,7 +146,7 @@ BENT_PLACES = {
     "theory/design_rule.py": [peak_frequency, partial(rule_clearance, mass_ratio=0.1)],
 }
 # Files that need a spring force that is odd in Z1.
-SYMMETRIC = "theory/many_harmonics.py, orbits/quiet_orbits.py, orbits/shooting.py"
+SYMMETRIC = "methods/many_harmonics.py, orbits/quiet_orbits.py, orbits/shooting.py"
 
 
 def flat(result):

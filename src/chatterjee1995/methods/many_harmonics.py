@@ -9,9 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
+from chatterjee1995.methods import fourier
 from impact_damper.model.exit_rules import ZERO_PENETRATION
 from impact_damper.model.parameters import SPRING_POWER, check_closed_form
-from impact_damper.theory import fourier, single_harmonic
+from impact_damper.theory import single_harmonic
 from impact_damper.theory.free_oscillator import main_solutions
 
 
@@ -25,8 +26,6 @@ class Balance:
     highest: int
 
     def __post_init__(self):
-        if self.highest % 2 == 0:
-            raise ValueError(f"highest = {self.highest}: must be odd (the motion is symmetric)")
         if self.damper is not None:
             check_closed_form(self.oscillator, self.damper)
             if self.damper.exit_rule != ZERO_PENETRATION:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from impact_damper.theory import fourier
+from chatterjee1995.methods import fourier
 
 ONE = np.array([1])
 
