@@ -63,7 +63,9 @@ def codemeta(project, cited):
 
 
 def article(reference):
-    """Return a reference of CITATION.cff as an article of schema.org."""
+    """Return a reference of CITATION.cff as an article, with the terms that CodeMeta has."""
+    issue = f"{reference['volume']}({reference['issue']})"
+    pages = f"{reference['start']}-{reference['end']}"
     return {
         "@type": "ScholarlyArticle",
         "name": reference["title"],
@@ -76,8 +78,7 @@ def article(reference):
             for each in reference["authors"]
         ],
         "datePublished": str(reference["year"]),
-        "isPartOf": {"@type": "Periodical", "name": reference["journal"]},
-        "pagination": f"{reference['start']}-{reference['end']}",
+        "isPartOf": {"@type": "CreativeWork", "name": f"{reference['journal']} {issue}, {pages}"},
     }
 
 
