@@ -6,6 +6,8 @@ CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
+FOR_TESTS := $(VENV)/ready-for-tests
+FOR_BENCHMARKS := $(VENV)/ready-for-benchmarks
 
 .PHONY: reproduce smoke slurm kernels test quick same-bytes benchmark faults lint format docs lock \
 	lowest release citation archive archive-check clean
@@ -18,7 +20,7 @@ smoke: $(READY)
 
 # The smoke run (every stage, with little data) on a Slurm that is set up only for it; needs root
 # and the packages of Slurm.
-slurm: $(READY)
+slurm: $(FOR_TESTS)
 	profiles/slurm/try.sh $(abspath $(BIN))/snakemake
 
 # Compile the kernels (functions compiled by numba) before the tests, so that the processes of the
@@ -34,57 +36,81 @@ TESTS := $(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadsc
 # Keep bytecode even if the environment forbids it. Otherwise each process would compile the 400
 # modules of the package and the tests again.
 test quick: export PYTHONDONTWRITEBYTECODE =
-test: kernels
+test: kernels $(FOR_TESTS)
 	$(TESTS) $(PYTEST)
 
 # Without the tests marked `workflow` or `thorough`; pyproject.toml describes these marks.
-quick: kernels
+quick: kernels $(FOR_TESTS)
 	$(TESTS) -m "not workflow and not thorough" $(PYTEST)
 
 # Compare the results of two runs, on one core and on two, byte by byte. `make same-bytes CONFIG=`,
 # with nothing after the equals sign, compares runs of the whole paper instead of the smoke run.
 CONFIG ?= config/smoke.yaml
-same-bytes: $(READY)
+same-bytes: $(FOR_TESTS)
 	PYTHONPATH=tests $(BIN)/python -m helpers.same_bytes $(CONFIG)
 
 # Measure times of the integrator and of other programs, into results/benchmarks/. The reference
 # program that measures errors is in tests/references/.
-benchmark: $(READY)
+benchmark: $(FOR_BENCHMARKS)
 	PYTHONPATH=tests $(BIN)/python -m benchmarks
 
 # Test whether a run recovers from kills, damaged files, full disks and so on.
-faults: $(READY)
+faults: $(FOR_TESTS)
 	PYTHONPATH=tests $(BIN)/python -m faults
 
-lint: $(READY)
+lint: $(FOR_TESTS)
 	$(BIN)/ruff format --check benchmarks docs src tests workflow
 	$(BIN)/ruff check benchmarks docs src tests workflow
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/snakemake --lint
 
-format: $(READY)
+format: $(FOR_TESTS)
 	$(BIN)/ruff check --fix benchmarks docs src tests workflow
 	$(BIN)/ruff format benchmarks docs src tests workflow
 	$(BIN)/snakefmt Snakefile workflow
 
-# The environment in .venv, made again only if requirements.lock or pyproject.toml has changed.
+# The environment in .venv, made again only if requirements.lock or pyproject.toml has changed. The
+# lock file has three parts: packages for a run, for tests and documentation, and for benchmarks.
 $(READY): requirements.lock pyproject.toml
 	$(PYTHON) -m venv --clear $(VENV)
-	$(BIN)/pip install --require-hashes -r requirements.lock
+	sed '/^# For test/,$$d' requirements.lock > $(VENV)/run.lock
+	$(BIN)/pip install --require-hashes -r $(VENV)/run.lock
 	$(BIN)/pip install --no-deps --no-build-isolation --editable .
+	touch $@
+
+$(FOR_TESTS): $(READY)
+	sed '/^# For benchmark/,$$d' requirements.lock > $(VENV)/test.lock
+	$(BIN)/pip install --require-hashes -r $(VENV)/test.lock
+	touch $@
+
+$(FOR_BENCHMARKS): $(FOR_TESTS)
+	$(BIN)/pip install --require-hashes -r requirements.lock
 	touch $@
 
 # The documentation, into docs/_build/html. Sphinx runs the tutorials; the pages show claims and
 # figures of the last run in results/.
-docs: kernels
+docs: kernels $(FOR_TESTS)
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going --jobs auto docs docs/_build/html
 	$(BIN)/python -m pytest -q tests/docs
 
-# For developers, after a change of the dependencies; needs uv.
+# For developers, after a change of the dependencies; needs uv. All versions are chosen together; the
+# shorter lists only tell which packages a run and the tests need.
+COMPILE := uv pip compile pyproject.toml --quiet --group build --universal --python-version 3.11 \
+	--no-emit-index-url --no-header
+LISTS := .lists
 lock:
-	uv pip compile pyproject.toml --extra command --extra workflow --extra slurm --extra test \
-		--extra docs --group build --universal --python-version 3.11 \
-		--generate-hashes --no-emit-index-url --no-header --output-file requirements.lock
+	mkdir -p $(LISTS)
+	cp requirements.lock $(LISTS)/all
+	$(COMPILE) --all-extras --generate-hashes --output-file $(LISTS)/all
+	$(COMPILE) --extra workflow --constraint $(LISTS)/all --output-file $(LISTS)/run
+	$(COMPILE) --extra command --extra workflow --extra slurm --extra test --extra docs \
+		--constraint $(LISTS)/all --output-file $(LISTS)/test
+	cd $(LISTS) && for part in run test benchmark; do \
+		echo "# For $$part"; \
+		awk -v part=$$part 'FILENAME != "all" { if (!($$1 in of)) of[$$1] = FILENAME; next } \
+			/^[a-z]/ { mine = (part == ($$1 in of ? of[$$1] : "benchmark")) } mine' run test all; \
+	done > ../requirements.lock
+	rm -r $(LISTS)
 
 # For developers, after a change of the lower bounds in pyproject.toml; needs uv. Installs the
 # oldest versions that these bounds allow and runs the tests of the library with them.
