@@ -12,6 +12,7 @@ from benchmarks import (
     machine,
     orbits,
     overhead,
+    promises,
     ratios,
     scaling,
     scenes,
@@ -28,10 +29,11 @@ from impact_damper.plot.style import save_figure
 # Amounts of work: in full, and as little as possible, to try the scripts.
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
         "sizes": (1, 16, 64, 256, 1024), "shared": 65536, "wide": 1000, "random": 40,
-        "settled": 2000,
+        "settled": 2000, "drawn": 10,
         "design": ({"frequencies": 41, "candidates": 12, "starts": 96}, 0.95)}  # fmt: skip
 QUICK = {"starts": 16, "rounds": 3, "few": 1, "exponents": (5, 9), "motions": 2,
          "sizes": (1, 16), "shared": 256, "wide": 20, "random": 1, "settled": 64,
+         "drawn": 0,
          "design": ({"frequencies": 3, "candidates": 4, "starts": 16}, 0.8)}  # fmt: skip
 RUN_FIRST = "no timings of the pipeline in {}: run `make reproduce` first"
 
@@ -94,6 +96,11 @@ def time_designs(write, amount):
     write("design", design.table(*amount["design"]), how=design.HOW)
 
 
+def keep_promises(write, amount):
+    """Hold the promises of designs against another program."""
+    write("promises", promises.table(amount["drawn"], workers=2), how=promises.HOW)
+
+
 def settle(write, amount):
     """Count starts settled, states of a plane labelled, and orbits found in a second."""
     with one_core():
@@ -112,6 +119,7 @@ PARTS = {
     "searches": search,
     "settled": settle,
     "design": time_designs,
+    "promises": keep_promises,
 }
 
 

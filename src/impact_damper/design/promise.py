@@ -15,6 +15,8 @@ CORNERS = 8
 # that of all sets. A peak is known if the last splitting of the intervals beside it raised it by
 # at most PEAK, and a parabola through it and its neighbours exceeds it by at most as much.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
+# Sets of factors after the first one begin with half of the grid, or FEWEST frequencies.
+FEWEST = 9
 # Motions are rare in a cell if its bound is larger than RARE times the displacement that twice the
 # share allowed of its starts exceeds. Such a cell is run again with MORE times as many starts, SOME
 # cells at once, until one keeps its bound up to KEPT.
@@ -47,8 +49,10 @@ class Promise:
         self.rank = bounding_rank(task.share, self.count)
         self.cells, self.motions, self.peak_known = [], None, True
         self.again = {}  # dimensionless bounds of cells that were run again
-        grid = task.grid if frequencies is None else frequencies
-        self.add([(k, f) for k in range(len(self.sets)) for f in grid])
+        few = task.few(max(FEWEST, (len(task.grid) + 1) // 2))
+        full, half = (task.grid, few) if frequencies is None else (frequencies, frequencies)
+        deviating = [(k, f) for k in range(1, len(self.sets)) for f in half]
+        self.add([(0, f) for f in full] + deviating)
 
     def add(self, cells) -> None:
         """Run cells, and bound the displacements of all."""

@@ -204,7 +204,7 @@ def search(task, progress=None, rounds=ROUNDS) -> Curve:
         given = few, CLOSE_STARTS, ("compared", turn), progress, sets
         sizes, worst, harmful = score(task, gaps, *given)
         curve.put(gaps, sizes, worst)
-        curve.sets = np.unique([NOMINAL, *harmful], axis=0)
+        curve.sets = np.unique(harmful, axis=0)
     return curve
 
 
