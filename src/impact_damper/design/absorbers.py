@@ -15,7 +15,7 @@ of the table, is g(s) N(s)/D(s) with
     acceleration B of the base        B/w1^2                  (1 + 4 z1^2 s)/s^2
 
 m1, k and w1 are mass, stiffness and natural frequency (rad/s) of the machine. All maxima follow
-from impact_damper.model.units import UNITLESS
+from the roots of a polynomial in s.
 """
 
 import math
@@ -27,10 +27,7 @@ from scipy.optimize import minimize_scalar
 
 from impact_damper.data.datasets import flag
 from impact_damper.design.task import labelled
-from impact_damper.model.arguments import read_numbers
-from impact_damper.model.bounds import MASS_RATIO_RANGE, shown
-from impact_damper.model.machine import Machine, TunedAbsorber
-from impact_damper.model.units import UNITLESS, check_si
+from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 from impact_damper.theory.tuned_mass_damper import Tuning, exact_optimum
 
@@ -45,8 +42,6 @@ PLACES = 9
 BAND_DAMPINGS = np.geomspace(1e-3, 0.3, 10)
 # Tolerances of the logarithms of tuning and damping ratio when the optimum is refined.
 TUNING_TOLERANCE, DAMPING_TOLERANCE = 1e-11, 1e-10
-
-
 COMPETITORS = ("bare", "tuned", "own")
 # Force shares: factors of the machine's excitation, from a quarter to four.
 SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
@@ -70,42 +65,15 @@ class LinearMachine(NamedTuple):
 def absorber_responses(
     machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None, own=None
 ):
-    """Return the displacements of a machine alone and with a tuned absorber.
+    """Return the displacements (mm) of a machine alone, with a tuned absorber, and with its `own`.
 
-    Parameters
-    ----------
-    machine : Machine
-    mass : float, str or pint.Quantity
-        Mass of the absorber, kg.
-    frequencies : sequence of float
-        Increasing forcing frequencies, Hz.
-    force_shares : sequence of float
-        Increasing factors of the machine's excitation.
-    detunings : sequence of float
-        Increasing relative changes of the absorber's stiffness; 0.1 is 10 per cent stiffer than
-        designed.
-    band : sequence of 2 floats, optional
-        Lowest and highest frequency, Hz, over which the absorber is tuned; by default all
-        frequencies or, for a machine with `base_acceleration`, those from the first to the last of
-        `frequencies`.
-    own : TunedAbsorber, optional
-        An absorber of one's own, the third competitor, "own".
-
-    Returns
-    -------
-    xarray.Dataset
-        Displacements over competitor, detuning, frequency and force share, stiffness and damping
-        of the absorber, and `competitor_status`. The values "exact" hold for a linear machine; with
-        a cubic spring they are the balance of one harmonic.
+    The masses are in kg, frequencies in Hz; `force_shares` multiply the excitation, `detunings` are
+    relative changes of the absorber's stiffness, and it is tuned over `band`. The values "exact"
+    hold for a linear machine; with a cubic spring they are the balance of one harmonic.
     """
-    mass = check_mass(machine, mass)
-    frequencies, shares = check_grid(machine, frequencies, force_shares)
-    detunings = _increasing(
-        "detunings", read_numbers(UNITLESS, "detunings", detunings, above=-1, most=10)
-    )
     names = COMPETITORS[: 2 if own is None else 3]
-    sizes = np.full((len(names), len(detunings), len(frequencies), len(shares)), np.nan)
-    sizes[0] = response(machine, None, frequencies, shares)
+    sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)
+    sizes[0] = response(machine, None, frequencies, force_shares)
     springs = np.full((2, *sizes.shape[:2]), np.nan)
     kind = "one_harmonic" if machine.cubic_stiffness else "exact"
     status, absorbers = [kind] * len(names), {}
@@ -118,7 +86,7 @@ def absorber_responses(
     for row, absorber in absorbers.items():
         for column, detuning in enumerate(detunings):
             built = absorber.detuned(detuning)
-            sizes[row, column] = response(machine, built, frequencies, shares)
+            sizes[row, column] = response(machine, built, frequencies, force_shares)
             springs[:, row, column] = built.stiffness, built.damping
     values = {
         "competitor_displacement": 1e3 * sizes,
@@ -131,67 +99,19 @@ def absorber_responses(
         competitor=list(names),
         detuning=detunings,
         frequency=frequencies,
-        force_share=shares,
+        force_share=force_shares,
     )
-
-
-def check_grid(machine, frequencies, force_shares):
-    """Return frequencies and force shares as arrays."""
-    if not isinstance(machine, Machine):
-        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
-    if machine.force == 0:
-        raise ValueError("force = 0 N: must be greater than 0 N (without excitation nothing moves)")
-    listed = frequencies if isinstance(frequencies, list | tuple) else np.atleast_1d(frequencies)
-    checked = [machine.check_frequency(f"frequencies[{i}]", each) for i, each in enumerate(listed)]
-    shares = read_numbers(UNITLESS, "force_shares", force_shares, above=0, most=1e6)
-    return _increasing("frequencies", checked), _increasing("force_shares", shares)
-
-
-def _increasing(name, values):
-    values = np.asarray(values, float)
-    if len(values) == 0 or np.any(np.diff(values) <= 0):
-        raise ValueError(
-            f"{name} = {shown(values.tolist())}: must be increasing, and at least one value"
-        )
-    return values
-
-
-def check_mass(machine, mass) -> float:
-    """Return the mass of an absorber in kg, if it is allowed for the machine."""
-    if not isinstance(machine, Machine):
-        raise TypeError(f"machine = {shown(machine)}: must be a Machine")
-    least = MASS_RATIO_RANGE["least"] * machine.mass
-    return check_si(
-        "mass", mass, "mass", least=least, most=machine.mass, why="the mass of the machine"
-    )
-
-
-def check_band(machine, band) -> tuple:
-    """Return lowest and highest frequency of a band in Hz."""
-    if np.ndim(band) != 1 or len(band) != 2:
-        raise TypeError(f"band = {shown(band)}: must be lowest and highest frequency")
-    ends = tuple(machine.check_frequency(f"band[{place}]", end) for place, end in enumerate(band))
-    if ends[0] >= ends[1]:
-        raise ValueError(f"band = {shown(band)}: must be lowest and highest frequency, in order")
-    return ends
 
 
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
     """Return the absorber that minimises the largest displacement of the linear machine.
 
-    At the optimum the two highest maxima, or a maximum and an end of the band, are equally high.
-
-    Parameters
-    ----------
-    machine : Machine
-        Its cubic stiffness is ignored.
-    mass : float, str or pint.Quantity
-        kg.
-    band : sequence of 2 floats, optional
-        Lowest and highest forcing frequency, Hz; by default all frequencies.
+    Its cubic stiffness is ignored. The masses are in kg, `band` in Hz; without a band all
+    frequencies count. At the optimum the two highest maxima, or a maximum and an end of the band,
+    are equally high.
     """
-    ratio, linear = check_mass(machine, mass) / machine.mass, linear_machine(machine)
-    limits = _limits(machine, linear, band)
+    ratio, linear = mass / machine.mass, linear_machine(machine)
+    limits = (0.0, math.inf) if band is None else tuple(f / linear.natural_frequency for f in band)
 
     def highest(log_tuning, log_damping):
         tuning = Tuning(ratio, math.exp(log_tuning), math.exp(log_damping))
@@ -273,18 +193,9 @@ def maxima(linear, tuning, band):
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     """Return the largest amplitude, m, shape (frequencies, force shares); infinite if it escapes.
 
-    The response is exact for a linear machine. With a cubic spring it is the balance of one
-    harmonic: the largest amplitude that is stable against folds and, with a softening spring, below
-    the barrier. Other instabilities and other motions are not seen.
-
-    Parameters
-    ----------
-    machine : Machine
-    absorber : TunedAbsorber or None
-    frequencies : sequence of float
-        Hz.
-    force_shares : sequence of float
-        Factors of the excitation.
+    It is exact for a linear machine. With a cubic spring it is the balance of one harmonic: the
+    largest amplitude that is stable against folds and, with a softening spring, below the barrier.
+    Other instabilities and other motions are not seen. Frequencies are in Hz.
     """
     scales = machine.scales
     sizes = np.empty((len(frequencies), len(force_shares)))
@@ -349,13 +260,6 @@ def _absorber(machine, tuning):
     return TunedAbsorber(
         mass=mass, stiffness=mass * own**2, damping=2 * mass * tuning.damping_ratio * own
     )
-
-
-def _limits(machine, linear, band):
-    """Return a band as lowest and highest r."""
-    if band is not None:
-        return tuple(end / linear.natural_frequency for end in check_band(machine, band))
-    return 0.0, math.inf
 
 
 def _around_optimum(ratio, limits, highest):

@@ -7,7 +7,7 @@ from scipy.special import bdtr
 
 from impact_damper.data.shares import DOUBT, bounding_rank
 from impact_damper.design.cells import STREAMS, Cell, run
-from impact_damper.design.task import NOMINAL, VARIED
+from impact_damper.design.task import VARIED
 
 # Largest number of corners of the tolerances; of more, some are drawn.
 CORNERS = 8
@@ -173,12 +173,6 @@ def factor_sets(task, gap) -> np.ndarray:
     place = VARIED.index("restitution")
     rows[:, place] = np.minimum(rows[:, place], 1 / task.restitution)
     return rows[np.sort(np.unique(rows, axis=0, return_index=True)[1])]
-
-
-def gap_sets(task, gap) -> np.ndarray:
-    """Return the rows of `factor_sets` in which at most the gap deviates."""
-    rows = factor_sets(task, gap)
-    return rows[(rows[:, 1:] == np.array(NOMINAL)[1:]).all(axis=1)]
 
 
 def other_sets(task, gap) -> np.ndarray:
