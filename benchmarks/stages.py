@@ -1,4 +1,11 @@
-"""Time and memory of each stage of the pipeline, from the files that its jobs wrote."""
+"""Time and memory of each stage of the pipeline, from the files that its jobs wrote.
+
+`python -m benchmarks.stages` writes the costs of the last run in `results` into `config/README.md`.
+"""
+
+import json
+import re
+from pathlib import Path
 
 import pandas as pd
 
@@ -49,3 +56,30 @@ def table(folder):
     return made.sort_values(
         "seconds", ascending=False, key=lambda s: s.where(made["stage"] != "total", -1.0)
     ).reset_index(drop=True)
+
+
+def with_costs(text, results):
+    """Return the text of `config/README.md` with jobs and CPU seconds of the run in `results`.
+
+    A row of its table names stages, and has the costs of their jobs. It stays if there were none.
+    """
+    costs = jobs(results / "timings").groupby("stage")["cpu_seconds"].agg(["size", "sum"])
+    machine = json.loads((results / "provenance.json").read_text())["machine"]
+
+    def row(match):
+        found = costs.loc[costs.index.intersection(re.findall(r"`(\w+)`", match[1]))].sum()
+        if not found["size"]:
+            return match[0]
+        return f"{match[1]}| {found['size']:.0f} | {found['sum']:.0f} |"
+
+    head, rest = text.split("| stage | result | jobs | CPU seconds |\n")
+    rows, end = rest.split("\n\n", 1)
+    rows = re.sub(r"^(\|.*)\| \d+ \| \d+ \|$", row, rows, flags=re.MULTILINE)
+    where = f"{machine['cores']} cores of {machine['processor']}, {costs['sum'].sum():.0f} in all"
+    head = re.sub(r"\(measured on [^)]*\)", f"(measured on {where})", head)
+    return f"{head}| stage | result | jobs | CPU seconds |\n{rows}\n\n{end}"
+
+
+if __name__ == "__main__":
+    page = Path("config/README.md")
+    page.write_text(with_costs(page.read_text(), Path("results")))

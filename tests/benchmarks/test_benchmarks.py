@@ -93,6 +93,14 @@ def test_stages_are_gathered_from_the_pipelines_timings(tmp_path):
     assert table.loc["total", ["seconds", "cpu_seconds", "memory_mb"]].tolist() == [10, 4, 250]
     table_files.save_table(table.reset_index(), tmp_path / "t.csv", tmp_path / "t.md")
     assert stages.table(tmp_path / "nothing").empty
+    (tmp_path / "timings").mkdir()
+    (tmp_path / "free").rename(tmp_path / "timings/free")
+    (tmp_path / "provenance.json").write_text('{"machine": {"cores": 2, "processor": "a CPU"}}')
+    page = """(measured on b)\n| stage | result | jobs | CPU seconds |
+| `free` | motions | 9 | 90 |\n| `other` | x | 8 | 80 |\n\nend"""
+    assert stages.with_costs(page, tmp_path) == page.replace(
+        "on b", "on 2 cores of a CPU, 2 in all"
+    ).replace("9 | 90", "2 | 2")
 
 
 @pytest.mark.workflow
