@@ -5,17 +5,17 @@ damping ratio z1. The absorber has the mass ratio m, the tuning f (its natural f
 the machine's) and the damping ratio z. The square of a linear machine's displacement, in the unit
 of the table, is g(s) N(s)/D(s) with
 
-    N = (f^2 - s)^2 + 4 z^2 f^2 s
+    N = (b f^2 - s)^2 + 4 z^2 b^2 f^2 s
     D = [(1 - s)(f^2 - s) - 4 z1 z f s - m f^2 s]^2 + 4 s [z1 (f^2 - s) + z f (1 - s) - m z f s]^2
 
-    excitation                        unit of displacement    g
-    force F                           F/k                     1
-    unbalance m_e r_e                 m_e r_e/m1              s^2
-    displacement A of the base        A                       1 + 4 z1^2 s
-    acceleration B of the base        B/w1^2                  (1 + 4 z1^2 s)/s^2
+    excitation                        unit of displacement    g      b
+    force F                           F/k                     1      1
+    unbalance m_e r_e                 m_e r_e/m1              s^2    1
+    displacement A of the base        A                       s^2    1 + m
+    acceleration B of the base        B/w1^2                  1      1 + m
 
-m1, k and w1 are mass, stiffness and natural frequency (rad/s) of the machine. All maxima follow
-from the roots of a polynomial in s.
+m1, k and w1 are mass, stiffness and natural frequency (rad/s) of the machine. A moving base
+accelerates both masses, and displacements are relative to it.
 """
 
 import math
@@ -49,11 +49,7 @@ DETUNINGS = (-0.1, 0.0, 0.1)
 
 
 class LinearMachine(NamedTuple):
-    """Numbers of a linear machine: z1, g(s) without its denominator, unit (m), frequency (Hz).
-
-    `forcing` holds the coefficients of g, lowest power first; `falling` is 2 if g has the
-    denominator s^2, else 0.
-    """
+    """Numbers of a linear machine: z1, coefficients of g(s), unit (m), natural frequency (Hz)."""
 
     damping_ratio: float
     forcing: np.ndarray
