@@ -24,7 +24,7 @@ from benchmarks import (
 from benchmarks.rivals import table as rivals
 from benchmarks.timing import one_core
 from chatterjee1995.tables import files as table_files
-from impact_damper.plot.style import save_figure
+from impact_damper.plot import style
 
 # Amounts of work: in full, and as little as possible, to try the scripts.
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
@@ -138,7 +138,7 @@ def main():
         document = machine.document(how)
         table_files.save_table(table, into / f"{name}.csv", into / f"{name}.md", document)
         if drawing is not None:
-            save_figure(drawing, into / name)
+            style.save_figure(drawing, into / name)
 
     begin = time.perf_counter()
     for name in parts:

@@ -16,7 +16,7 @@ from benchmarks.methods import RIVALS, TIMED, applying, starts_of
 from benchmarks.timing import interleaved
 from chatterjee1995.methods.integrators import runs_of_accuracy
 from chatterjee1995.methods.labels import colour_of
-from impact_damper.plot.style import BLACK, BLUE, GREY, SKY, figure, legend, letter_panels, style
+from impact_damper.plot import style
 
 # After a run that took longer than this, in seconds, no tighter tolerance is tried.
 LONG = 0.5
@@ -24,12 +24,12 @@ LONG = 0.5
 LOST = 0.1
 # Colour, line and marker of the kernel and of heyoka.py; rivals have the colour of their figures.
 LOOK = {
-    "kernel": (BLUE, "-", "o"),
-    "kernel_12_15": (BLUE, "--", "4"),
-    "kernel_24_30": (BLUE, ":", "*"),
-    "kernel_ensemble": (SKY, "-", "s"),
-    "heyoka": (BLACK, "-", "^"),
-    "heyoka_batch": (GREY, "-", "v"),
+    "kernel": (style.BLUE, "-", "o"),
+    "kernel_12_15": (style.BLUE, "--", "4"),
+    "kernel_24_30": (style.BLUE, ":", "*"),
+    "kernel_ensemble": (style.SKY, "-", "s"),
+    "heyoka": (style.BLACK, "-", "^"),
+    "heyoka_batch": (style.GREY, "-", "v"),
 }
 MARKERS = "DP<>"
 
@@ -80,13 +80,13 @@ def points(scenes, exponents, rounds, names=tuple(TIMED)):
     return pd.DataFrame(rows)
 
 
-@style()
+@style.context()
 def draw(table):
     """Draw a panel for each scene, from the table of `points`."""
     names = list(dict.fromkeys(table["scene"]))
     columns = 2
     rows = math.ceil(len(names) / columns)
-    drawn = figure("double", 1.6 + 2.5 * rows)
+    drawn = style.figure("double", 1.6 + 2.5 * rows)
     panels = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
     for axes, scene in zip(panels, names, strict=False):
         here = table[table["scene"] == scene]
@@ -97,8 +97,8 @@ def draw(table):
             look = {"color": color, "linestyle": line, "marker": marker} | inside
             axes.plot(found["microseconds"], found["error"], label=TIMED[name].title, **look)
             axes.plot(lost["microseconds"], np.ones(len(lost)), "x", color=color)
-        axes.plot([], [], color=BLACK, linestyle="none", marker="x", label="failed")
-        axes.axhline(LOST, color=GREY, linewidth=0.6)
+        axes.plot([], [], color=style.BLACK, linestyle="none", marker="x", label="failed")
+        axes.axhline(LOST, color=style.GREY, linewidth=0.6)
         axes.set(xscale="log", yscale="log", ylim=(1e-14, 3.0))
         axes.text(
             0.98, 0.02, scene.replace("_", " "), transform=axes.transAxes, ha="right", va="bottom"
@@ -110,6 +110,6 @@ def draw(table):
     for axes in panels[max(0, len(names) - columns) : len(names)]:
         axes.set_xlabel("Time per forcing cycle and trajectory (µs)")
         axes.tick_params(labelbottom=True)
-    letter_panels(panels[: len(names)])
-    legend(drawn, 3)
+    style.letter_panels(panels[: len(names)])
+    style.legend(drawn, 3)
     return drawn

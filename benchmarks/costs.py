@@ -19,7 +19,7 @@ from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions.records import measured
 from impact_damper.motions.simulate import random_states
-from impact_damper.plot.style import curve, figure, legend, letter_panels, points, style
+from impact_damper.plot import style
 
 OSCILLATOR = Oscillator(0.215)
 DAMPER = Damper(0.12, 2.0)
@@ -100,11 +100,11 @@ def fitted(table):
     return pd.DataFrame(rows)
 
 
-@style()
+@style.context()
 def draw(table):
     """Draw the time of a cycle: of free motions over (2 pi/W) max |Z1|, of others over contacts."""
     table = table.assign(turns=2 * math.pi / table["frequency"] * table["displacement"])
-    drawn = figure("double", 3.2)
+    drawn = style.figure("double", 3.2)
     left, right = drawn.subplots(1, 2, sharey=True)
     free = table[table["contacts"] == 0]
     damped = table[table["contacts"] > 0]
@@ -112,14 +112,16 @@ def draw(table):
         label = f"tolerance $10^{{{round(math.log10(tolerance))}}}$"
         for axes, of, across in ((left, free, "turns"), (right, damped, "contacts")):
             of = of[of["tolerance"] == tolerance]
-            axes.plot(of[across], of["median_us"], label=label, **points(i) | {"markersize": 3})
+            axes.plot(
+                of[across], of["median_us"], label=label, **style.points(i) | {"markersize": 3}
+            )
             trend = np.polynomial.Polynomial.fit(of[across], of["median_us"], 1)
-            axes.plot(*trend.linspace(2), **curve(i))
+            axes.plot(*trend.linspace(2), **style.curve(i))
     left.set(
         xlabel=r"Largest displacement times period, $2\pi\,\max\,|Z_1|/\Omega$", ylim=(0, None)
     )
     left.set_ylabel("Time per forcing cycle (µs)")
     right.set_xlabel("Contacts per cycle")
-    letter_panels([left, right])
-    legend(drawn, 3)
+    style.letter_panels([left, right])
+    style.legend(drawn, 3)
     return drawn

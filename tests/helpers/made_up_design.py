@@ -65,10 +65,9 @@ def _complete(decision):
         addition=ADDITIONS,
     )
     data = data.merge(labelled(_motions()))
-    data = data.merge(labelled(_branches()))
+    data = data.merge(labelled(_orbits()))
     data = data.merge(_transients())
     data = data.merge(labelled(_absorbers()))
-    data["followed_value"] = ("point", np.linspace(*FREQUENCY[[0, -1]], 6))
     return data
 
 
@@ -155,13 +154,8 @@ def _motions():
     }
 
 
-def _branches():
-    x = np.linspace(26.0, 34.0, 6)
+def _orbits():
     return {
-        "orbit_branch": np.zeros(6, int),
-        "orbit_displacement": np.linspace(0.5, 0.3, 6),
-        "orbit_stability": np.where(x < 30, 1, -1),
-        "branch_period": [1],
         "gap_of_orbit": [6.0, 7.0, 8.0, 9.0],
         "displacement_by_gap": [0.8, 0.7, 0.5, 0.4],
         "modulus_by_gap": [1.2, 0.9, 0.8, 1.1],

@@ -8,16 +8,16 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from chatterjee1995.methods.integrators import runs_of_accuracy
 from chatterjee1995.methods.labels import colour_of, method_in_words
 from impact_damper.data.datasets import decode, parameters_of
-from impact_damper.plot.style import BLACK, GREY, PALE, SKY, grid, legend, style
+from impact_damper.plot import style
 
 # Colour, marker and line of models that solve for an orbit directly.
 MODELS = {
-    "rigid": (GREY, "s", "none"),
-    "rigid_mended": (GREY, "D", "none"),
-    "rigid_balance": (SKY, "P", "none"),
-    "full_balance": (SKY, "X", "none"),
-    "many_harmonics": (SKY, "h", "-"),
-    "shooting": (BLACK, "*", "none"),
+    "rigid": (style.GREY, "s", "none"),
+    "rigid_mended": (style.GREY, "D", "none"),
+    "rigid_balance": (style.SKY, "P", "none"),
+    "full_balance": (style.SKY, "X", "none"),
+    "many_harmonics": (style.SKY, "h", "-"),
+    "shooting": (style.BLACK, "*", "none"),
 }
 # Marker and line of integrators, by whether they locate contacts, and of other Taylor orders.
 LOCATED = {True: ("^", "-"), False: ("v", ":")}
@@ -38,15 +38,15 @@ ENDED = "ok", "missed_contacts", "invented_contacts"
 DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 
-@style()
+@style.context()
 def draw_accuracy(*, accuracy):
     """Draw a panel for each dataset of the stage accuracy, a colour and marker for each method."""
-    drawn, panels = grid(len(accuracy), 2.4, 1.5)
+    drawn, panels = style.grid(len(accuracy), 2.4, 1.5)
     for axes, data in zip(panels, accuracy, strict=True):
         _panel(axes, data)
     for axes in panels[-2:]:
         axes.set_xlabel("Floating-point operations")
-    legend(drawn, 4)
+    style.legend(drawn, 4)
     return drawn
 
 
@@ -69,17 +69,17 @@ def _panel(axes, data):
             looks = {"color": role[1], "markersize": 4, "clip_on": False}
             top = np.full(len(stopped), high)
             axes.plot(stopped, top, role[2], markerfacecolor="none", **looks)
-            axes.plot(stopped, top, "+", color=BLACK, markersize=7, clip_on=False)
+            axes.plot(stopped, top, "+", color=style.BLACK, markersize=7, clip_on=False)
     if quantity == "contacts":
         words = "errors above 1: the motion left the orbit"
         axes.text(0.02, 0.86, words, transform=axes.transAxes, fontsize=7)
     else:
         required = made["accuracy"]["within"]
         axes.axhline(
-            required, color=BLACK, linestyle="--", linewidth=0.9, label="required accuracy"
+            required, color=style.BLACK, linestyle="--", linewidth=0.9, label="required accuracy"
         )
-    axes.plot([], [], "o", color=GREY, markerfacecolor="none", label=DOUBTFUL)
-    axes.plot([], [], "+", color=BLACK, label="no result")
+    axes.plot([], [], "o", color=style.GREY, markerfacecolor="none", label=DOUBTFUL)
+    axes.plot([], [], "+", color=style.BLACK, label="no result")
     decades = np.log10(work[work > 0])
     ends = 10 ** np.floor(decades.min()), 10 ** np.ceil(decades.max())
     axes.set(xscale="log", yscale="log", xlim=ends, ylim=(low, high), ylabel=label)
@@ -94,7 +94,7 @@ def _errors(axes, data, quantity):
     of = data.sel(statistic=quantity)
     truth = float(of["reference_average"])
     doubt = float(of["reference_average_error"]) / truth
-    axes.axhspan(1e-9, doubt, color=PALE, zorder=0, label="error of the reference")
+    axes.axhspan(1e-9, doubt, color=style.PALE, zorder=0, label="error of the reference")
     return np.abs(of["average"].values / truth - 1), of["average_error"].values / truth
 
 

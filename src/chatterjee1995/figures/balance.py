@@ -5,30 +5,9 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 
 from impact_damper.data.datasets import decode, has_damper, parameters_of
+from impact_damper.plot import style
 from impact_damper.plot.maps import edges_of
 from impact_damper.plot.maps import hatch as hatch_cells
-from impact_damper.plot.style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PALE,
-    PALE_SKY,
-    PURPLE,
-    ROLES,
-    SKY,
-    VERMILION,
-    WHITE,
-    axis_label,
-    curve,
-    figure,
-    legend,
-    letter_panels,
-    parameter_label,
-    points,
-    style,
-)
 
 PANELS = {
     "maximum": r"Error of $\max\,|Z_1|$",
@@ -37,7 +16,7 @@ PANELS = {
 }
 ROUNDING = 1e-12  # smallest error fitted: smaller ones are dominated by rounding
 FLOOR = 1e-16  # smallest error drawn
-GUIDE = {"color": GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
+GUIDE = {"color": style.GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
 # Result of a cold start -> legend text and marker.
 COLD = {
     "same_motion": ("(d): finds the same motion", {"marker": "o", "markerfacecolor": "none"}),
@@ -53,45 +32,45 @@ PARAMETERS = {
 }
 # Legend text, colour and hatching of each verdict.
 QUIET = {
-    "stable_stable": ("rightly called stable", PALE_SKY, ""),
-    "stable_unstable": ("called stable, orbit is unstable", VERMILION, "////"),
-    "stable_absent": ("called stable, no such orbit", ORANGE, ""),
-    "unstable_stable": ("called unstable, orbit is stable", PURPLE, "...."),
-    "unstable_unstable": ("rightly called unstable", GREEN, "||||"),
-    "unstable_absent": ("called unstable, no such orbit", GREY, ""),
-    "none_stable": ("not found, orbit is stable", BLUE, ""),
-    "none_unstable": ("not found, orbit is unstable", SKY, "----"),
-    "none_absent": ("rightly not found", WHITE, ""),
-    "unresolved": ("unresolved", WHITE, "xxxxxx"),
+    "stable_stable": ("rightly called stable", style.PALE_SKY, ""),
+    "stable_unstable": ("called stable, orbit is unstable", style.VERMILION, "////"),
+    "stable_absent": ("called stable, no such orbit", style.ORANGE, ""),
+    "unstable_stable": ("called unstable, orbit is stable", style.PURPLE, "...."),
+    "unstable_unstable": ("rightly called unstable", style.GREEN, "||||"),
+    "unstable_absent": ("called unstable, no such orbit", style.GREY, ""),
+    "none_stable": ("not found, orbit is stable", style.BLUE, ""),
+    "none_unstable": ("not found, orbit is unstable", style.SKY, "----"),
+    "none_absent": ("rightly not found", style.WHITE, ""),
+    "unresolved": ("unresolved", style.WHITE, "xxxxxx"),
 }
 VIOLENT = {
-    "stable_near": ("predicted, and found near it", BLUE, ""),
-    "stable_far": ("predicted, found farther away", GREEN, "----"),
-    "stable_chaotic": ("predicted, but chaotic", ORANGE, ""),
-    "stable_low": ("predicted, but becomes small", PALE_SKY, "...."),
-    "stable_no_contact": ("predicted, but without contact", SKY, "||||"),
-    "none_settled": ("not predicted, but settles", PURPLE, ""),
-    "none_chaotic": ("not predicted, but chaotic", VERMILION, "////"),
-    "none_low": ("not predicted; becomes small", WHITE, ""),
-    "none_no_contact": ("not predicted; moves without contact", GREY, "||||"),
-    "not_run": ("not predicted, no free resonance either", PALE, ""),
-    "unresolved": ("unresolved", WHITE, "xxxxxx"),
+    "stable_near": ("predicted, and found near it", style.BLUE, ""),
+    "stable_far": ("predicted, found farther away", style.GREEN, "----"),
+    "stable_chaotic": ("predicted, but chaotic", style.ORANGE, ""),
+    "stable_low": ("predicted, but becomes small", style.PALE_SKY, "...."),
+    "stable_no_contact": ("predicted, but without contact", style.SKY, "||||"),
+    "none_settled": ("not predicted, but settles", style.PURPLE, ""),
+    "none_chaotic": ("not predicted, but chaotic", style.VERMILION, "////"),
+    "none_low": ("not predicted; becomes small", style.WHITE, ""),
+    "none_no_contact": ("not predicted; moves without contact", style.GREY, "||||"),
+    "not_run": ("not predicted, no free resonance either", style.PALE, ""),
+    "unresolved": ("unresolved", style.WHITE, "xxxxxx"),
 }
 
 
-@style()
+@style.context()
 def draw_harmonic_convergence(*, harmonic_convergence):
     """Draw errors of max |Z1|, of the retained harmonics and of multipliers, and cold starts."""
-    drawn = figure("double", 6.4)
+    drawn = style.figure("double", 6.4)
     panels = drawn.subplots(2, 2, sharex=True)
-    letter_panels(panels.flat)
+    style.letter_panels(panels.flat)
     for axes, (measure, words) in zip(panels.flat, PANELS.items(), strict=False):
         _draw_errors(axes, harmonic_convergence, measure)
         axes.set(xscale="log", yscale="log", ylabel=words, ylim=(FLOOR / 2, 10))
     _draw_cold(panels[1, 1], harmonic_convergence)
     for axes in panels[1]:
-        axes.set_xlabel(axis_label(harmonic_convergence[0]["highest_harmonic"]))
-    legend(drawn, 3)
+        axes.set_xlabel(style.axis_label(harmonic_convergence[0]["highest_harmonic"]))
+    style.legend(drawn, 3)
     return drawn
 
 
@@ -101,12 +80,12 @@ def _draw_errors(axes, harmonics, measure):
     for index, data in enumerate(harmonics):
         at = data.sel(error_measure=measure)
         highest, error = data["highest_harmonic"].values, at["series_error"].values
-        line = points(index) | curve(index) | {"linewidth": 0.8}
+        line = style.points(index) | style.curve(index) | {"linewidth": 0.8}
         axes.plot(highest, np.maximum(error, FLOOR), **line, label=_title(data))
         lost = highest[data[status].values != 0]
         if len(lost):
             place = {"transform": axes.get_xaxis_transform(), "label": "failed"}
-            axes.plot(lost, np.full(len(lost), 0.97), **ROLES["unresolved"] | place)
+            axes.plot(lost, np.full(len(lost), 0.97), **style.ROLES["unresolved"] | place)
     for data in harmonics:
         axes.plot(*_guide(data, data.sel(error_measure=measure)), **GUIDE, label="predicted decay")
 
@@ -129,7 +108,7 @@ def _draw_cold(axes, harmonics):
         highest, status = data["highest_harmonic"].values, decode(data["cold_status"]).values
         for meaning, (words, look) in COLD.items():
             chosen = highest[status == meaning]
-            look = look | {"color": curve(index)["color"], "linestyle": "none"}
+            look = look | {"color": style.curve(index)["color"], "linestyle": "none"}
             if len(chosen):
                 axes.plot(chosen, np.full(len(chosen), -index), **look, label=words)
     axes.set_yticks(-np.arange(len(harmonics)), [_title(data, short=True) for data in harmonics])
@@ -141,22 +120,22 @@ def _title(data, short=False):
     """Return the parameters of a motion as text: its damper, or "free" without one."""
     parameters = parameters_of(data)
     if not has_damper(data):
-        return "free" if short else f"free, {parameter_label(parameters, 'frequency')}"
+        return "free" if short else f"free, {style.parameter_label(parameters, 'frequency')}"
     separator = "\n" if short else ", "
-    damper = parameter_label(parameters, "mass_ratio", "restitution")
-    return damper + separator + parameter_label(parameters, "contact_stiffness")
+    damper = style.parameter_label(parameters, "mass_ratio", "restitution")
+    return damper + separator + style.parameter_label(parameters, "contact_stiffness")
 
 
-@style()
+@style.context()
 def draw_balance_map(*, balance_map):
     """Draw the verdicts on the quiet motion (a) and on the violent motion (b)."""
     (data,) = balance_map
-    drawn = figure("double", 5.6)
+    drawn = style.figure("double", 5.6)
     quiet, violent = drawn.subplots(1, 2, sharex=True, sharey=True)
     for axes, name, classes in ((quiet, "quiet", QUIET), (violent, "high", VIOLENT)):
         _draw_classes(axes, data, f"{name}_verdict", classes)
         _draw_edge(axes, data[f"balance_{name}"])
-        axes.set_xlabel(axis_label(data["frequency_ratio"]))
+        axes.set_xlabel(style.axis_label(data["frequency_ratio"]))
     _draw_ends(quiet, data)
     _draw_chaos(quiet, data)
     quiet.set(
@@ -164,7 +143,7 @@ def draw_balance_map(*, balance_map):
         xlim=edges_of(data["frequency_ratio"].values)[[0, -1]],
         ylim=edges_of(data["map_value"].values)[[0, -1]],
     )
-    letter_panels([quiet, violent])
+    style.letter_panels([quiet, violent])
     entries = [axes.get_legend_handles_labels() for axes in (quiet, violent)]
     longest = max(len(labels) for _, labels in entries)
     for (handles, labels), words, side in zip(
@@ -189,7 +168,7 @@ def _draw_classes(axes, data, name, classes):
         if chosen.any():
             cells = np.ma.masked_where(~chosen, np.ones(chosen.shape))
             axes.pcolormesh(*grid, cells, cmap=ListedColormap([color]), rasterized=True)
-            look = {"hatch": hatch, "edgecolor": GREY}
+            look = {"hatch": hatch, "edgecolor": style.GREY}
             if hatch:
                 hatch_cells(axes, *grid, chosen, linewidth=0, **look)
             axes.fill([], [], facecolor=color, label=label, linewidth=0.4, **look)
@@ -199,21 +178,21 @@ def _draw_edge(axes, verdict):
     """Draw the boundary of the cells with a stable solution of harmonic balance."""
     stable = decode(verdict) == "stable"
     if stable.any() and not stable.all():
-        line = {"colors": [BLACK], "linewidths": 1.0, "linestyles": "dashed"}
+        line = {"colors": [style.BLACK], "linewidths": 1.0, "linestyles": "dashed"}
         axes.contour(verdict["frequency_ratio"], verdict["map_value"], stable, [0.5], **line)
     words = "edge of stability by harmonic balance"
-    axes.plot([], [], "--", color=BLACK, linewidth=1.0, label=words)
+    axes.plot([], [], "--", color=style.BLACK, linewidth=1.0, label=words)
 
 
 def _draw_ends(axes, data):
     """Draw where exact quiet orbits end, for walls of finite stiffness and for rigid walls."""
     inside = decode(data["quiet_end_event"]) != "map_ends"
     for end in data["quiet_end"].where(inside).values.T:
-        axes.plot(end, data["map_value"], color=BLACK, linewidth=1.6)
-    axes.plot([], [], color=BLACK, linewidth=1.6, label="end of the exact orbit")
+        axes.plot(end, data["map_value"], color=style.BLACK, linewidth=1.6)
+    axes.plot([], [], color=style.BLACK, linewidth=1.6, label="end of the exact orbit")
     rigid = data["straight_flight_end"].values
     if np.isfinite(rigid).any():
-        look = {"color": BLACK, "linestyle": (0, (1, 1.2)), "label": "end for rigid walls"}
+        look = {"color": style.BLACK, "linestyle": (0, (1, 1.2)), "label": "end for rigid walls"}
         axes.plot(rigid, data["map_value"], **look)
 
 
@@ -222,5 +201,5 @@ def _draw_chaos(axes, data):
     chaotic = np.isin(decode(data["quiet_run_motion"]), ["low_chaotic", "high_chaotic"])
     row, column = np.nonzero(chaotic)
     place = data["frequency_ratio"].values[column], data["map_value"].values[row]
-    look = {"color": BLACK, "marker": ".", "markersize": 1.6, "linestyle": "none"}
+    look = {"color": style.BLACK, "marker": ".", "markersize": 1.6, "linestyle": "none"}
     axes.plot(*place, markeredgewidth=0, label="a run from the solution becomes chaotic", **look)

@@ -6,27 +6,12 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from impact_damper.data.datasets import decode, parameters_of
+from impact_damper.plot import style
 from impact_damper.plot.maps import edges_of, hatch, mesh
-from impact_damper.plot.style import (
-    BLACK,
-    GREY,
-    ORANGE,
-    SKY,
-    axis_label,
-    curve,
-    figure,
-    grid,
-    legend,
-    line,
-    markers,
-    parameter_label,
-    points,
-    style,
-)
 from impact_damper.plot.sweeps import OPTIMUM
 from impact_damper.plot.sweeps import sweep as sweep_plot
 
-UNSTABLE = markers("optimum with an unstable motion", BLACK, "x", markersize=5.5)
+UNSTABLE = style.markers("optimum with an unstable motion", style.BLACK, "x", markersize=5.5)
 # Parameters that a dataset can sweep, with the scale of their axis.
 SWEPT = {"restitution": "linear", "contact_stiffness": "log", "frequency": "linear"}
 TITLES = {
@@ -34,39 +19,41 @@ TITLES = {
     "first_harmonic": "optimum of the first harmonic",
 }
 RULES = {
-    "balance": line("$1$, equation (18)", BLACK, linestyle=(0, (1, 2))),
-    "gap_harmonic": line(r"$\pi^2/8$", GREY, linestyle=(0, (6, 3))),
-    "straight_flight": line("straight flight, rigid walls", SKY, linestyle=(0, (6, 1.5, 1, 1.5))),
-    "elastic": line("explicit, elastic contact", ORANGE),
-    "flight": line("flight with corrections", BLACK, linewidth=1.8),
+    "balance": style.line("$1$, equation (18)", style.BLACK, linestyle=(0, (1, 2))),
+    "gap_harmonic": style.line(r"$\pi^2/8$", style.GREY, linestyle=(0, (6, 3))),
+    "straight_flight": style.line(
+        "straight flight, rigid walls", style.SKY, linestyle=(0, (6, 1.5, 1, 1.5))
+    ),
+    "elastic": style.line("explicit, elastic contact", style.ORANGE),
+    "flight": style.line("flight with corrections", style.BLACK, linewidth=1.8),
 }
 # Hatching of the cells of a study in which not all motions settled.
-UNSETTLED = {"hatch": "////", "edgecolor": BLACK, "linewidth": 0}
+UNSETTLED = {"hatch": "////", "edgecolor": style.BLACK, "linewidth": 0}
 
 
-@style()
+@style.context()
 def draw_optimum(*, optimum):
     """Draw the largest displacement of the quiet motion against clearance, all in one plot."""
-    drawn = figure("double", 4.4)
+    drawn = style.figure("double", 4.4)
     sweep_plot(optimum, drawn.subplots())
-    legend(drawn, 3)
+    style.legend(drawn, 3)
     return drawn
 
 
-@style()
+@style.context()
 def draw_design_rules(*, design_rules):
     """Draw optima and rules against each swept parameter, and the distribution of all errors."""
     swept = [[name for name in SWEPT if data.sizes[name] > 1] for data in design_rules]
     sweeps = [
         (d, names[0]) for d, names in zip(design_rules, swept, strict=True) if len(names) == 1
     ]
-    drawn, panels = grid(len(sweeps) + len(TITLES), 1.9, 1.3)
+    drawn, panels = style.grid(len(sweeps) + len(TITLES), 1.9, 1.3)
     for axes, (data, name) in zip(panels, sweeps, strict=False):
         _draw_sweep(axes, data.sel(criterion="displacement"), name)
     for axes, (criterion, words) in zip(panels[len(sweeps) :], TITLES.items(), strict=True):
         _draw_errors(axes, [data.sel(criterion=criterion) for data in design_rules])
         axes.set_title(words)
-    legend(drawn, 3)
+    style.legend(drawn, 3)
     return drawn
 
 
@@ -76,17 +63,17 @@ def _draw_sweep(axes, data, name):
     for index, mass_ratio in enumerate(data["mass_ratio"].values):
         one = data.sel(mass_ratio=mass_ratio)
         words = f"$r_m = {mass_ratio:g}$: optimum, and flight with corrections (line)"
-        axes.plot(one[name], one["best_ratio"], **points(index), label=words)
-        axes.plot(one[name], one["rule_ratio"].sel(rule="flight"), **curve(index))
+        axes.plot(one[name], one["best_ratio"], **style.points(index), label=words)
+        axes.plot(one[name], one["rule_ratio"].sel(rule="flight"), **style.curve(index))
     for rule in ("balance", "gap_harmonic"):
         level = data["rule_ratio"].sel(rule=rule).values.flat[0]
         axes.axhline(level, **RULES[rule])
     unstable = decode(data["best_stability"]) == "unstable"
     crossed = data["best_ratio"].where(unstable).stack(cell=[...])
     axes.plot(crossed[name], crossed, **UNSTABLE)
-    words = parameter_label(parameters_of(data), "damping", "linear_frequency")
+    words = style.parameter_label(parameters_of(data), "damping", "linear_frequency")
     axes.set(
-        xlabel=f"{axis_label(data[name])} ({words})",
+        xlabel=f"{style.axis_label(data[name])} ({words})",
         xscale=SWEPT[name],
         ylabel=r"$r_m \Omega^2 d_0$",
     )
@@ -107,13 +94,13 @@ def _draw_errors(axes, datasets):
     )
 
 
-@style()
+@style.context()
 def draw_studies(*, studies):
     """Draw the largest displacement of a study, a panel for each restitution and frequency."""
     (data,) = studies
     pairs = list(product(data["restitution"].values, data["frequency"].values))
     rows, columns = data.sizes["restitution"], data.sizes["frequency"]
-    drawn = figure("single" if columns == 1 else "double", 3.6 * rows)
+    drawn = style.figure("single" if columns == 1 else "double", 3.6 * rows)
     panels = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     sizes = data["largest_displacement"].values
     sizes = sizes[np.isfinite(sizes)]
@@ -123,11 +110,11 @@ def draw_studies(*, studies):
         if len(pairs) > 1:
             axes.set_title(rf"$\Omega = {w:g}$, $e = {e:g}$")
     for axes in panels[:, 0]:
-        axes.set_ylabel(axis_label(data["clearance"]))
+        axes.set_ylabel(style.axis_label(data["clearance"]))
     for axes in panels[-1]:
-        axes.set_xlabel(axis_label(data["mass_ratio"]))
+        axes.set_xlabel(style.axis_label(data["mass_ratio"]))
     drawn.colorbar(shown, ax=panels, label="Largest displacement that starts lead to")
-    legend(drawn, 1 if columns == 1 else 3)
+    style.legend(drawn, 1 if columns == 1 else 3)
     return drawn
 
 
@@ -138,7 +125,7 @@ def _draw_study(axes, data, norm):
     settled = data["outcome_count"].sel(counted_outcome=["settled", "non_colliding"])
     part = settled.sum("counted_outcome").values.T < parameters_of(data)["starts"]
     hatch(axes, *plane, part, label="not all motions settled", **UNSETTLED)
-    axes.plot(plane[0], data["rule_clearance"], color=BLACK, label=r"$r_m \Omega^2 d_0 = 1$")
+    axes.plot(plane[0], data["rule_clearance"], color=style.BLACK, label=r"$r_m \Omega^2 d_0 = 1$")
     best = OPTIMUM | {"label": "smallest at this mass ratio"}
     axes.plot(plane[0], data["best_clearance"], **best)
     axes.set_ylim(edges_of(plane[1])[[0, -1]])

@@ -5,17 +5,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.ticker import FuncFormatter
 
 from impact_damper.data.datasets import decode
+from impact_damper.plot import style
 from impact_damper.plot.maps import contours, marked, mesh
-from impact_damper.plot.style import (
-    BLACK,
-    PALE_ORANGE,
-    VERMILION,
-    axis_label,
-    figure,
-    legend,
-    letter_panels,
-    style,
-)
 
 # Rules for the end of a contact, and titles of their panels.
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
@@ -24,15 +15,15 @@ LEVELS = 0.01, 0.05  # errors with a contour line
 LINEAR = 1e-3
 # Looks of the contacts of motions, in the order of the coordinate `size` of the dataset.
 MOTIONS = (
-    {"color": BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},
-    {"color": VERMILION, "marker": "_", "markersize": 5.0, "markeredgewidth": 0.5},
+    {"color": style.BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},
+    {"color": style.VERMILION, "marker": "_", "markersize": 5.0, "markeredgewidth": 0.5},
 )
 
 
-@style()
+@style.context()
 def draw_contact_model(*, contact_model):
     """Draw the error of the restitution for both exit rules, and the contacts of all datasets."""
-    drawn = figure("double", 4.0)
+    drawn = style.figure("double", 4.0)
     panels = drawn.subplots(1, 2, sharex=True, sharey=True)
     data = contact_model[0]
     x, y = data["restitution"].values, data["load"].values
@@ -44,18 +35,18 @@ def draw_contact_model(*, contact_model):
         cells = mesh(axes, x, y, shown, norm, "the contact does not end")
         contours(axes, x, y, error, LEVELS)
         back = decode(cell["contact_verdict"]).values == "falls_back"
-        marked(axes, x, y, back, PALE_ORANGE, "the loose mass falls back")
+        marked(axes, x, y, back, style.PALE_ORANGE, "the loose mass falls back")
         axes.set_yscale("symlog", linthresh=LINEAR)
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axes.set_title(words)
-        axes.set_xlabel(axis_label(data["restitution"]))
+        axes.set_xlabel(style.axis_label(data["restitution"]))
     label = "|realised $e$ / intended $e$ $-$ 1|"
     drawn.colorbar(cells, ax=panels, label=label, extend="both")
     for case in contact_model:
         _draw_contacts(panels[0], case)
     panels[0].set_ylabel(r"Load in contact, $g/(\omega_n v_0)$")
-    letter_panels(panels)
-    legend(drawn, 3)
+    style.letter_panels(panels)
+    style.legend(drawn, 3)
     return drawn
 
 

@@ -4,36 +4,20 @@ import numpy as np
 
 from chatterjee1995.reading.datasets import POLICIES
 from impact_damper.data.datasets import decode, named, parameters_of
+from impact_damper.plot import style
 from impact_damper.plot.basin_plane import basins as basins_plot
 from impact_damper.plot.motions import migration as migration_plot
-from impact_damper.plot.style import (
-    BLACK,
-    BLUE,
-    CURVES,
-    GREEN,
-    ORANGE,
-    VERMILION,
-    axis_label,
-    curve,
-    figure,
-    grid,
-    legend,
-    letter_panels,
-    markers,
-    parameter_label,
-    style,
-)
 
 AROUND = -15, 25  # cycles from the last release at which the panel around it begins and ends
 # Look of each destination of a release, and panel title of each motion with damper.
 DESTINATIONS = {
-    "non_resonance": markers(
-        "released to the non-resonance motion", BLUE, ".", markerfacecolor=BLUE
+    "non_resonance": style.markers(
+        "released to the non-resonance motion", style.BLUE, ".", markerfacecolor=style.BLUE
     ),
-    "subharmonic": markers("released to the one-third subharmonic", VERMILION, "^"),
-    "resonance": markers("released to the resonance motion", BLACK, "+"),
-    "other": markers("released to another motion", GREEN, "d"),
-    "unresolved": markers("not settled after the release", ORANGE, "*"),
+    "subharmonic": style.markers("released to the one-third subharmonic", style.VERMILION, "^"),
+    "resonance": style.markers("released to the resonance motion", style.BLACK, "+"),
+    "other": style.markers("released to another motion", style.GREEN, "d"),
+    "unresolved": style.markers("not settled after the release", style.ORANGE, "*"),
 }
 MOTIONS = {
     "unsettled": "before it has settled",
@@ -44,10 +28,10 @@ MOTIONS = {
 DAMPER = "mass_ratio", "clearance", "restitution"
 
 
-@style({"axes.titley": None})  # keeps the letters clear of the upper axis
+@style.context({"axes.titley": None})  # keeps the letters clear of the upper axis
 def draw_migration(*, migration):
     """Draw the displacement in the stored run of each case: the whole run, and its last release."""
-    drawn = figure("double", 0.7 + 3.6 * len(migration))
+    drawn = style.figure("double", 0.7 + 3.6 * len(migration))
     panels = drawn.subplots(2 * len(migration), 1, squeeze=False)[:, 0]
     for runs, whole, part in zip(migration, panels[::2], panels[1::2], strict=True):
         run = runs.isel(trial=int(runs["example"]))
@@ -58,25 +42,25 @@ def draw_migration(*, migration):
         above.set_xlabel(r"Cycles of the forcing, $\Omega T / 2 \pi$")
         whole.set(xlabel="", ylabel="")
         part.set_ylabel("")
-    drawn.supylabel(axis_label(migration[0]["displacement"]), fontsize="medium")
-    letter_panels(panels)
-    legend(drawn, 3)
+    drawn.supylabel(style.axis_label(migration[0]["displacement"]), fontsize="medium")
+    style.letter_panels(panels)
+    style.legend(drawn, 3)
     return drawn
 
 
-@style()
+@style.context()
 def draw_release(*, migration):
     """Draw the states at which the damper is switched off, with a marker for each destination."""
     sources = [(runs, row) for runs in migration for row in range(runs.sizes["damped"])]
     columns = 3 if len(sources) % 3 == 0 else 2
-    drawn, panels = grid(len(sources), 2.6, 0.6, columns)
+    drawn, panels = style.grid(len(sources), 2.6, 0.6, columns)
     for axes, (runs, row) in zip(panels, sources, strict=True):
         _draw_releases(axes, runs.isel(damped=row))
     # of three panels in a row only the middle one has a label: three labels would overlap
     for axes in panels[1::3] if columns == 3 else panels:
-        axes.set_xlabel(axis_label(migration[0]["release_displacement"]))
-    drawn.supylabel(axis_label(migration[0]["release_velocity"]), fontsize="medium")
-    legend(drawn, 3)
+        axes.set_xlabel(style.axis_label(migration[0]["release_displacement"]))
+    drawn.supylabel(style.axis_label(migration[0]["release_velocity"]), fontsize="medium")
+    style.legend(drawn, 3)
     return drawn
 
 
@@ -91,30 +75,30 @@ def _draw_releases(axes, releases):
     axes.set_title(MOTIONS[named(releases, "damped_kind")])
 
 
-@style({"axes.titley": None})
+@style.context({"axes.titley": None})
 def draw_basins(*, basins):
     """Draw the basins of each dataset, with its attractors and unstable orbits."""
-    drawn, panels = grid(len(basins), 3.4 if len(basins) > 1 else 4.6, 0.2)
+    drawn, panels = style.grid(len(basins), 3.4 if len(basins) > 1 else 4.6, 0.2)
     for axes, data in zip(panels, basins, strict=True):
         basins_plot(data, axes)
     return drawn
 
 
-@style({"axes.titley": None})
+@style.context({"axes.titley": None})
 def draw_release_policies(*, release_policies):
     """Draw success and cycles of each policy, for each damper."""
     (data,) = release_policies
-    drawn = figure("double", 5.2)
+    drawn = style.figure("double", 5.2)
     panels = drawn.subplots(2, data.sizes["case"], sharex=True, sharey="row", squeeze=False)
     for case, (above, below) in enumerate(panels.T):
         one = data.isel(case=case)
         damper = {name: float(one[f"case_{name}"]) for name in DAMPER}
-        above.set_title(parameter_label(damper, *DAMPER), fontsize=7.5, loc="right")
+        above.set_title(style.parameter_label(damper, *DAMPER), fontsize=7.5, loc="right")
         _draw_case(above, below, one)
     panels[0, 0].set_ylabel("Share within 350 cycles")
     panels[1, 0].set_ylabel("Median of the cycles")
-    letter_panels(panels.ravel())
-    legend(drawn, 3)
+    style.letter_panels(panels.ravel())
+    style.legend(drawn, 3)
     return drawn
 
 
@@ -122,7 +106,7 @@ def _draw_case(above, below, one):
     """Draw the policies with one damper: success above, cycles below."""
     frequency = one["frequency"].values
     for k, policy in enumerate(one["policy"].values):
-        look = curve(k) | {"marker": CURVES[k][2], "label": POLICIES[policy]}
+        look = style.curve(k) | {"marker": style.CURVES[k][2], "label": POLICIES[policy]}
         success = one["policy_success"].sel(policy=policy).values
         spread = np.abs(success[:, 1:] - success[:, :1]).T
         # side by side, so that intervals do not hide each other
@@ -134,4 +118,4 @@ def _draw_case(above, below, one):
         below.errorbar(frequency + 0.004 * (k - 1.5), middle, spread, capsize=1.5, **look)
     ends = frequency[0] - 0.03, frequency[-1] + 0.03
     above.set(xlim=ends, ylim=(-0.05, 1.05))
-    below.set(yscale="log", ylim=(8, 400), xlabel=axis_label(one["frequency"]))
+    below.set(yscale="log", ylim=(8, 400), xlabel=style.axis_label(one["frequency"]))

@@ -1,45 +1,36 @@
 """Frequency responses, branches of orbits and shares: figures 2 to 5, 8 and 10 of the paper."""
 
 from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
+from impact_damper.plot import style
 from impact_damper.plot.branches import branch as branch_plot
 from impact_damper.plot.branches import runs
 from impact_damper.plot.motions import phase_panel
 from impact_damper.plot.responses import response as response_plot
 from impact_damper.plot.stacked_shares import shares as shares_plot
-from impact_damper.plot.style import (
-    BLACK,
-    GREY,
-    figure,
-    grid,
-    legend,
-    letter_panels,
-    parameter_label,
-    style,
-)
 
 # Looks of orbits without a damper behind branches of orbits with one.
-FREE = {"color": BLACK, "linewidth": 0.7, "zorder": 2.2}
-FREE_UNSTABLE = {"color": GREY, "linewidth": 0.7, "linestyle": ":", "zorder": 2.1}
+FREE = {"color": style.BLACK, "linewidth": 0.7, "zorder": 2.2}
+FREE_UNSTABLE = {"color": style.GREY, "linewidth": 0.7, "linestyle": ":", "zorder": 2.1}
 
 
-@style()
+@style.context()
 def draw_free(*, branches):
     """Draw the largest displacement of orbits without a damper, one panel for each oscillator."""
-    drawn = figure("double", 3.4)
+    drawn = style.figure("double", 3.4)
     panels = drawn.subplots(1, len(branches), squeeze=False)[0]
     for axes, free in zip(panels, branches, strict=True):
         response_plot(free, axes)
         value = free["followed_value"].values
         axes.set_xlim(value.min(), value.max())
-    letter_panels(panels)
-    legend(drawn, 2)
+    style.letter_panels(panels)
+    style.legend(drawn, 2)
     return drawn
 
 
-@style()
+@style.context()
 def draw_harmonic_balance(*, harmonic_balance):
     """Draw the amplitude by harmonic balance against frequency, one panel for each damper."""
-    drawn = figure("double", 3.2)
+    drawn = style.figure("double", 3.2)
     panels = drawn.subplots(1, len(harmonic_balance), sharey=True, squeeze=False)[0]
     for axes, balance in zip(panels, harmonic_balance, strict=True):
         response_plot(balance, axes)
@@ -51,28 +42,28 @@ def draw_harmonic_balance(*, harmonic_balance):
         axes.set_ylabel("")
     panels[0].autoscale(axis="y")
     panels[0].set_ylim(bottom=0)
-    legend(drawn, 2)
+    style.legend(drawn, 2)
     return drawn
 
 
-@style()
+@style.context()
 def draw_motion(*, motion):
     """Draw velocity against displacement and mark the contacts, one panel for each motion."""
-    drawn = figure("single" if len(motion) == 1 else "double", 3.2)
+    drawn = style.figure("single" if len(motion) == 1 else "double", 3.2)
     panels = drawn.subplots(1, len(motion), squeeze=False)[0]
     for axes, traced in zip(panels, motion, strict=True):
         phase_panel(axes, traced)
-    letter_panels(panels)
-    legend(drawn, 2)
+    style.letter_panels(panels)
+    style.legend(drawn, 2)
     return drawn
 
 
-@style()
+@style.context()
 def draw_response(*, response, harmonic_balance, subharmonic, branches):
     """Draw displacement against frequency, one panel for each restitution of the dampers."""
     free = [orbits for orbits in branches if not has_damper(orbits)]
     kinds = sorted({_restitution(motions) for motions in response}, reverse=True)
-    drawn = figure("double", 1.7 + 3.3 * len(kinds))
+    drawn = style.figure("double", 1.7 + 3.3 * len(kinds))
     panels = drawn.subplots(len(kinds), squeeze=False, sharex=True)[:, 0]
     for axes, kind in zip(panels, kinds, strict=True):
         damped = [
@@ -86,8 +77,8 @@ def draw_response(*, response, harmonic_balance, subharmonic, branches):
         if len(kinds) > 1:
             axes.set_title(f"$e = {kind:g}$")
     panels[-1].set_xlim(response[0]["frequency"].values[[0, -1]])
-    letter_panels(panels)
-    legend(drawn, 3)
+    style.letter_panels(panels)
+    style.legend(drawn, 3)
     return drawn
 
 
@@ -104,12 +95,12 @@ def _period_3(motions):
     return motions.assign(outcome=outcome)
 
 
-@style()
+@style.context()
 def draw_branches(*, branches):
     """Draw max |Z1| of orbits against frequency, one panel with all free orbits for each damper."""
     damped = [data for data in branches if has_damper(data)]
     free = [data for data in branches if not has_damper(data)]
-    drawn = figure("double", 4.6 * len(damped))
+    drawn = style.figure("double", 4.6 * len(damped))
     panels = drawn.subplots(len(damped), squeeze=False)[:, 0]
     for axes, data in zip(panels, damped, strict=True):
         for each in free:
@@ -118,20 +109,20 @@ def draw_branches(*, branches):
                 axes.plot(value, size, **look)
         branch_plot(data, axes)
         axes.set_ylim(bottom=0)
-    legend(drawn, 4)
+    style.legend(drawn, 4)
     return drawn
 
 
-@style()
+@style.context()
 def draw_shares(*, response):
     """Draw the shares of random starts over frequency, one panel for each damper."""
-    drawn, panels = grid(len(response), 2.3, 0.8, sharey=True)
+    drawn, panels = style.grid(len(response), 2.3, 0.8, sharey=True)
     for place, (axes, data) in enumerate(zip(panels, response, strict=True)):
         shares_plot(data, axes)
-        words = parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
+        words = style.parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
         unseen = f"not seen: at most {100 * float(data['missed_share']):.2g} %"
         axes.set_title(f"{words}; {unseen}", loc="right", fontsize=8)
         if place % 2:
             axes.set_ylabel("")
-    legend(drawn, 4)
+    style.legend(drawn, 4)
     return drawn

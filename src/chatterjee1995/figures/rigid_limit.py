@@ -4,28 +4,17 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from impact_damper.data.datasets import parameters_of
+from impact_damper.plot import style
 from impact_damper.plot.maps import contours, mesh
-from impact_damper.plot.style import (
-    BLACK,
-    GREY,
-    axis_label,
-    curve,
-    figure,
-    legend,
-    letter_panels,
-    line,
-    parameter_label,
-    style,
-)
 
 SMALLEST = 1e-4  # lower end of the colour scale
-OWN = line("$r_1$ of the damper", BLACK, linewidth=0.6, linestyle=(0, (6, 3)))
+OWN = style.line("$r_1$ of the damper", style.BLACK, linewidth=0.6, linestyle=(0, (6, 3)))
 
 
-@style()
+@style.context()
 def draw_rigid_limit(*, rigid_limit):
     """Draw maps of the error of max |Z1|, and the power of r1 with which the error falls."""
-    drawn = figure("double", 5.2)
+    drawn = style.figure("double", 5.2)
     grid = drawn.add_gridspec(2, len(rigid_limit), height_ratios=(1, 1.2))
     maps = [drawn.add_subplot(grid[0, column]) for column in range(len(rigid_limit))]
     norm = LogNorm(SMALLEST, 1)
@@ -33,13 +22,13 @@ def draw_rigid_limit(*, rigid_limit):
         cells = _draw_map(axes, data, norm)
         axes.tick_params(labelleft=axes is maps[0])
         axes.set_title(_title(data).replace(", $e", "\n$e"), fontsize=8)
-        axes.set_xlabel(axis_label(data["frequency"]), fontsize=8)
-    maps[0].set_ylabel(axis_label(data["stiffness"]))
+        axes.set_xlabel(style.axis_label(data["frequency"]), fontsize=8)
+    maps[0].set_ylabel(style.axis_label(data["stiffness"]))
     drawn.colorbar(cells, ax=maps, label="|error of max $|Z_1|$|", extend="min")
     axes = drawn.add_subplot(grid[1, :])
     _draw_orders(axes, rigid_limit)
-    letter_panels([*maps, axes])
-    legend(drawn, 3)
+    style.letter_panels([*maps, axes])
+    style.legend(drawn, 3)
     return drawn
 
 
@@ -59,7 +48,7 @@ def _draw_orders(axes, rigid_limit):
     """Draw errors of max |Z1| against stiffness at the design frequency, with lines of powers."""
     for index, data in enumerate(rigid_limit):
         row = data.sel(frequency=parameters_of(data)["frequency"], method="nearest")
-        x, look = data["stiffness"], curve(index)
+        x, look = data["stiffness"], style.curve(index)
         axes.plot(x, np.abs(row["rigid_error"]), **look, label=_title(data))
         axes.plot(x, np.abs(row["mended_error"]), **look)
     for name, height, words in (
@@ -72,15 +61,19 @@ def _draw_orders(axes, rigid_limit):
     stiffness = data["stiffness"].values
     for level, order in ((0.6, 0.5), (0.06, 1)):
         guide = level * (stiffness / stiffness[0]) ** -order
-        axes.plot(stiffness, guide, color=GREY, linewidth=0.6, linestyle=":")
+        axes.plot(stiffness, guide, color=style.GREY, linewidth=0.6, linestyle=":")
         axes.annotate(
-            rf"$r_1^{{-{order:g}}}$", (stiffness[-1], guide[-1]), color=GREY, ha="left", va="center"
+            rf"$r_1^{{-{order:g}}}$",
+            (stiffness[-1], guide[-1]),
+            color=style.GREY,
+            ha="left",
+            va="center",
         )
     axes.axvline(parameters_of(data)["contact_stiffness"], **OWN)
     axes.set(
         xscale="log",
         yscale="log",
-        xlabel=axis_label(data["stiffness"]),
+        xlabel=style.axis_label(data["stiffness"]),
         ylabel="|error of max $|Z_1|$|",
         xlim=(stiffness[0], stiffness[-1] * 2),
     )
@@ -88,4 +81,4 @@ def _draw_orders(axes, rigid_limit):
 
 def _title(data):
     """Return the parameters of a damper as text."""
-    return parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
+    return style.parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.patches import Circle, FancyArrowPatch, Rectangle
 
-from impact_damper.plot.style import BLACK, BLUE, PALE, WHITE, figure
+from impact_damper.plot import style
 
 STROKES = {"outline": 1.1, "detail": 0.8, "fine": 0.5}  # points
 LETTER = {"ha": "center", "va": "center", "size": 10.0}
@@ -11,7 +11,7 @@ LETTER = {"ha": "center", "va": "center", "size": 10.0}
 
 def sheet(column, height):
     """Return axes that fill an empty figure, one unit per inch; `column` as in `style.figure`."""
-    page = figure(column, height)
+    page = style.figure(column, height)
     page.set_layout_engine("none")
     axes = page.add_axes((0, 0, 1, 1))
     axes.set(xlim=(0, page.get_figwidth()), ylim=(0, height))
@@ -21,16 +21,20 @@ def sheet(column, height):
 
 def stroke(axes, points, width="outline", **changes):
     """Draw a line through points."""
-    keywords = {"color": BLACK, "solid_capstyle": "round", "solid_joinstyle": "round"} | changes
+    keywords = {
+        "color": style.BLACK,
+        "solid_capstyle": "round",
+        "solid_joinstyle": "round",
+    } | changes
     axes.plot(*np.transpose(points), linewidth=STROKES[width], **keywords)
 
 
 def filled(color, width="detail"):
     """Return the matplotlib keywords of an outlined, filled patch."""
-    return {"facecolor": color, "edgecolor": BLACK, "linewidth": STROKES[width]}
+    return {"facecolor": color, "edgecolor": style.BLACK, "linewidth": STROKES[width]}
 
 
-def arrow(axes, start, end, width="detail", head="-|>", color=BLACK):
+def arrow(axes, start, end, width="detail", head="-|>", color=style.BLACK):
     """Draw an arrow from one point to another."""
     look = {"linewidth": STROKES[width], "color": color, "shrinkA": 0, "shrinkB": 0}
     axes.add_patch(FancyArrowPatch(start, end, arrowstyle=head, mutation_scale=8, **look))
@@ -74,7 +78,7 @@ def ground(axes, start, end, depth=0.09, spacing=0.09):
     stroke(axes, [start, end])
 
 
-def mass(axes, left, bottom, width, height, color=PALE):
+def mass(axes, left, bottom, width, height, color=style.PALE):
     """Draw a rigid block."""
     axes.add_patch(Rectangle((left, bottom), width, height, **filled(color, "outline")))
 
@@ -82,11 +86,11 @@ def mass(axes, left, bottom, width, height, color=PALE):
 def wheels(axes, centres, rail, radius=0.08):
     """Draw wheels that stand on a rail."""
     for x in centres:
-        axes.add_patch(Circle((x, rail + radius), radius, **filled(WHITE)))
+        axes.add_patch(Circle((x, rail + radius), radius, **filled(style.WHITE)))
 
 
 def coordinate(axes, x, y, symbol):
     """Draw the symbol of a displacement, measured to the right from a tick at (x, y)."""
-    stroke(axes, [(x, y - 0.08), (x, y + 0.08)], "detail", color=BLUE)
-    arrow(axes, (x, y), (x + 0.42, y), color=BLUE)
-    letter(axes, x + 0.55, y, symbol, color=BLUE)
+    stroke(axes, [(x, y - 0.08), (x, y + 0.08)], "detail", color=style.BLUE)
+    arrow(axes, (x, y), (x + 0.42, y), color=style.BLUE)
+    letter(axes, x + 0.55, y, symbol, color=style.BLUE)

@@ -18,17 +18,7 @@ from chatterjee1995.figures.schematic_parts import (
     stroke,
     wheels,
 )
-from impact_damper.plot.style import (
-    BLACK,
-    BLUE,
-    GREY,
-    PALE,
-    PALE_ORANGE,
-    PALE_SKY,
-    VERMILION,
-    WHITE,
-    style,
-)
+from impact_damper.plot import style
 
 
 def carriage(axes):
@@ -43,28 +33,28 @@ def carriage(axes):
     dashpot(axes, 0.35, 2.05, 0.75)
     for y, symbol in ((2.31, "$k_1$"), (1.59, "$k_l$"), (0.97, "$c_1$")):
         letter(axes, 1.2, y, symbol)
-    arrow(axes, (5.95, 1.39), (6.6, 1.39), "outline", color=VERMILION)
-    letter(axes, 6.36, 1.58, r"$F\/\cos\,\omega t$", color=VERMILION)
+    arrow(axes, (5.95, 1.39), (6.6, 1.39), "outline", color=style.VERMILION)
+    letter(axes, 6.36, 1.58, r"$F\/\cos\,\omega t$", color=style.VERMILION)
     letter(axes, 2.27, 2.12, "$m_1$")
     coordinate(axes, 2.05, 2.55, "$x_1$")
 
 
 def slot(axes, contact):
     """Draw the slot with the loose mass midway between two contacts, each drawn by `contact`."""
-    mass(axes, 2.5, 0.66, 3.0, 1.46, WHITE)
+    mass(axes, 2.5, 0.66, 3.0, 1.46, style.WHITE)
     wheels(axes, (3.85, 4.15), 0.66, 0.04)
-    mass(axes, 3.68, 0.74, 0.64, 0.90, PALE_SKY)
+    mass(axes, 3.68, 0.74, 0.64, 0.90, style.PALE_SKY)
     letter(axes, 4.0, 1.19, "$m_2$")
     for wall, plate, side in ((2.5, 3.15, 3.68), (5.5, 4.85, 4.32)):
         contact(axes, wall, plate)
         stroke(axes, [(plate, 0.88), (plate, 1.5)])
         for x in (plate, side):
-            stroke(axes, [(x, 1.7), (x, 1.86)], "fine", color=GREY)
+            stroke(axes, [(x, 1.7), (x, 1.86)], "fine", color=style.GREY)
         arrow(axes, (plate, 1.8), (side, 1.8), "fine", "<|-|>")
         letter(axes, (plate + side) / 2, 1.94, "$d/2$")
-    stroke(axes, [(4.0, 1.7), (4.0, 2.47)], "fine", color=GREY, linestyle=(0, (8, 2, 2, 2)))
+    stroke(axes, [(4.0, 1.7), (4.0, 2.47)], "fine", color=style.GREY, linestyle=(0, (8, 2, 2, 2)))
     coordinate(axes, 4.0, 2.55, "$x_2$")
-    letter(axes, 5.5, 2.55, "$y = x_1 - x_2$", color=BLUE)
+    letter(axes, 5.5, 2.55, "$y = x_1 - x_2$", color=style.BLUE)
 
 
 def elastic_contact(axes, wall, plate):
@@ -81,7 +71,7 @@ def inelastic_contact(axes, wall, plate):
     letter(axes, (wall + plate) / 2, 0.80, "$c_2$")
 
 
-@style()
+@style.context()
 def elastic_model():
     """Return figure 1: primary mass with a loose mass between two contact springs k2."""
     axes = sheet("double", 2.75)
@@ -90,7 +80,7 @@ def elastic_model():
     return axes.figure
 
 
-@style()
+@style.context()
 def inelastic_model():
     """Return figure 9: as figure 1, with a dashpot c2 parallel to each contact spring."""
     axes = sheet("double", 2.75)
@@ -140,7 +130,7 @@ def passage(axes, low, high, edge, words, upward):
 
 def state(axes, position, symbol, shift):
     """Draw a state of the oscillator as a dot, with its symbol moved by `shift`."""
-    axes.add_patch(Circle(position, 0.032, color=BLACK, zorder=4))
+    axes.add_patch(Circle(position, 0.032, color=style.BLACK, zorder=4))
     letter(axes, *np.add(position, shift), symbol)
 
 
@@ -160,9 +150,9 @@ def planes(axes, off, on):
     right = 5.3
     v = np.linspace(0, 2, 100)
     border = 2.5 + 0.22 * np.sin(2.6 * v)
-    for edge, color in ((0, PALE_ORANGE), (right, PALE_SKY)):
+    for edge, color in ((0, style.PALE_ORANGE), (right, style.PALE_SKY)):
         region(axes, [*border, edge, edge], [*v, 2, 0], off, color)
-    region(axes, [0, right, right, 0], [0, 0, 2, 2], on, PALE)
+    region(axes, [0, right, right, 0], [0, 0, 2, 2], on, style.PALE)
     for level, u, basin in (
         (off, 0.5, r"$B(A_\mathrm{ud})$"),
         (off, 4.7, r"$B(A_\mathrm{d})$"),
@@ -177,7 +167,7 @@ def planes(axes, off, on):
         axes.text(5.85, level + 0.02, symbols)
 
 
-@style()
+@style.context()
 def migration_scheme():
     """Return figure 12: migration from one attractor of the free oscillator to another."""
     axes = sheet("double", 3.6)
@@ -185,17 +175,17 @@ def migration_scheme():
     bad, goal, damped = (1.35, 1.0), (4.35, 1.0), (2.95, 1.0)
     first, release = (0.5, 0.7), (3.3, 0.65)
     planes(axes, off, on)
-    attractor(axes, damped, 0.5, off, GREY, linestyle=(0, (1, 1.5)))
+    attractor(axes, damped, 0.5, off, style.GREY, linestyle=(0, (1, 1.5)))
     for centre, radius, level, color, name in (
-        (bad, 0.55, off, VERMILION, r"$A_\mathrm{ud}$"),
-        (goal, 0.34, off, BLUE, r"$A_\mathrm{d}$"),
-        (damped, 0.5, on, BLACK, r"$A_\mathrm{c}$"),
+        (bad, 0.55, off, style.VERMILION, r"$A_\mathrm{ud}$"),
+        (goal, 0.34, off, style.BLUE, r"$A_\mathrm{d}$"),
+        (damped, 0.5, on, style.BLACK, r"$A_\mathrm{c}$"),
     ):
         attractor(axes, centre, radius, level, color)
         letter(axes, *place(*centre, level)[0], name, color=color)
-    approach(axes, first, bad, 0.55, off, VERMILION, 0.4, linestyle=(0, (4, 2)))
-    approach(axes, first, damped, 0.5, on, BLACK, 1.6)
-    approach(axes, release, goal, 0.34, off, BLUE, 0.8)
+    approach(axes, first, bad, 0.55, off, style.VERMILION, 0.4, linestyle=(0, (4, 2)))
+    approach(axes, first, damped, 0.5, on, style.BLACK, 1.6)
+    approach(axes, release, goal, 0.34, off, style.BLUE, 0.8)
     (low, high), (back, leaving) = (
         [place(*spot, level)[0] for level in (off, on)] for spot in (first, release)
     )
@@ -212,29 +202,29 @@ def migration_scheme():
 def node(axes, x, y, width, height, words, color):
     """Write words on a box of a flow chart; a question has pale orange, start and ends pale sky."""
     across, up = width / 2, height / 2
-    if color == PALE_ORANGE:
+    if color == style.PALE_ORANGE:
         corners = [(x - across, y), (x, y - up), (x + across, y), (x, y + up)]
         axes.add_patch(Polygon(corners, **filled(color)))
     else:
-        ends = f"round,pad=0,rounding_size={up if color == PALE_SKY else 0}"
+        ends = f"round,pad=0,rounding_size={up if color == style.PALE_SKY else 0}"
         box = FancyBboxPatch((x - across, y - up), width, height, ends, **filled(color))
         axes.add_patch(box)
     axes.text(x, y, words, ha="center", va="center", linespacing=1.05)
 
 
-@style()
+@style.context()
 def algorithm():
     """Return figure 17: the loop of migration control."""
     axes = sheet("single", 5.06)
     x, side, width, margin = 1.17, 2.84, 1.76, 0.1
     chain = [
-        (4.89, 0.24, "Start", PALE_SKY),
-        (4.34, 0.42, "Run with the damper off\nuntil the motion settles", PALE),
-        (3.43, 0.96, "On the\nnon-resonance\nbranch?", PALE_ORANGE),
-        (2.29, 0.80, "Switchings\nat their limit?", PALE_ORANGE),
-        (1.42, 0.42, "Switch the damper on,\nloose mass drawn at random", PALE),
-        (0.78, 0.42, "Run until the motion settles,\nor for a stated time", PALE),
-        (0.23, 0.24, "Switch it off at a random phase", PALE),
+        (4.89, 0.24, "Start", style.PALE_SKY),
+        (4.34, 0.42, "Run with the damper off\nuntil the motion settles", style.PALE),
+        (3.43, 0.96, "On the\nnon-resonance\nbranch?", style.PALE_ORANGE),
+        (2.29, 0.80, "Switchings\nat their limit?", style.PALE_ORANGE),
+        (1.42, 0.42, "Switch the damper on,\nloose mass drawn at random", style.PALE),
+        (0.78, 0.42, "Run until the motion settles,\nor for a stated time", style.PALE),
+        (0.23, 0.24, "Switch it off at a random phase", style.PALE),
     ]
     for y, height, words, color in chain:
         node(axes, x, y, 0.7 if words == "Start" else width, height, words, color)
@@ -242,7 +232,7 @@ def algorithm():
         arrow(axes, (x, y - height / 2), (x, below + depth / 2))
     for y, height, words in ((3.43, 0.96, "Reached"), (2.29, 0.80, "Not reached")):
         letter(axes, x + 0.12, y - height / 2 - 0.1, "no", size=9)
-        node(axes, side, y, 0.92, 0.3, words, PALE_SKY)
+        node(axes, side, y, 0.92, 0.3, words, style.PALE_SKY)
         arrow(axes, (x + width / 2, y), (side - 0.46, y))
         letter(axes, x + width / 2 + 0.14, y + 0.1, "yes", size=9)
     stroke(axes, [(x - width / 2, 0.23), (margin, 0.23), (margin, 4.34)], "detail")
@@ -250,14 +240,14 @@ def algorithm():
     return axes.figure
 
 
-@style()
+@style.context()
 def impact_pair():
     """Return figure B1: two masses in contact through a spring k2 and a dashpot c2."""
     axes = sheet("single", 1.4)
     ground(axes, (0.1, 0.2), (3.3, 0.2))
     for left, symbol, displacement in ((0.25, "$m_1$", "$X_1$"), (2.3, "$m_2$", "$X_2$")):
         wheels(axes, (left + 0.2, left + 0.65), 0.2, 0.06)
-        mass(axes, left, 0.32, 0.85, 0.68, PALE if left < 1 else PALE_SKY)
+        mass(axes, left, 0.32, 0.85, 0.68, style.PALE if left < 1 else style.PALE_SKY)
         letter(axes, left + 0.425, 0.66, symbol)
         coordinate(axes, left, 1.2, displacement)
     spring(axes, 1.1, 2.3, 0.85)

@@ -47,5 +47,5 @@ class Machine(machine_file.MachineEntry):
 
 
 SECTIONS = {"machines": Machine}
-KINDS = (Kind("machines", "machines", "impact_damper.plot.machine_figures.figures", ("machines",)),)
+KINDS = (Kind("machines", "machines", "impact_damper.plot.machine_figures", ("machines",)),)
 TABLES = (Table("machines", "machines", "machines", ("machines",)),)

@@ -15,7 +15,6 @@ from impact_damper.model.units import QUANTITIES
 from impact_damper.motions import traces
 from impact_damper.motions.response import frequency_response
 from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.orbits.orbit_branches import orbit_branches
 
 # States in a forcing cycle from which a motion is measured, and number of cycles over which a
 # motion that is not periodic is measured.
@@ -39,20 +38,17 @@ def response_and_costs(task, decision, progress=None) -> xr.Dataset:
 
 
 def damped_response(task, choice, progress=None) -> xr.Dataset:
-    """Return the response with the chosen damper: motions and branches of orbits."""
+    """Return the response with the chosen damper."""
     # Motions that have not settled after the largest number of cycles are run further, to name
     # them. The search for the gap does not do this, to save time.
     effort = task.effort
     settling = replace(effort.settling, further=FURTHER)
     searched = {"starts": effort.starts, "seed": effort.seed, "settling": settling}
     searched |= {"workers": effort.workers, "progress": progress}
-    damper, span = task.damper(1e-3 * float(choice["design_gap"])), task.band
+    damper = task.damper(1e-3 * float(choice["design_gap"]))
     motions = frequency_response(task.machine, damper, task.grid, **searched)
-    orbits = orbit_branches(task.machine, damper, span=span, motions=[motions])
-    # The motions have a variable `branch`, so the dimension `branch` of the orbits is renamed.
     # All steps get the same coordinate `frequency`.
-    motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
-    return motions.merge(orbits.rename_dims(branch="curve"))
+    return motions.assign_coords(frequency=shown_variable("frequency", task.grid))
 
 
 def reached_motions(task, choice, response) -> xr.Dataset:

@@ -5,29 +5,17 @@ from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 
 from impact_damper.data.datasets import has_damper, parameters_of
 from impact_damper.data.variables import BASIN_LABEL
+from impact_damper.plot import style
 from impact_damper.plot.sheets import dataset_in, sheet
-from impact_damper.plot.style import (
-    BLACK,
-    GREY,
-    ORANGE,
-    PALE,
-    PURPLE,
-    SKY,
-    VERMILION,
-    WHITE,
-    axis_label,
-    markers,
-    parameter_label,
-)
 
 # Colours of attractors in the order of rising displacement; the largest has the last colour.
-COLOURS = (SKY, VERMILION, PURPLE, "#F7E7A6")
-CHAOS = ORANGE
+COLOURS = (style.SKY, style.VERMILION, style.PURPLE, "#F7E7A6")
+CHAOS = style.ORANGE
 # Colours of labels from -6 (quasi-periodic) to -1 (unresolved), before those of the attractors.
-WITHOUT_ATTRACTOR = (GREY, GREY, WHITE, CHAOS, WHITE, PALE)
-AREA = {"edgecolor": BLACK, "linewidth": 0.4}
-POINTS = {"linestyle": "none", "marker": "o", "markeredgecolor": BLACK, "markersize": 4.5}
-SADDLES = markers("unstable orbit", BLACK, "x", markersize=5)
+WITHOUT_ATTRACTOR = (style.GREY, style.GREY, style.WHITE, CHAOS, style.WHITE, style.PALE)
+AREA = {"edgecolor": style.BLACK, "linewidth": 0.4}
+POINTS = {"linestyle": "none", "marker": "o", "markeredgecolor": style.BLACK, "markersize": 4.5}
+SADDLES = style.markers("unstable orbit", style.BLACK, "x", markersize=5)
 
 
 def basins(data, axes=None):
@@ -63,7 +51,7 @@ def basins(data, axes=None):
             axes.plot(x, v, **POINTS, markerfacecolor=colour)
         if "boundary_displacement" in found:
             manifold = found["boundary_displacement"], found["boundary_velocity"]
-            axes.plot(*manifold, color=BLACK, linewidth=0.25)
+            axes.plot(*manifold, color=style.BLACK, linewidth=0.25)
             axes.plot(found["saddle_displacement"], found["saddle_velocity"], **SADDLES)
         _name(axes, found)
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, fontsize=7)
@@ -84,7 +72,7 @@ def _draw_labels(axes, data, colours):
 
 def _draw_shares(axes, data, colours):
     """Colour states by the share of places of the loose mass, with entries in the legend."""
-    shades = LinearSegmentedColormap.from_list("shares", [WHITE, SKY])
+    shades = LinearSegmentedColormap.from_list("shares", [style.WHITE, style.SKY])
     drawn = _fill(axes, data, data["basin_share"][0], cmap=shades, vmin=0, vmax=1)
     words = "share of places of the loose mass"
     axes.figure.colorbar(drawn, ax=axes, label=words, shrink=0.9, ticks=[0, 0.5, 1])
@@ -109,14 +97,14 @@ def _name(axes, data):
     frequency = data["frequency"]
     if frequency.attrs["units"] == "1":
         names = ("mass_ratio", "clearance") if has_damper(data) else ()
-        words = parameter_label(parameters_of(data), "frequency", *names)
+        words = style.parameter_label(parameters_of(data), "frequency", *names)
     else:
         words = f"{float(frequency):.4g} {frequency.attrs['units']}"
     turn = float(data["basin_phase"]) / np.pi
     axes.set_title(rf"{words}, phase ${turn:.3g}\pi$", loc="right", fontsize=7.5)
     axes.set(
-        xlabel=axis_label(data["basin_displacement"]),
-        ylabel=axis_label(data["basin_velocity"]),
+        xlabel=style.axis_label(data["basin_displacement"]),
+        ylabel=style.axis_label(data["basin_velocity"]),
         xlim=data["basin_displacement"].values[[0, -1]],
         ylim=data["basin_velocity"].values[[0, -1]],
     )

@@ -4,39 +4,26 @@ import numpy as np
 
 from impact_damper.data.datasets import flag, parameters_of
 from impact_damper.model.parameters import SYMBOLS
+from impact_damper.plot import style
 from impact_damper.plot.sheets import datasets_in, sheet
-from impact_damper.plot.style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    ROLES,
-    SKY,
-    VERMILION,
-    axis_label,
-    draw,
-    tex,
-)
 
 # Kind of event -> label, marker, colour.
 EVENTS = {
-    "fold": ("fold", "o", BLACK),
-    "symmetry_breaking": ("loss of symmetry or doubling", "s", VERMILION),
-    "period_doubling": ("loss of symmetry or doubling", "s", VERMILION),
-    "neimark_sacker": ("Neimark-Sacker", "D", GREEN),
-    "grazing": ("change of contact", "P", SKY),
-    "merging": ("change of contact", "P", SKY),
+    "fold": ("fold", "o", style.BLACK),
+    "symmetry_breaking": ("loss of symmetry or doubling", "s", style.VERMILION),
+    "period_doubling": ("loss of symmetry or doubling", "s", style.VERMILION),
+    "neimark_sacker": ("Neimark-Sacker", "D", style.GREEN),
+    "grazing": ("change of contact", "P", style.SKY),
+    "merging": ("change of contact", "P", style.SKY),
 }
 # Ends beyond which a branch continues, and their marker.
 OPEN_ENDS = ("lost", "point_limit", "unstable")
-OPEN = {"marker": "x", "color": BLACK, "markersize": 4.5, "linestyle": "none", "zorder": 3.1}
+OPEN = {"marker": "x", "color": style.BLACK, "markersize": 4.5, "linestyle": "none", "zorder": 3.1}
 # Label, colour, opacity of unstable orbits, and test of the period.
 PERIODS = [
-    ("period 1", BLUE, 1.0, lambda period: period == 1),
-    ("period 3", PURPLE, 1.0, lambda period: period == 3),
-    ("other periods", ORANGE, 0.4, lambda period: period not in (1, 3)),
+    ("period 1", style.BLUE, 1.0, lambda period: period == 1),
+    ("period 3", style.PURPLE, 1.0, lambda period: period == 3),
+    ("other periods", style.ORANGE, 0.4, lambda period: period not in (1, 3)),
 ]
 # Roles without a damper: stable and unstable orbits, and test of the period.
 FREE = [
@@ -77,11 +64,13 @@ def branch(data, axes=None):
                 faint = {"linestyle": ":", "linewidth": 0.35, "alpha": opacity}
                 strong = {"label": label, "zorder": 2.2, "linewidth": 1.5}
                 for value, size, stable in runs(each, chosen):
-                    draw(axes, value, size, color=color, **(strong if stable else faint))
+                    style.draw(axes, value, size, color=color, **(strong if stable else faint))
             _mark_events(axes, each)
             _mark_open_ends(axes, each)
-        axes.plot([], [], color=GREY, linewidth=0.8, linestyle=":", label="unstable")
-        axes.set(xlabel=followed_label(given[0]), ylabel=axis_label(given[0]["orbit_displacement"]))
+        axes.plot([], [], color=style.GREY, linewidth=0.8, linestyle=":", label="unstable")
+        axes.set(
+            xlabel=followed_label(given[0]), ylabel=style.axis_label(given[0]["orbit_displacement"])
+        )
     return axes
 
 
@@ -92,7 +81,7 @@ def followed_label(data):
         ("frequency", units): "Forcing frequency",
         ("mass_ratio", "kg"): "Mass of the damper",
     }.get((name, units), name.replace("_", " ").capitalize())
-    symbol = tex("Omega" if name == "frequency" else SYMBOLS[name])
+    symbol = style.tex("Omega" if name == "frequency" else SYMBOLS[name])
     return f"{words}, ${symbol}$" if units == "1" else f"{words} ({units})"
 
 
@@ -123,7 +112,7 @@ def draw_free_orbits(axes, data):
     """Draw orbits without a damper; period (1, 3, others) and stability set colour and line."""
     for role, unstable, chosen in FREE:
         for value, size, stable in runs(data, chosen):
-            draw(axes, value, size, **ROLES[role if stable else unstable])
+            style.draw(axes, value, size, **style.ROLES[role if stable else unstable])
 
 
 def _mark_open_ends(axes, data):
@@ -148,4 +137,6 @@ def _mark_events(axes, data):
         chosen = data.isel(event=beside & (data["event_kind"].values == flag("event_kind", name)))
         if chosen.sizes["event"]:
             look = {"color": color, "marker": marker, "linestyle": "none", "zorder": 3}
-            draw(axes, chosen["event_value"], chosen["event_displacement"], label=label, **look)
+            style.draw(
+                axes, chosen["event_value"], chosen["event_displacement"], label=label, **look
+            )

@@ -1,6 +1,6 @@
 """The plot and the conclusion of a finished design."""
 
-from impact_damper.plot.machine_figures.figures import frequency_panel, gap_panel
+from impact_damper.plot.machine_figures import frequency_panel, gap_panel
 from impact_damper.plot.sheets import dataset_in, sheet
 
 RESULTS = "design_damper or evaluate_damper"

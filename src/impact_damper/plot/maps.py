@@ -6,12 +6,12 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
-from impact_damper.plot.style import BLACK, GREY, PALE
+from impact_damper.plot import style
 
 
 def mesh(axes, x, y, values, norm, absent=None):
     """Draw cells coloured by value, and return the mesh; NaN is hatched, `absent` in the legend."""
-    back = {"facecolor": PALE, "hatch": "////", "edgecolor": GREY}
+    back = {"facecolor": style.PALE, "hatch": "////", "edgecolor": style.GREY}
     axes.patch.set(linewidth=0, **back)
     if absent:
         axes.fill([], [], label=absent, **back)
@@ -23,7 +23,7 @@ def marked(axes, x, y, where, colour, label):
     """Draw the cells of a mask in one colour."""
     cells = {"cmap": ListedColormap([colour]), "shading": "nearest", "rasterized": True}
     axes.pcolormesh(x, y, np.ma.masked_where(~where, where), **cells)
-    axes.fill([], [], facecolor=colour, edgecolor=GREY, label=label)
+    axes.fill([], [], facecolor=colour, edgecolor=style.GREY, label=label)
 
 
 def hatch(axes, x, y, where, **look):
@@ -43,8 +43,8 @@ def contours(axes, x, y, error, levels):
     """Draw a contour line for each level of an error, with an entry in the legend."""
     for level, line in zip(levels, ("solid", "dotted"), strict=True):
         if np.nanmin(error) < level < np.nanmax(error):
-            axes.contour(x, y, error, [level], colors=BLACK, linewidths=0.8, linestyles=line)
-        axes.plot([], [], color=BLACK, linestyle=line, label=f"error of {100 * level:g} %")
+            axes.contour(x, y, error, [level], colors=style.BLACK, linewidths=0.8, linestyles=line)
+        axes.plot([], [], color=style.BLACK, linestyle=line, label=f"error of {100 * level:g} %")
 
 
 def edges_of(centres):

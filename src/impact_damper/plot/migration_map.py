@@ -3,14 +3,14 @@
 import numpy as np
 from matplotlib.colors import Normalize
 
+from impact_damper.plot import style
 from impact_damper.plot.maps import mesh
-from impact_damper.plot.style import BLACK, figure, legend, style
 
 
-@style()
+@style.context()
 def migration_map(data):
     """Return the figure of a result of `design.migration.migration`."""
-    drawn = figure("single", 3.2)
+    drawn = style.figure("single", 3.2)
     axes = drawn.subplots()
     frequencies, gaps = data["released_frequency"].values, data["released_gap"].values
     shares = 100 * data["migration_share"].values
@@ -18,9 +18,9 @@ def migration_map(data):
     drawn.colorbar(cells, label="Releases that succeed (%)")
     sure = np.array(data["migration_status"] == 1)
     places = np.argwhere(sure)
-    look = {"color": BLACK, "marker": "o", "markersize": 3, "linestyle": "", "mfc": "white"}
+    look = {"color": style.BLACK, "marker": "o", "markersize": 3, "linestyle": "", "mfc": "white"}
     label = f"sure ({100 * float(data['migration_required']):g} % at 95 %)"
     axes.plot(frequencies[places[:, 1]], gaps[places[:, 0]], label=label, **look)
     axes.set(xlabel="Forcing frequency (Hz)", ylabel="Gap, full play (mm)", yscale="log")
-    legend(drawn, 1)
+    style.legend(drawn, 1)
     return drawn

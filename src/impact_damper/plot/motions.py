@@ -2,27 +2,19 @@
 
 import numpy as np
 
+from impact_damper.plot import style
 from impact_damper.plot.sheets import dataset_in, sheet
-from impact_damper.plot.style import (
-    BLACK,
-    BLUE,
-    GREY,
-    ORANGE,
-    PALE_SKY,
-    VERMILION,
-    axis_label,
-    line,
-    shading,
-)
 
 WALLS = {
-    1: line("contact, $Z_2 \\geq d_0$", BLUE, linewidth=3, solid_capstyle="butt"),
-    -1: line("contact, $Z_2 \\leq -d_0$", ORANGE, linewidth=3, linestyle=(0, (1.2, 0.5))),
+    1: style.line("contact, $Z_2 \\geq d_0$", style.BLUE, linewidth=3, solid_capstyle="butt"),
+    -1: style.line(
+        "contact, $Z_2 \\leq -d_0$", style.ORANGE, linewidth=3, linestyle=(0, (1.2, 0.5))
+    ),
 }
-DAMPER_ON = shading("damper on", PALE_SKY)
+DAMPER_ON = style.shading("damper on", style.PALE_SKY)
 SWITCHED = {
-    "on_time": line("switched on", VERMILION),
-    "off_time": line("switched off", BLUE, linestyle=(0, (3, 1.5))),
+    "on_time": style.line("switched on", style.VERMILION),
+    "off_time": style.line("switched off", style.BLUE, linestyle=(0, (3, 1.5))),
 }
 # Lines of a run of migration control; the thin one is for at least MANY times.
 MANY = 2500
@@ -58,26 +50,26 @@ def orbit(data, axes=None):
 
 def phase_panel(axes, run):
     """Draw velocity against displacement of the primary mass, thick in contact."""
-    axes.plot(run["displacement"], run["velocity"], color=BLACK, linewidth=0.8)
+    axes.plot(run["displacement"], run["velocity"], color=style.BLACK, linewidth=0.8)
     for wall, look in WALLS.items():
         axes.plot(run["displacement"], run["velocity"].where(_in_contact(run, wall)), **look)
-    axes.set(xlabel=axis_label(run["displacement"]), ylabel=axis_label(run["velocity"]))
+    axes.set(xlabel=style.axis_label(run["displacement"]), ylabel=style.axis_label(run["velocity"]))
 
 
 def _time_panel(axes, run):
     """Draw both displacements against time; the line of the relative one is thick in contact."""
     time, relative = run["time"], run["relative_displacement"]
-    axes.plot(time, run["displacement"], color=BLACK, label="primary mass, $Z_1$")
+    axes.plot(time, run["displacement"], color=style.BLACK, label="primary mass, $Z_1$")
     if len(run["contact_wall"]):
         words = "relative to the loose mass, $Z_2$"
-        axes.plot(time, relative, color=GREY, linewidth=0.8, label=words)
+        axes.plot(time, relative, color=style.GREY, linewidth=0.8, label=words)
     for wall, look in WALLS.items():
         chosen = _in_contact(run, wall)
         if chosen.any():
             axes.plot(time, relative.where(chosen), **look)
     units = run["displacement"].attrs["units"]
     words = "Displacement" if units == "1" else f"Displacement ({units})"
-    axes.set(xlabel=axis_label(time), ylabel=words)
+    axes.set(xlabel=style.axis_label(time), ylabel=words)
 
 
 def _in_contact(run, wall):
@@ -114,7 +106,7 @@ def migration(data, axes=None, span=None):
     with sheet(axes) as (axes,):
         first, last = run["time"].values[[0, -1]] if span is None else span
         drawn = run["displacement"].sel(time=slice(first, last))
-        axes.plot(drawn["time"], drawn, color=BLACK, **(LINE if drawn.size < MANY else THIN))
+        axes.plot(drawn["time"], drawn, color=style.BLACK, **(LINE if drawn.size < MANY else THIN))
         switched = [run[name].values[np.isfinite(run[name])] for name in SWITCHED]
         for begin, end in zip(*switched, strict=True):
             axes.axvspan(begin, end, **DAMPER_ON)
@@ -123,8 +115,8 @@ def migration(data, axes=None, span=None):
                 axes.axvline(time, **look)
         axes.set(
             xlim=(first, last),
-            xlabel=axis_label(run["time"]),
-            ylabel=axis_label(run["displacement"]),
+            xlabel=style.axis_label(run["time"]),
+            ylabel=style.axis_label(run["displacement"]),
         )
         axes.tick_params(top=False)
     return axes

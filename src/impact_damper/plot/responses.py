@@ -3,24 +3,24 @@
 import numpy as np
 
 from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
+from impact_damper.plot import style
 from impact_damper.plot.branches import draw_free_orbits, followed_label, runs
 from impact_damper.plot.sheets import datasets_in, sheet
-from impact_damper.plot.style import BLUE, ROLES, axis_label, draw
 
 # Settled motions of a branch are joined by a thin line.
 JOINED = {"linestyle": "-", "linewidth": 0.5}
 # Looks of motions that have not settled on an orbit with contacts, by outcome.
-DAMPED = {name: ROLES[name] for name in ("chaotic", "chaotic_transient", "quasi_periodic")}
-DAMPED |= {name: ROLES["non_colliding"] for name in ("non_colliding", "drifting")}
-DAMPED["unresolved"] = ROLES["unresolved"]
+DAMPED = {name: style.ROLES[name] for name in ("chaotic", "chaotic_transient", "quasi_periodic")}
+DAMPED |= {name: style.ROLES["non_colliding"] for name in ("non_colliding", "drifting")}
+DAMPED["unresolved"] = style.ROLES["unresolved"]
 FREE = {
-    "chaotic": ROLES["chaotic"] | {"label": "free, chaotic"},
-    "unresolved": ROLES["unresolved"] | {"label": "free, unresolved"},
+    "chaotic": style.ROLES["chaotic"] | {"label": "free, chaotic"},
+    "unresolved": style.ROLES["unresolved"] | {"label": "free, unresolved"},
 }
 # Looks of results of `steady_motion`.
-SETTLED = ROLES["period_1"] | JOINED | {"label": "settled"}
-STILL = ROLES["non_colliding"] | {"label": "no contact"}
-UNSETTLED = ROLES["chaotic"] | {"label": "not settled"}
+SETTLED = style.ROLES["period_1"] | JOINED | {"label": "settled"}
+STILL = style.ROLES["non_colliding"] | {"label": "no contact"}
+UNSETTLED = style.ROLES["chaotic"] | {"label": "not settled"}
 # Displacements of datasets, and labels that replace the description of their axis.
 SIZES = {
     "maximum_displacement": None,
@@ -93,16 +93,16 @@ def _draw_orbits(axes, orbits, stable):
         return
     for value, size, is_stable in runs(orbits, lambda period: period == 1):
         if not is_stable:
-            draw(axes, value, size, **ROLES["unstable_orbit"])
+            style.draw(axes, value, size, **style.ROLES["unstable_orbit"])
     for value, size, is_stable in runs(orbits, lambda period: stable):
         if is_stable:
-            draw(axes, value, size, color=BLUE, label="stable orbit")
+            style.draw(axes, value, size, color=style.BLUE, label="stable orbit")
 
 
 def _draw_balance(axes, balance, free):
     """Draw the band, the stable solutions with contact and, if `free`, those without a damper."""
     if "band_status" in balance and balance["band_status"] == flag("band_status", "found"):
-        axes.axvspan(*balance["edge_frequency"].values, **ROLES["band"])
+        axes.axvspan(*balance["edge_frequency"].values, **style.ROLES["band"])
     if free:
         stable = balance["free_stability"] == flag("free_stability", "stable")
         _draw_solutions(axes, balance["free_amplitude"].where(stable), "free_stable")
@@ -117,7 +117,7 @@ def _draw_solutions(axes, amplitude, role):
     """Draw the amplitudes of solutions, NaN where not wanted, shape (frequency, solution)."""
     for branch in np.abs(amplitude.values).T:
         if np.isfinite(branch).any():
-            draw(axes, amplitude["frequency"], branch, **ROLES[role])
+            style.draw(axes, amplitude["frequency"], branch, **style.ROLES[role])
 
 
 def _draw_unstable(axes, balance):
@@ -130,7 +130,7 @@ def _draw_unstable(axes, balance):
     )
     unstable = stability == flag("free_stability", "unstable")
     shown = np.convolve(unstable, [1, 1, 1], "same") > 0
-    draw(axes, frequency, np.where(shown, amplitude, np.nan), **ROLES["free_unstable"])
+    style.draw(axes, frequency, np.where(shown, amplitude, np.nan), **style.ROLES["free_unstable"])
 
 
 def _draw_motions(axes, motions):
@@ -149,7 +149,7 @@ def _draw_motions(axes, motions):
         masks, look, others = {"free_stable": period == 1, "free_higher": period != 1}, {}, FREE
     for name, chosen in masks.items():
         for frequency, size in _branch_lines(motions, settled & chosen):
-            draw(axes, frequency, size, **ROLES[name] | look)
+            style.draw(axes, frequency, size, **style.ROLES[name] | look)
     _draw_unsettled(axes, motions, others)
 
 
@@ -181,7 +181,7 @@ def _draw_unsettled(axes, motions, looks):
         row, column = chosen.nonzero()
         if len(row):
             size = motions["maximum_displacement"].values[row, column]
-            draw(axes, motions["frequency"].values[row], size, **look)
+            style.draw(axes, motions["frequency"].values[row], size, **look)
 
 
 def _draw_steady(axes, motions):
@@ -201,7 +201,9 @@ def _label(axes, given):
     """Label the axes by the first dataset; with amplitudes only, the ordinate is an amplitude."""
     first = given[0]
     axes.set_xlabel(
-        axis_label(first["frequency"]) if "frequency" in first.coords else followed_label(first)
+        style.axis_label(first["frequency"])
+        if "frequency" in first.coords
+        else followed_label(first)
     )
     name, each = next((name, each) for name in SIZES for each in given if name in each)
-    axes.set_ylabel(axis_label(each[name], SIZES[name]))
+    axes.set_ylabel(style.axis_label(each[name], SIZES[name]))

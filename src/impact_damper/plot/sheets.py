@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib import pyplot
 
 from impact_damper.model.bounds import shown
-from impact_damper.plot.style import COLUMNS, legend, style
+from impact_damper.plot import style
 
 
 def datasets_in(data, takes, words) -> list[xr.Dataset]:
@@ -49,12 +49,12 @@ def sheet(axes, count=1, height=3.6, columns=3):
             raise TypeError(f"axes = {shown(axes)}: must be {count} Axes of matplotlib")
         yield given
         return
-    with style():
-        size = COLUMNS["double"], height
+    with style.context():
+        size = style.COLUMNS["double"], height
         drawn, panels = pyplot.subplots(1, count, figsize=size, layout="constrained", squeeze=False)
         yield list(panels[0])
         if columns:
-            legend(drawn, columns)
+            style.legend(drawn, columns)
         # In a notebook the first figure makes matplotlib interactive, which must outlive the style.
         interactive = matplotlib.is_interactive()
     matplotlib.interactive(interactive)

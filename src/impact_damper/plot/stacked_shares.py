@@ -6,33 +6,21 @@ import numpy as np
 from matplotlib.colors import to_rgb
 
 from impact_damper.data.sweeps import families
+from impact_damper.plot import style
 from impact_damper.plot.maps import edges_of
 from impact_damper.plot.sheets import dataset_in, sheet
-from impact_damper.plot.style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    SKY,
-    VERMILION,
-    WHITE,
-    axis_label,
-    once,
-)
 
 # Kinds of motions from below: label, colour and hatching.
 LOOKS = {
-    "period 1": (BLUE, ""),
-    "period 2": (GREEN, "////"),
-    "period 3": (PURPLE, "\\\\\\\\"),
-    "other periods": (VERMILION, "xxxx"),
-    "quasi-periodic": (SKY, "||||"),
-    "no contact": (GREY, ""),
-    "chaotic transient": (ORANGE, "++++"),
-    "chaotic": (ORANGE, "...."),
-    "others": (BLACK, ""),
+    "period 1": (style.BLUE, ""),
+    "period 2": (style.GREEN, "////"),
+    "period 3": (style.PURPLE, "\\\\\\\\"),
+    "other periods": (style.VERMILION, "xxxx"),
+    "quasi-periodic": (style.SKY, "||||"),
+    "no contact": (style.GREY, ""),
+    "chaotic transient": (style.ORANGE, "++++"),
+    "chaotic": (style.ORANGE, "...."),
+    "others": (style.BLACK, ""),
 }
 # Kinds of motions that have not settled, by outcome.
 OUTCOMES = {
@@ -43,8 +31,8 @@ OUTCOMES = {
 }
 # Fractions of white mixed into the colours of the first, second, third ... motion of a kind.
 PALER = (0.0, 0.45, 0.7)
-EDGE = {"fill": True, "edgecolor": WHITE, "linewidth": 0.4}
-INTERVAL = {"color": BLACK, "linewidth": 0.6}
+EDGE = {"fill": True, "edgecolor": style.WHITE, "linewidth": 0.4}
+INTERVAL = {"color": style.BLACK, "linewidth": 0.6}
 
 
 def shares(data, axes=None):
@@ -78,14 +66,14 @@ def shares(data, axes=None):
     with sheet(axes, columns=4) as (axes,):
         for kind, rank, chosen in _ranked_motions(found):
             share = np.where(chosen, found["motion_starts"].values, 0).sum(axis=1) / starts
-            label = once(axes, kind)
+            label = style.once(axes, kind)
             axes.stairs(below + share, edges, baseline=below, label=label, **_look(kind, rank))
             row, column = np.nonzero(chosen & (below + share < 1)[:, None])
             low, high = (found[f"share_{end}"].values[row, column] for end in ("lower", "upper"))
             axes.vlines(places[row], below[row] + low, below[row] + high, **INTERVAL)
             below = below + share
         axes.set(
-            xlabel=axis_label(found[dimension]),
+            xlabel=style.axis_label(found[dimension]),
             ylabel="Share of random starts",
             xlim=edges[[0, -1]],
             ylim=(0, 1),

@@ -118,7 +118,7 @@ CURVES = [
 MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
 
 
-def style(*changes):
+def context(*changes):
     """Return a context manager, also a decorator, that applies the common style with changes."""
     return matplotlib.style.context(["default", STYLE, *changes])
 
@@ -210,7 +210,7 @@ def save_figure(figure, path) -> None:
     The layout is computed once, so that both files show the same picture. With the layout engine
     "none" in place of None matplotlib would draw twice for each file.
     """
-    with style():
+    with context():
         if figure.get_layout_engine() is not None:
             figure.get_layout_engine().execute(figure)
         figure.set_layout_engine(None)

@@ -6,25 +6,20 @@ import numpy as np
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.model.units import Scales
+from impact_damper.plot import style
 from impact_damper.plot.sheets import datasets_in, sheet
-from impact_damper.plot.style import (
-    BLACK,
-    CURVES,
-    GREY,
-    axis_label,
-    curve,
-    line,
-    markers,
-    parameter_label,
-    points,
-)
 
-OPTIMUM = markers(
-    "smallest, on the exact orbit", BLACK, "*", markerfacecolor=BLACK, markersize=5.5, zorder=3
+OPTIMUM = style.markers(
+    "smallest, on the exact orbit",
+    style.BLACK,
+    "*",
+    markerfacecolor=style.BLACK,
+    markersize=5.5,
+    zorder=3,
 )
 STAR = OPTIMUM | {"markeredgewidth": 0.5, "markersize": 7.5}
-NEAR = line("at most 10 % larger", GREY, marker="|", linewidth=0.6, zorder=3)
-BALANCE = line("lines: $|a|$ by equations (7)", GREY)
+NEAR = style.line("at most 10 % larger", style.GREY, marker="|", linewidth=0.6, zorder=3)
+BALANCE = style.line("lines: $|a|$ by equations (7)", style.GREY)
 # Parameters that the legend names if they differ between the curves; the last one always.
 VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 
@@ -54,21 +49,21 @@ def sweep(data, axes=None):
     >>> axes = idm.plot.sweep(found)
     """
     sweeps = datasets_in(data, lambda each: "quiet_displacement" in each, "clearance_sweep")
-    if len(sweeps) > len(CURVES):
-        raise TypeError(f"data = {len(sweeps)} datasets: must be at most {len(CURVES)}")
+    if len(sweeps) > len(style.CURVES):
+        raise TypeError(f"data = {len(sweeps)} datasets: must be at most {len(style.CURVES)}")
     with sheet(axes) as (axes,):
         # Legend: each curve with its own line; entries that hold for all curves are grey.
         for index, words in enumerate(_titles(sweeps)):
-            axes.plot([], [], **points(index) | curve(index), label=words)
+            axes.plot([], [], **style.points(index) | style.curve(index), label=words)
         if any(map(_balanced, sweeps)):
             axes.plot([], [], **BALANCE)
-        axes.plot([], [], **STAR | {"color": GREY})
+        axes.plot([], [], **STAR | {"color": style.GREY})
         axes.plot([], [], **NEAR)
         for index, each in enumerate(sweeps):
             _draw_sweep(axes, each, index)
         axes.set(
-            xlabel=axis_label(sweeps[0]["clearance"]),
-            ylabel=axis_label(sweeps[0]["quiet_displacement"]),
+            xlabel=style.axis_label(sweeps[0]["clearance"]),
+            ylabel=style.axis_label(sweeps[0]["quiet_displacement"]),
         )
         axes.set_ylim(bottom=0)
     return axes
@@ -83,16 +78,18 @@ def _draw_sweep(axes, sweep, index):
     """Draw a sweep: points, line with the optimum inserted, and the range of clearances near it."""
     clearance, size = sweep["clearance"].values, sweep["quiet_displacement"].values
     best, least = float(sweep["optimum_clearance"]), float(sweep["optimum_displacement"])
-    color = {"color": curve(index)["color"], "label": None}
-    axes.plot(clearance, size, **points(index))
+    color = {"color": style.curve(index)["color"], "label": None}
+    axes.plot(clearance, size, **style.points(index))
     if _balanced(sweep):
         at, values, lowest = float(sweep["analytical_optimum"]), sweep["analytical_amplitude"], 0
     else:
         at, values, lowest = best, size, least
     place = np.searchsorted(clearance, at)
-    axes.plot(np.insert(clearance, place, at), np.insert(values, place, lowest), **curve(index))
+    axes.plot(
+        np.insert(clearance, place, at), np.insert(values, place, lowest), **style.curve(index)
+    )
     axes.plot(sweep["near_clearance"], [least, least], **NEAR | color)
-    filled = {"markerfacecolor": color["color"], "markeredgecolor": BLACK}
+    filled = {"markerfacecolor": color["color"], "markeredgecolor": style.BLACK}
     axes.plot(best, least, **STAR | color | filled)
 
 
@@ -107,7 +104,7 @@ def _parameters(sweep):
     """Return the parameters that may differ between sweeps as text, the damper's mass last."""
     values = parameters_of(sweep)
     if "machine" not in sweep.attrs:
-        return [parameter_label(values, name) for name in VARIED]
+        return [style.parameter_label(values, name) for name in VARIED]
     machine, scales = (json.loads(sweep.attrs[name]) for name in ("machine", "scales"))
     return [
         f"damping ratio {machine['damping_ratio']:.4g}",

@@ -5,7 +5,6 @@ limit for rigid walls.
 """
 
 import numpy as np
-import xarray as xr
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.model.arguments import read_frequencies, read_system
@@ -14,7 +13,6 @@ from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.free_oscillator import free_solutions, resonance
 from impact_damper.theory.single_harmonic import (
     Solutions,
-    check_elastic,
     impacting_solutions,
     resting_solutions,
     rigid_solutions,
@@ -94,27 +92,16 @@ def harmonic_balance(system, damper, frequencies):
     >>> found.edge_frequency.values.round(3)
     array([1.911, 2.008])
     """
-    response = harmonic_balance_response(system, damper, frequencies)
-    if damper is None:
-        return response
-    band = suppression_band(system, damper)
-    return xr.merge([response, band], combine_attrs="override")
-
-
-def harmonic_balance_response(system, damper, frequencies):
-    """Return the solutions of `harmonic_balance` at each frequency, without the band."""
     model = read_system(system, damper)
     oscillator, damper = model.oscillator, model.damper
     frequencies = read_frequencies(model.scales, frequencies)
-    tables = [_free_table(oscillator, frequencies)]
+    data, coordinates = _free_table(oscillator, frequencies), {"frequency": frequencies}
     if damper is not None:
-        tables += [
-            _solution_table(oscillator, damper, frequencies),
-            _rigid_table(oscillator, damper, frequencies),
-        ]
-    data = {name: values for table in tables for name, values in table.items()}
+        data |= _solution_table(oscillator, damper, frequencies)
+        data |= _rigid_table(oscillator, damper, frequencies) | _band(oscillator, damper)
+        coordinates["edge"] = EDGES
     title = "Frequency response by harmonic balance"
-    return dataset(data, {"frequency": frequencies}, model.describe(), title, model)
+    return dataset(data, coordinates, model.describe(), title, model)
 
 
 def _table(columns, rows, fill=np.nan):
@@ -200,12 +187,8 @@ EDGES = ["lower", "upper"]
 SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "reduction")
 
 
-def suppression_band(system, damper):
-    """Return the band of `harmonic_balance`, up to interruptions narrower than SEARCH_STEP."""
-    model = read_system(system, damper, needs_damper=True)
-    oscillator, damper = model.oscillator, model.damper
-    check_elastic(damper)
-    title = "Suppression band by harmonic balance"
+def _band(oscillator, damper):
+    """Return the variables of the suppression band, without interruptions below SEARCH_STEP."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,
@@ -214,7 +197,7 @@ def suppression_band(system, damper):
         peak = peak_frequency(oscillator)
         resonance(oscillator, peak)
     except ValueError:
-        return dataset(data, {"edge": EDGES}, model.describe(), title, model)
+        return data
     highest = oscillator.forcing_amplitude(peak) / (oscillator.damping * peak)
 
     def inside(frequency):
@@ -226,14 +209,13 @@ def suppression_band(system, damper):
         data["edge_frequency"] = edges
         data["band_width"] = edges[1] - edges[0]
     quiet = stable[0] if len(stable) else np.nan
-    data |= {
+    return data | {
         "band_status": flag("band_status", found),
         "peak_frequency": peak,
         "peak_amplitude": highest,
         "quiet_amplitude": quiet,
         "reduction": 1 - quiet / highest,
     }
-    return dataset(data, {"edge": EDGES}, model.describe(), title, model)
 
 
 def _look(oscillator, damper, frequency):

@@ -20,7 +20,7 @@ from impact_damper.data.datasets import load
 from impact_damper.design.migration import migration
 from impact_damper.design.task import Task
 from impact_damper.model.machine import describe_si
-from impact_damper.plot.machine_figures.figures import FIGURES
+from impact_damper.plot.machine_figures import FIGURES
 
 FILE = """
 machine: {mass: 12 kg, linear_stiffness: 2e5 N/m, damping_ratio: 5 %, force: 40 N}

@@ -6,7 +6,7 @@ from helpers.made_up_design import made_up_design
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from impact_damper.plot.branches import parts_by_stability
-from impact_damper.plot.machine_figures.figures import (
+from impact_damper.plot.machine_figures import (
     FIGURES,
     draw_machines,
     over_frequency,

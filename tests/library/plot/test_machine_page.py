@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from impact_damper.data.variables import VARIABLES
 from impact_damper.plot import conclusion
-from impact_damper.plot.machine_figures.figures import FIGURES
+from impact_damper.plot.machine_figures import FIGURES
 from impact_damper.plot.pages.render import page_of, write_page
 
 NO_PICTURES = dict.fromkeys(FIGURES, b"")

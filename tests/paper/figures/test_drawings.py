@@ -20,8 +20,8 @@ from chatterjee1995.figures.responses import (
 )
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION, OUTCOME
+from impact_damper.plot import style
 from impact_damper.plot.motions import DAMPER_ON, SWITCHED
-from impact_damper.plot.style import COLUMNS, ROLES, style
 from impact_damper.plot.sweeps import NEAR, OPTIMUM
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -160,8 +160,8 @@ def drawn_once(name):
 @pytest.fixture(params=DRAWINGS)
 def drawing(request):
     _, roles = DRAWINGS[request.param]
-    with style():
-        looks = [ROLES[role] if isinstance(role, str) else role for role in roles]
+    with style.context():
+        looks = [style.ROLES[role] if isinstance(role, str) else role for role in roles]
         yield drawn_once(request.param), {look["label"] for look in looks}
 
 
@@ -188,7 +188,7 @@ def test_all_lies_on_the_sheet_and_the_legend_beside_the_axes(drawing):
 
 def test_axes_are_labelled_and_the_drawing_is_as_wide_as_a_column(drawing):
     drawn, _ = drawing
-    assert drawn.get_figwidth() in COLUMNS.values()
+    assert drawn.get_figwidth() in style.COLUMNS.values()
     assert any(axes.get_xlabel() for axes in drawn.axes)
     assert drawn.get_supylabel() or any(axes.get_ylabel() for axes in drawn.axes)
 
@@ -210,7 +210,7 @@ def looks(drawn, labels):
 
 def test_what_differs_in_colour_differs_in_grey_too():
     draw, roles = DRAWINGS["response"]
-    labels = {ROLES[role]["label"] for role in roles if role != "band"}
+    labels = {style.ROLES[role]["label"] for role in roles if role != "band"}
     found = looks(draw(), labels)
     assert set(found) == labels
     assert len(set(found.values())) == len(found)

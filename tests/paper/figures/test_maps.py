@@ -11,7 +11,7 @@ from chatterjee1995.figures.clearance import draw_studies
 from chatterjee1995.stages.studies import AXES, OUTCOMES
 from impact_damper.data.datasets import dataset
 from impact_damper.data.variables import VARIABLES
-from impact_damper.plot.style import style
+from impact_damper.plot import style
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -45,7 +45,7 @@ def balance_map():
 
 @pytest.fixture(scope="module")
 def drawing():
-    with style():
+    with style.context():
         drawn = draw_balance_map(balance_map=[balance_map()])
         FigureCanvasAgg(drawn).draw()
         yield drawn
@@ -87,7 +87,7 @@ def study(frequencies, restitutions):
 
 @pytest.mark.parametrize(("restitutions", "panels"), [([1.0], 2), ([0.8, 1.0], 4)])
 def test_panels_and_hatched_cells(restitutions, panels):
-    with style():
+    with style.context():
         drawn = draw_studies(studies=[study([1.5, 2.0], restitutions)])
         FigureCanvasAgg(drawn).draw()
     maps = [axes for axes in drawn.axes if axes.get_label() != "<colorbar>"]

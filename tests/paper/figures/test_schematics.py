@@ -14,7 +14,7 @@ from matplotlib.text import Text
 
 import impact_damper
 from chatterjee1995.figures import schematics
-from impact_damper.plot.style import COLUMNS, save_figure, style
+from impact_damper.plot import style
 
 NAMES = ["elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair"]
 
@@ -31,7 +31,7 @@ def test_saves_have_the_same_bytes(tmp_path):
     source = str(pathlib.Path(impact_damper.__file__).parents[1])
     environment = os.environ | {"PYTHONPATH": source, "PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo"}
     subprocess.run([sys.executable, "-c", program], env=environment, check=True)
-    save_figure(schematics.migration_scheme(), tmp_path / "own")
+    style.save_figure(schematics.migration_scheme(), tmp_path / "own")
     for kind in ("pdf", "png"):
         own, other = (tmp_path / f"{name}.{kind}" for name in ("own", "other"))
         assert own.read_bytes() == other.read_bytes()
@@ -47,7 +47,7 @@ def drawn_once(name):
 
 @pytest.fixture(params=NAMES)
 def drawn(request):
-    with style():
+    with style.context():
         yield drawn_once(request.param)
 
 
@@ -57,7 +57,7 @@ def boxes(figure):
 
 
 def test_texts_lie_on_the_sheet(drawn):
-    assert drawn.get_figwidth() in COLUMNS.values()
+    assert drawn.get_figwidth() in style.COLUMNS.values()
     found = boxes(drawn)
     assert len(found) >= 6
     for text, box in found.items():

@@ -9,7 +9,7 @@ from impact_damper.data.datasets import decode, named, parameters_of
 from impact_damper.data.design_variables import KEEPS, WORTH
 from impact_damper.data.sweeps import runs_of_true
 from impact_damper.model.text import number, percent, with_unit
-from impact_damper.plot.machine_figures.figures import ENDLESS
+from impact_damper.plot.machine_figures import ENDLESS
 
 # The decay time of an unforced vibration is the time until it has fallen to this fraction.
 DECAY = 0.1

@@ -12,9 +12,9 @@ from markupsafe import Markup
 
 from impact_damper.data.whole_files import whole
 from impact_damper.model.text import number, percent
-from impact_damper.plot.machine_figures.figures import ENDLESS, FIGURES
+from impact_damper.plot import style
+from impact_damper.plot.machine_figures import ENDLESS, FIGURES
 from impact_damper.plot.pages.numbers import numbers_of, size
-from impact_damper.plot.style import style
 
 # Dots per inch: 1540 pixels for a figure of 7 inches, so that pages never enlarge it.
 DPI = 220
@@ -58,7 +58,7 @@ def page_of(name, data, pictures, file=None, date="") -> str:
 
 def as_png(figure) -> bytes:
     """Return a figure as PNG, reproducible to the byte."""
-    with style(), io.BytesIO() as file:
+    with style.context(), io.BytesIO() as file:
         figure.savefig(file, format="png", dpi=DPI, metadata={"Software": None})
         return file.getvalue()
 

@@ -7,57 +7,40 @@ import numpy as np
 from matplotlib.ticker import NullLocator
 
 from impact_damper.data.datasets import decode, is_settled, parameters_of
+from impact_damper.plot import style
 from impact_damper.plot.branches import parts_by_stability
-from impact_damper.plot.style import (
-    BLACK,
-    BLUE,
-    DASHED,
-    DOTTED,
-    GREEN,
-    GREY,
-    ORANGE,
-    PALE,
-    PALE_SKY,
-    ROLES,
-    SKY,
-    VERMILION,
-    figure,
-    legend,
-    line,
-    markers,
-    shading,
-    style,
-)
 
 # Displacements from ENDLESS on, in mm, are those of motions that escape.
 ENDLESS = 1e9
-BARE = line("without damper", BLACK, linewidth=1.2)
-TUNED = line("tuned absorber", GREEN, linewidth=1.1, linestyle=DASHED)
-DETUNED = {"label": "its spring 10 % off", "color": GREEN, "alpha": 0.2, "linewidth": 0}
-NOMINAL = line("values as given", BLUE, linewidth=0.9)
-WORST = line("worst within tolerances", BLUE, linewidth=1.8)
-PERIODIC = ROLES["period_1"] | {"label": "periodic motion", "markersize": 2.2}
-OTHERS = ROLES["chaotic"] | {"label": "other motion", "markersize": 2.6}
-LIMIT = line("limit given", VERMILION, linewidth=0.9, linestyle=DOTTED)
-PROMISED = markers("promise", VERMILION, "*", markersize=9, zorder=5, markerfacecolor=VERMILION)
-CHOSEN = line("gap of the damper", VERMILION, linewidth=0.9)
-TOLERATED = shading("tolerance of the gap", PALE_SKY)
-CLIFF = line("cliff", ORANGE, linewidth=1.1, linestyle=DASHED)
-ORBIT = line("quiet orbit", SKY, linewidth=1.8)
-LOST_ORBIT = line("quiet orbit, unstable", SKY, linewidth=1.0, linestyle=DOTTED)
-SMALLEST = markers("smallest quiet orbit", BLACK, "*", markersize=7, zorder=4)
+BARE = style.line("without damper", style.BLACK, linewidth=1.2)
+TUNED = style.line("tuned absorber", style.GREEN, linewidth=1.1, linestyle=style.DASHED)
+DETUNED = {"label": "its spring 10 % off", "color": style.GREEN, "alpha": 0.2, "linewidth": 0}
+NOMINAL = style.line("values as given", style.BLUE, linewidth=0.9)
+WORST = style.line("worst within tolerances", style.BLUE, linewidth=1.8)
+PERIODIC = style.ROLES["period_1"] | {"label": "periodic motion", "markersize": 2.2}
+OTHERS = style.ROLES["chaotic"] | {"label": "other motion", "markersize": 2.6}
+LIMIT = style.line("limit given", style.VERMILION, linewidth=0.9, linestyle=style.DOTTED)
+PROMISED = style.markers(
+    "promise", style.VERMILION, "*", markersize=9, zorder=5, markerfacecolor=style.VERMILION
+)
+CHOSEN = style.line("gap of the damper", style.VERMILION, linewidth=0.9)
+TOLERATED = style.shading("tolerance of the gap", style.PALE_SKY)
+CLIFF = style.line("cliff", style.ORANGE, linewidth=1.1, linestyle=style.DASHED)
+ORBIT = style.line("quiet orbit", style.SKY, linewidth=1.8)
+LOST_ORBIT = style.line("quiet orbit, unstable", style.SKY, linewidth=1.0, linestyle=style.DOTTED)
+SMALLEST = style.markers("smallest quiet orbit", style.BLACK, "*", markersize=7, zorder=4)
 DOTS = {"marker": ".", "markersize": 3.0}
-ESCAPED = markers("escapes", GREY, "^", markersize=5, clip_on=False)
+ESCAPED = style.markers("escapes", style.GREY, "^", markersize=5, clip_on=False)
 
 
-@style()
+@style.context()
 def draw_answer(data):
     """Return the displacement over the frequency, and over the gap."""
-    drawn = figure("double", 2.9)
+    drawn = style.figure("double", 2.9)
     left, right = drawn.subplots(1, 2)
     frequency_panel(left, data)
     gap_panel(right, data)
-    legend(drawn, 4)
+    style.legend(drawn, 4)
     return drawn
 
 
@@ -130,12 +113,12 @@ def gap_panel(axes, data):
     decades(axes)
 
 
-@style()
+@style.context()
 def draw_forces(data):
     """Return the displacement over the band against the excitation, beside none and an absorber."""
     if not {"force_map_displacement", "competitor_displacement"} <= set(data):
         return None
-    drawn = figure("double", 2.8)
+    drawn = style.figure("double", 2.8)
     axes, force = drawn.subplots(), data["force_share"].values
     sizes = data["competitor_displacement"].max("frequency", skipna=False)
     plot_sizes(axes, force, sizes.sel(competitor="bare", detuning=0.0).values, **BARE)
@@ -147,23 +130,23 @@ def draw_forces(data):
         plot_sizes(axes, force, tuned.sel(detuning=0.0).values, **TUNED)
     ours = data["force_map_displacement"].max("operating_frequency").values
     plot_sizes(axes, force, ours, **NOMINAL | {"marker": "s", "markersize": 3.0})
-    axes.axvline(1.0, **line("excitation given", VERMILION, linewidth=0.9))
+    axes.axvline(1.0, **style.line("excitation given", style.VERMILION, linewidth=0.9))
     limit_line(axes, data)
     axes.set(xscale="log", xlabel="Excitation divided by the one given", xticks=force[::2])
     axes.xaxis.set_major_formatter("{x:g}")
     axes.xaxis.set_minor_locator(NullLocator())
     axes.set_ylabel("Largest displacement (mm)")
     decades(axes)
-    legend(drawn, 3)
+    style.legend(drawn, 3)
     return drawn
 
 
-@style()
+@style.context()
 def draw_transients(data):
     """Return the largest displacement in each cycle of two sweeps and of the unforced decay."""
     if "sweep_envelope" not in data:
         return None
-    drawn = figure("double", 2.8)
+    drawn = style.figure("double", 2.8)
     panels = drawn.subplots(1, 3)
     looks = {"bare": BARE, "damped": NOMINAL | {"label": "with damper"}}
     for axes, direction in zip(panels, ("up", "down"), strict=False):
@@ -183,7 +166,7 @@ def draw_transients(data):
     panels[0].set_ylabel("Displacement (mm)")
     for axes in panels:
         decades(axes)
-    legend(drawn, 2)
+    style.legend(drawn, 2)
     return drawn
 
 
@@ -191,13 +174,13 @@ def _shade_outside_band(axes, data):
     swept, band = data["sweep_frequency"].values, parameters_of(data)["band"]
     for low, high in ((swept.min(), band[0]), (band[1], swept.max())):
         if low < high:
-            axes.axvspan(low, high, facecolor=PALE, linewidth=0, zorder=0)
+            axes.axvspan(low, high, facecolor=style.PALE, linewidth=0, zorder=0)
 
 
-@style({"axes.labelsize": 8.0, "lines.markersize": 2.6})
+@style.context({"axes.labelsize": 8.0, "lines.markersize": 2.6})
 def draw_machines(*, machines):
     """Return displacements over frequency and gap of each machine, from a list of datasets."""
-    drawn = figure("double", 1.0 + 1.75 * len(machines))
+    drawn = style.figure("double", 1.0 + 1.75 * len(machines))
     panels = drawn.subplots(len(machines), 2, squeeze=False)
     for (left, right), data, letter in zip(panels, machines, ascii_lowercase, strict=False):
         frequency_panel(left, data)
@@ -207,7 +190,7 @@ def draw_machines(*, machines):
         left.set_title(f"({letter}) {name}, {mass:g} kg", loc="left")
     for axes in panels[:-1].ravel():
         axes.set_xlabel("")
-    legend(drawn, 4)
+    style.legend(drawn, 4)
     return drawn
 
 

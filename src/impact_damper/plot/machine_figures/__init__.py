@@ -1,1 +1,0 @@
-"""Figures of one machine and the damper designed for it."""
