@@ -87,14 +87,14 @@ def rates(p, side=0, slide=1):
 
 
 def has_closed_forms(oscillator):
-    """Return whether the closed forms for one harmonic accept the spring."""
+    """Return whether the closed forms for one harmonic accept the oscillator, with a damper too."""
     try:
-        return math.isfinite(oscillator.hardening)
+        return math.isfinite(oscillator.hardening) and not oscillator.base
     except ValueError:
         return False
 
 
-# Springs that the closed forms for one harmonic know.
+# Oscillators that the closed forms for one harmonic know.
 KNOWN = {name: each for name, each in SPRINGS.items() if has_closed_forms(each)}
 
 

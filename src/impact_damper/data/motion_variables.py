@@ -142,7 +142,7 @@ quiet_status | clearance | | | whether there is a quiet motion
 largest_displacement | clearance | displacement | | largest displacement that starts lead to
 analytical_amplitude | clearance | displacement | |a| | smallest stable |a| by (7)
 analytical_status | clearance | | | whether the harmonic balance (7) has a stable solution
-  : absent 0, found 1, inelastic 2, unresolved 3
+  : absent 0, found 1, inelastic 2, unresolved 3, unknown 4
 optimum_clearance | | clearance | d0 | clearance at which the quiet motion is smallest
 optimum_displacement | | displacement | max |Z1| | smallest quiet_displacement
 optimum_kind | | | | kind of minimum: smooth, kink, end of the branch or of the sweep

@@ -17,7 +17,7 @@ from impact_damper.model.bounds import (
     shown,
 )
 from impact_damper.model.packed import CLEARANCE, pack
-from impact_damper.model.parameters import describe
+from impact_damper.model.parameters import check_closed_form, describe
 from impact_damper.model.settling import check_settling
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
@@ -28,8 +28,6 @@ from impact_damper.theory.design_rule import rule_clearance
 from impact_damper.theory.optimum_clearance import analytical_table
 from impact_damper.theory.straight_flight import Flight, least_displacement_ratio
 
-# Parameters of the damper that are the same at all clearances.
-SWEPT_WITH = {"mass_ratio", "restitution", "contact_stiffness"}
 METHODS = "simulated", "harmonic_balance"
 
 
@@ -103,6 +101,8 @@ def clearance_sweep(
     )
     check_starts(starts, len(clearances))
     radius = read_radius(model.scales, radius)
+    if method == "harmonic_balance":
+        check_closed_form(oscillator, model.damper)
     dampers = [replace(model.damper, clearance=float(value)) for value in clearances]
     balance = analytical_table(oscillator, dampers, frequency) | {
         "rule_clearance": oscillator.forcing_amplitude(frequency)
@@ -110,8 +110,8 @@ def clearance_sweep(
         "peak_rule_clearance": _peak_rule(oscillator, model.damper.mass_ratio),
     }
     title = "Largest displacement against clearance"
-    swept = {name: getattr(model.damper, name) for name in sorted(SWEPT_WITH)}
-    swept |= {"frequency": frequency}
+    swept = describe(model.damper) | {"frequency": frequency}
+    del swept["clearance"]
     if method == "harmonic_balance":
         return dataset(
             balance, {"clearance": clearances}, describe(oscillator) | swept, title, model

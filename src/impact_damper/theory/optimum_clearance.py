@@ -30,6 +30,8 @@ def _analytical(oscillator, damper, frequency):
     """Return the a of smallest |a| among stable solutions of (7), and its `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
+    if damper.gravity or damper.friction or oscillator.base:
+        return np.nan, "unknown"
     try:
         solutions = balance.impacting_solutions(oscillator, damper, frequency)
     except ArithmeticError:

@@ -43,7 +43,6 @@ EXTREMES = [
     {"force": 0.0, "damping": 1e-5, "linear_frequency": 1.0},
     {"force": 1e6},
     {"force": 0.0, "unbalance": 1e6},
-    {"cubic": 0.0, "linear_frequency": 1.0, "shaker": 1e6},
 ]
 # Other parameters of the oscillator are at their bounds one at a time.
 _NAMED = set().union(*EXTREMES)

@@ -12,6 +12,7 @@ from numpy.testing import assert_allclose
 from references import equation, extended
 from references.equation import SPRINGS
 
+import impact_damper as idm
 from chatterjee1995.methods.equations import rate
 from chatterjee1995.methods.many_harmonics import Balance
 from impact_damper.kernel import batch
@@ -45,11 +46,15 @@ from impact_damper.theory.straight_flight import flight_of
 
 ROOT = Path(__file__).parents[3]
 PARAMETERS = [each.name for each in parameters_in(Oscillator)]
+# Fields of the oscillator that act on the loose mass alone.
+LOOSE = ["base"]
+ALONE = [name for name in PARAMETERS if name not in LOOSE]
 SPRING = {"linear_frequency", *NONLINEAR}
 BENT = Oscillator(0.1, 1.0, cubic=0.5, force=0.6, unbalance=0.02)
 LINEAR = Oscillator(0.1, 1.0, cubic=0.0, force=0.6, unbalance=0.02)
 SOFT = Oscillator(0.1, 1.0, cubic=-0.2, force=0.03)
 DAMPER = Damper(0.15, 0.6, 0.8, 900.0)
+ACROSS = {name: {name: 0.1} for name in ("gravity", "friction")}
 ELASTIC = replace(DAMPER, restitution=1.0)
 WIDE = replace(ELASTIC, clearance=50.0)
 W = 1.3
@@ -103,16 +108,8 @@ def tangents_80_bit(oscillator):
 PLACES = {
     "model/packed.py": [packed],
     "kernel/equation.py": [
-        lambda oscillator: kernel.acceleration(packed(oscillator), STATE, 0.4),
-        lambda oscillator: rate(packed(oscillator), 0, 0.4, tuple(STATE)),
         lambda oscillator: sample(packed(oscillator, DAMPER), STATE, 0.0, [3.0])[0],
         several,
-    ],
-    "theory/free_oscillator.py": [
-        lambda oscillator: free_solutions(oscillator, W).amplitude,
-        lambda oscillator: main_solutions(oscillator, W).amplitude,
-        lambda oscillator: resonance(oscillator, W).amplitude,
-        maximum_response,
     ],
     "theory/single_harmonic.py": [
         lambda oscillator: np.hstack(impacting_solutions(oscillator, ELASTIC, W)),
@@ -120,9 +117,22 @@ PLACES = {
         lambda oscillator: np.hstack(rigid_solutions(oscillator, ELASTIC, W)),
     ],
     "tests/references/equation.py": [
-        lambda oscillator: equation.flight(packed(oscillator), *STATE[:2], 0.6)
+        lambda oscillator: equation.rates(packed(oscillator, DAMPER))(0.4, STATE)
     ],
     "tests/references/extended/motion.c": [reference_80_bit],
+}
+# Functions of the primary mass alone, or of the paper's methods.
+ALONE_PLACES = {
+    "kernel/equation.py": [
+        lambda oscillator: kernel.acceleration(packed(oscillator), STATE, 0.4),
+        lambda oscillator: rate(packed(oscillator), 0, 0.4, tuple(STATE)),
+    ],
+    "theory/free_oscillator.py": [
+        lambda oscillator: free_solutions(oscillator, W).amplitude,
+        lambda oscillator: main_solutions(oscillator, W).amplitude,
+        lambda oscillator: resonance(oscillator, W).amplitude,
+        maximum_response,
+    ],
 }
 # Functions whose results the fields of the spring must change: all fields, or the nonlinear ones.
 SPRING_PLACES = {
@@ -159,8 +169,9 @@ def flat(result):
 # Tables of files and functions, the fields that must matter to them, and the oscillators changed.
 TABLES = [
     (PLACES, PARAMETERS, (BENT, LINEAR)),
+    (ALONE_PLACES, ALONE, (BENT, LINEAR)),
     (SPRING_PLACES, sorted(SPRING), (BENT, LINEAR)),
-    (BENT_PLACES, PARAMETERS, (BENT,)),
+    (BENT_PLACES, ALONE, (BENT,)),
     (NONLINEAR_PLACES, NONLINEAR, (BENT,)),
 ]
 
@@ -190,6 +201,32 @@ def test_every_parameter_has_an_effect_or_is_refused(file, function, name, bases
         )
 
 
+def refused(function, name):
+    """Return whether a function raises a ValueError that begins with a name."""
+    try:
+        function()
+    except ValueError as refusal:
+        return str(refusal).startswith(f"{name} = ")
+    return False
+
+
+@pytest.mark.parametrize("name", [*LOOSE, *ACROSS])
+def test_what_acts_on_the_loose_mass_has_an_effect_with_a_damper_alone(name):
+    """Gravity, friction and a moving base change motions, or are refused by their name."""
+    base, damper = replace(BENT, base=float(name in LOOSE)), replace(DAMPER, **ACROSS.get(name, {}))
+    alone = [idm.simulate(each, None, W, STATE[:2], periods=3) for each in (BENT, base)]
+    assert np.array_equal(*[each.displacement for each in alone])
+    before = idm.simulate(BENT, DAMPER, W, STATE, periods=3)
+    after = idm.simulate(base, damper, W, STATE, periods=3)
+    assert abs(after.displacement[-1] - before.displacement[-1]) > 1e-3
+    damper = replace(damper, restitution=1.0)
+    assert refused(lambda: idm.harmonic_balance(base, damper, [W]), name)
+    sweep = partial(idm.clearance_sweep, base, damper, W, [0.5, 0.6], method="harmonic_balance")
+    assert refused(sweep, name)
+    for function in (impacting_solutions, rigid_solutions, flight_of, partial(Balance, highest=3)):
+        assert refused(partial(function, base, damper, frequency=W), name)
+
+
 @every_parameter
 def test_parameters_are_named_by_their_kind(name):
     """NONLINEAR and FORCING, which other modules go through, are complete."""
@@ -211,7 +248,7 @@ def test_parameters_are_named_by_their_kind(name):
         if forced:
             ends = [straight_flight_end(each, 2.0, 0.5) for each in (one, other)]
             assert ends[0] != ends[1], f"orbits/quiet_orbits.py: straight_flight_end lacks {name}"
-        elif name not in NONLINEAR:
+        elif name not in NONLINEAR and name not in LOOSE:
             flights = [np.hstack(flight_of(each, DAMPER, W)) for each in (one, other)]
             assert np.any(flights[0] != flights[1]), f"theory/straight_flight.py lacks {name}"
 

@@ -53,7 +53,7 @@ def test_a_number_of_a_dataset_is_an_argument():
     with pytest.raises(ValueError, match="clearance = 2.0 mm: must be dimensionless"):
         idm.Damper(0.12, best.assign_attrs(units="mm"))
     gap = xr.DataArray(3.0, attrs={"units": "mm", "long_name": "optimum, on each side"})
-    made = MACHINE.damper(mass=0.6, clearance_each_side=gap, contact_stiffness=2e7)
+    made = MACHINE.damper(mass=0.6, clearances=(gap, gap), contact_stiffness=2e7)
     assert made.gap == 0.006
     with pytest.raises(ValueError, match="gap = 3 mm: must be the full play"):
         MACHINE.damper(mass=0.6, gap=gap, contact_stiffness=2e7)

@@ -11,11 +11,6 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 
 
-def test_only_a_linear_spring_is_on_a_shaker():
-    with pytest.raises(ValueError, match=r"^cubic = 1: must be 0 with shaker = 0\.5 \(on a moving"):
-        Oscillator(0.2, 1.0, shaker=0.5)
-
-
 @pytest.mark.parametrize("mass_ratio", [0.01, 0.25, 10.0])
 @pytest.mark.parametrize("restitution", [0.05, 0.3, 0.75, 0.9, 1.0])
 def test_damping_of_the_contact_gives_the_restitution(mass_ratio, restitution):

@@ -19,7 +19,6 @@ def polar_flow(state, oscillator, damper, frequency):
     a, t1, b, t2 = state
     push = damper.contact_stiffness * contact_amplitude(b, damper.clearance)[0]
     force = oscillator.force + oscillator.unbalance * frequency**2
-    force += oscillator.shaker / frequency**2
     spring = a * oscillator.linear_frequency**2 + 0.75 * oscillator.cubic * a**3
     drag = oscillator.damping * a * frequency
     total = push * (1 + 1 / damper.mass_ratio)
