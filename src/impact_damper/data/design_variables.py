@@ -107,6 +107,9 @@ contact_force_by_frequency | frequency | force | | largest force in a contact
 penetration_by_frequency | frequency | displacement | | largest penetration of a wall
 impact_speed_by_frequency | frequency | velocity | | largest relative speed of an impact
 impact_power_by_frequency | frequency | power | | mean power lost in contacts
+acceleration_by_frequency | frequency | acceleration | | largest acceleration of the machine
+absolute_displacement_by_frequency | frequency | displacement | | largest displacement of the
+  machine on a moving base, not relative to the base
 pressure_by_frequency | frequency | pressure | | largest pressure after Hertz
 yields_by_frequency | frequency | | | whether the material yields at this pressure
   : no 0, yes 1, unknown 2

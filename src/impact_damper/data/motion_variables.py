@@ -54,6 +54,10 @@ contact_end | contact | time | | end of a contact
 approach_velocity | contact | velocity | Z2' | relative velocity at the beginning of a contact
 escape_time | | time | T | time of the first sample beyond a barrier, or NaN
 departure_velocity | contact | velocity | Z2' | relative velocity at the end of a contact
+contact_force | contact | force | | largest force in a contact
+largest_contact_force | | force | | largest force of all contacts
+absolute_displacement | time | displacement | | displacement of the primary mass on a moving base
+absolute_acceleration | time | acceleration | | acceleration of the primary mass on a moving base
 outcome | frequency motion | | | outcome of the motion
   : OUTCOME
 period | frequency motion | | n | period of the motion in cycles

@@ -28,6 +28,8 @@ COSTS = {
     "penetration_by_frequency": ("penetration", "displacement"),
     "impact_speed_by_frequency": ("impact_speed", "velocity"),
     "impact_power_by_frequency": ("impact_power", "power"),
+    "acceleration_by_frequency": ("largest_acceleration", "acceleration"),
+    "absolute_displacement_by_frequency": ("absolute_displacement", "displacement"),
 }
 
 

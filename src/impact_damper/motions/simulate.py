@@ -3,6 +3,7 @@
 import numpy as np
 
 from impact_damper.data.datasets import dataset
+from impact_damper.kernel.equation import spring
 from impact_damper.model.arguments import read_forced, read_start, read_state
 from impact_damper.model.bounds import (
     MOST_RADIUS,
@@ -13,8 +14,9 @@ from impact_damper.model.bounds import (
     check_number,
     names_arguments,
 )
-from impact_damper.model.packed import FREQUENCY
+from impact_damper.model.packed import DAMPING, FREQUENCY
 from impact_damper.motions import traces
+from impact_damper.motions.panels import base_displacement, contact_forces, penetration, wall_force
 
 # Largest number of samples of a motion, which stay in memory.
 MOST_SAMPLES = 10**7
@@ -86,9 +88,12 @@ def simulate(
     Returns
     -------
     xarray.Dataset
-        - Over `time`: the state.
-        - Over `contact`: wall (1 or -1, the sign of Z2), beginning and end of each contact, and Z2'
-          at the beginning and the end. An end after the last sample is NaN.
+        - Over `time`: the state. On a moving base Z1 is relative to the base, and the absolute
+          displacement and acceleration of the primary mass are given beside it.
+        - Over `contact`: wall (1 or -1, the sign of Z2), beginning and end of each contact, Z2' at
+          the beginning and the end, and the largest force (N for a machine, otherwise divided by
+          the primary mass). An end after the last sample is NaN.
+        - The scalar `largest_contact_force`, 0 without contacts.
         - With a softening spring the scalar `escape_time`, or NaN. After this time the motion has
           crossed a barrier of the spring and reaches infinity in a finite time; the state is NaN.
 
@@ -112,6 +117,10 @@ def simulate(
     times = start + np.linspace(0.0, length, max(int(np.ceil(periods * samples)), 1) + 1)
     states, log = traces.trace(p, y, start, times, tolerance)
     data = dict(zip((*COMPONENTS, *CONTACT), (*states.T, *log.T), strict=True))
+    forces = contact_forces(p, y, (start, times[-1]), (states, log), tolerance)
+    data |= {"contact_force": forces, "largest_contact_force": np.max(forces, initial=0.0)}
+    if model.oscillator.base:
+        data |= _absolute(p, times, states, log)
     if model.oscillator.softens:
         escaped = np.isnan(states[:, 0])
         data["escape_time"] = times[np.argmax(escaped)] if escaped.any() else np.nan
@@ -119,3 +128,17 @@ def simulate(
     parameters |= {"periods": float(periods), "samples": int(samples)}
     parameters["tolerance"] = float(tolerance)
     return dataset(data, {"time": times}, parameters, "Motion of the oscillator", model)
+
+
+def _absolute(p, times, states, log):
+    """Return the displacement and the acceleration of a primary mass on a moving base."""
+    x, v = states[:, 0], states[:, 1]
+    walls = np.zeros(len(times))
+    last = np.searchsorted(log[:, 1], times, side="right") - 1
+    touching = (last >= 0) & ~(times > log[last, 2]) if len(log) else walls > 0
+    walls[touching] = log[last[touching], 0]
+    push = walls * wall_force(p, *penetration(p, states, walls))
+    return {
+        "absolute_displacement": x + base_displacement(p, times),
+        "absolute_acceleration": -p[DAMPING] * v - spring.py_func(p, x) - push,
+    }

@@ -6,8 +6,10 @@ from helpers.design_tasks import task
 
 import impact_damper as idm
 from impact_damper.design.chosen_motions import reached_motions
+from impact_damper.design.costs import measured_costs
 from impact_damper.design.task import labelled
 from impact_damper.motions.response import frequency_response
+from impact_damper.motions.strobe_map import strobe_time
 
 RATIO, BASE, GAP, LIMIT = 0.01, 2e-4, 18.3, 4.6
 MACHINE = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=RATIO, base_displacement=BASE)
@@ -33,3 +35,20 @@ def test_a_motion_within_the_gap_is_not_counted_as_reached():
     assert found["untouched_displacement"].values == pytest.approx(expected, rel=1e-6, nan_ok=True)
     assert (found["reached_displacement"] < LIMIT).all()
     assert (found["impact_rate_by_frequency"] > 1.9 * TASK.grid).all()
+
+
+def test_a_machine_on_a_moving_base_without_contacts_in_absolute_coordinates():
+    """A gap that is not reached leaves the linear machine alone, whose transmission is known."""
+    frequency, wide = 19.0, 60.0
+    p = TASK.packed(1e-3 * wide, frequency)
+    steady = idm.steady_motion(MACHINE, None, frequency)
+    units = [MACHINE.scales.unit(each) for each in ("displacement", "velocity")] * 2
+    state = steady["state"].values / units * (1, 1, 0, 0)
+    state[2:] = state[:2]
+    found = measured_costs(p, state, strobe_time(p), 5)
+    r = frequency / MACHINE.natural_frequency
+    moved = BASE * np.hypot(1, 2 * RATIO * r) / np.hypot(1 - r**2, 2 * RATIO * r)
+    length = MACHINE.scales.unit("displacement") * found["absolute_displacement"]
+    assert length == pytest.approx(moved, rel=1e-7)
+    fast = MACHINE.scales.unit("acceleration") * found["largest_acceleration"]
+    assert fast == pytest.approx((2 * np.pi * frequency) ** 2 * moved, rel=1e-7)

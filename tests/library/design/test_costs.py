@@ -9,9 +9,9 @@ from helpers.sampling import sample
 from helpers.si_motions import SiMotion
 
 import impact_damper as idm
-from impact_damper.design import costs
 from impact_damper.design.costs import measured_costs, pressure_costs
 from impact_damper.model.packed import FREQUENCY, INVERSE_MASS_RATIO, pack
+from impact_damper.motions import panels
 from impact_damper.motions.strobe_map import strobe_time
 
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
@@ -140,11 +140,11 @@ def test_pressure_is_that_of_hertz():
 def test_integrals_and_largest_values_of_panels_are_exact(frequency):
     lengths = np.array([0.9, 0.6, 1.1])
     begins = np.array([0.0, 0.9, 1.5])
-    times = begins[:, None] + lengths[:, None] * (costs.NODES + 1) / 2
-    made = costs.Panels(None, lengths, times, None, None, None)
+    times = begins[:, None] + lengths[:, None] * (panels.NODES + 1) / 2
+    made = panels.Panels(None, lengths, times, None, None, None)
     values = np.cos(frequency * times - 0.4) + 0.1 * times
     closed = (np.sin(2.6 * frequency - 0.4) + np.sin(0.4)) / frequency + 0.05 * 2.6**2
-    assert np.sum(costs.integrals(made, values)) == pytest.approx(closed, rel=1e-8)
+    assert np.sum(panels.integrals(made, values)) == pytest.approx(closed, rel=1e-8)
     moments = np.linspace(0, 2.6, 10**6)
     dense = np.max(np.abs(np.cos(frequency * moments - 0.4) + 0.1 * moments))
-    assert costs.largest(values) == pytest.approx(dense, rel=1e-9)
+    assert panels.largest(values) == pytest.approx(dense, rel=1e-9)

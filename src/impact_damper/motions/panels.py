@@ -1,0 +1,147 @@
+"""Motions in panels: their states at Chebyshev nodes, integrals, largest values and contact forces.
+
+Time is divided at the beginnings and ends of contacts, and further into panels, in which a motion
+is represented by its states at the Chebyshev nodes, to about twelve digits (L. N. Trefethen,
+Spectral Methods in MATLAB, 2000, chapters 6 and 12).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from impact_damper.kernel.equation import forcing_amplitude, spring_slope
+from impact_damper.model.packed import (
+    BASE,
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    DASHPOT,
+    FREQUENCY,
+    INVERSE_MASS_RATIO,
+)
+from impact_damper.motions.traces import states_at, trace
+
+# Nodes of a panel, scaled to [-1, 1]; matrix that maps values at the nodes to coefficients of
+# Chebyshev polynomials; weights of the rule of Clenshaw and Curtis.
+NODES = -np.cos(np.pi * np.arange(14) / 13)
+COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
+WEIGHTS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))] @ COEFFICIENTS
+# Points of a panel, the best of which begins NEWTON steps of Newton's method to an extreme; and
+# matrix that maps coefficients of a polynomial to those of its derivative.
+POINTS, NEWTON = np.linspace(-1, 1, 33), 5
+SLOPE = np.vstack([chebyshev.chebder(np.eye(len(NODES))), np.zeros(len(NODES))])
+# The fastest oscillation of the motion turns by at most this angle (radian) in a panel.
+LONGEST_ANGLE = 2.0
+# States in a forcing cycle from which the largest displacement is estimated.
+SAMPLES = 32
+
+
+class Panels(NamedTuple):
+    """A motion in n panels.
+
+    `log` has a row for each contact: wall, times of its beginning and end, relative velocity at
+    both. `lengths`, shape (n,), and `times`, shape (n, nodes), are dimensionless; `states` are
+    those at the nodes, NaN after an escape. `contact`, shape (n,), is the row of the log or -1 in
+    flight, and `wall` is -1, 1, or 0 in flight.
+    """
+
+    log: np.ndarray
+    lengths: np.ndarray
+    times: np.ndarray
+    states: np.ndarray
+    contact: np.ndarray
+    wall: np.ndarray
+
+
+def sampled(p, state, begin, end, tolerance) -> Panels:
+    """Run a motion from a state at the time `begin` and return its panels."""
+    rough = np.linspace(begin, end, int(SAMPLES * (end - begin) * p[FREQUENCY] / (2 * np.pi)) + 2)
+    course = trace(p, state, begin, rough, tolerance)
+    return _divided(p, state, (begin, end), course, tolerance, flights=True)
+
+
+def contact_forces(p, state, span, course, tolerance):
+    """Return the largest force of each contact of a motion, whose `course` is known from `trace`.
+
+    Forces are divided by the primary mass. The motion is run again with the same steps, so that a
+    chaotic motion has the same contacts.
+    """
+    panels = _divided(p, state, span, course, tolerance, flights=False)
+    pushes = wall_force(p, *penetration(p, panels.states, panels.wall[:, None]))
+    forces = np.zeros(len(panels.log))
+    np.maximum.at(forces, panels.contact, peaks(pushes))
+    return forces
+
+
+def _divided(p, state, span, course, tolerance, flights):
+    """Return the panels of a motion in a span of time, with or without its flights."""
+    (begin, end), (states, log) = span, course
+    # The edges are alternately beginnings and ends of contacts, so every second interval is a
+    # flight.
+    ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
+    edges = np.concatenate([[begin], np.column_stack([log[:, 1], ends]).ravel(), [end]])
+    walls = np.zeros(len(edges) - 1)
+    walls[1::2] = log[:, 0]
+    steepest = np.nanmax(np.abs(spring_slope.py_func(p, np.append(states[:, 0], 0.0))))
+    fastest = np.sqrt(steepest) + p[FREQUENCY]
+    contact = np.sqrt(p[CONTACT_STIFFNESS] * (1 + p[INVERSE_MASS_RATIO]))
+    rates = np.where(walls, fastest + contact, fastest if flights else 0.0)
+    counts = np.ceil(np.diff(edges) * rates / LONGEST_ANGLE).astype(int)
+    interval = np.repeat(np.arange(len(counts)), counts)
+    place = np.arange(len(interval)) - np.repeat(np.cumsum(counts) - counts, counts)
+    lengths = (np.diff(edges) / np.maximum(counts, 1))[interval]
+    begins = edges[interval] + place * lengths
+    times = begins[:, None] + lengths[:, None] * (NODES + 1) / 2
+    states = states_at(p, state, begin, times.ravel(), tolerance)
+    return Panels(
+        log,
+        lengths,
+        times,
+        states.reshape(*times.shape, 4),
+        np.where(interval % 2, interval // 2, -1),
+        walls[interval],
+    )
+
+
+def integrals(panels, values):
+    """Return the integral over each panel of a function with `values` at the nodes."""
+    return values @ WEIGHTS * panels.lengths / 2
+
+
+def peaks(values):
+    """Return the largest modulus in each panel of a function with `values` at the nodes."""
+    series = values @ COEFFICIENTS.T
+
+    def at(points, coefficients):
+        return np.sum(chebyshev.chebvander(points, len(NODES) - 1) * coefficients, axis=1)
+
+    moduli = np.abs(series @ chebyshev.chebvander(POINTS, len(NODES) - 1).T)
+    best = point = POINTS[np.argmax(moduli, axis=1)]
+    slope = series @ SLOPE.T
+    reach = POINTS[1] - POINTS[0]
+    for _ in range(NEWTON):
+        bend = at(point, slope @ SLOPE.T)
+        move = np.divide(-at(point, slope), bend, out=np.zeros_like(bend), where=bend != 0)
+        point = np.clip(point + move, np.maximum(best - reach, -1), np.minimum(best + reach, 1))
+    return np.maximum(np.max(moduli, axis=1), np.abs(at(point, series)))
+
+
+def largest(values) -> float:
+    """Return the largest modulus of a function with `values` at the nodes; 0 without panels."""
+    return float(np.max(peaks(values), initial=0.0))
+
+
+def base_displacement(p, times):
+    """Return the displacement A/W^2 cos(W T) of the base whose inertia is the forcing A cos(W T)."""
+    amplitude = forcing_amplitude.py_func(p) / p[FREQUENCY] ** 2
+    return p[BASE] * amplitude * np.cos(p[FREQUENCY] * times)
+
+
+def penetration(p, states, wall):
+    """Return penetration and its time derivative of states (..., 4) at a wall, or 0."""
+    return np.where(wall, wall * states[..., 2] - p[CLEARANCE], 0.0), wall * states[..., 3]
+
+
+def wall_force(p, depth, rate):
+    """Return the force of a wall on the loose mass, divided by the primary mass."""
+    return p[CONTACT_STIFFNESS] * depth + p[DASHPOT] * rate
