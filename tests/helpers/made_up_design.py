@@ -41,7 +41,7 @@ def made_up_design(decision="build", told=None, **changed):
         "compared_settling": SETTLING | {"patience": 150, "limit": 900},
     }
     return data.assign_attrs(
-        machine=json.dumps(made | {"contact_stiffness": 2e7}),
+        machine=json.dumps(made | {"contact_stiffness": 2e7, "gravity": 0.0, "friction": 0.0}),
         parameters=json.dumps(asked | (told or {})),
         name="made_up",
     )
@@ -137,6 +137,8 @@ def _maps():
         "penetration_by_frequency": np.full(5, 0.03),
         "impact_speed_by_frequency": np.full(5, 0.2),
         "impact_power_by_frequency": np.full(5, 0.04),
+        "acceleration_by_frequency": np.linspace(9.0, 8.0, 5),
+        "absolute_displacement_by_frequency": np.full(5, np.nan),
         "pressure_by_frequency": np.full(5, np.nan),
         "yields_by_frequency": np.full(5, flag("yields_by_frequency", "unknown")),
     }

@@ -21,14 +21,15 @@ HERTZ = idm.HertzContact("2 cm", "210 GPa", 0.3, "400 MPa")
 
 
 def damper_of(machine, **others):
-    given = {"mass": 0.6, "gap": 0.008, "restitution": 0.7, "contact_stiffness": 2e7} | others
+    given = {"mass": 0.6, "gap": 0.008, "restitution": 0.7, "contact_stiffness": 2e7}
+    given |= {"exit_rule": "zero_penetration"} | others  # as `SiMotion`
     return machine.damper(**given)
 
 
 def packed(machine, damper, frequency):
     """Return the packed parameters of a machine at a frequency (Hz)."""
     turning = machine.scales.from_si(frequency, "frequency")
-    return pack(machine.oscillator(frequency), damper.scaled(machine.scales), turning)
+    return pack(machine.oscillator(), damper.scaled(machine.scales), turning)
 
 
 def by_scipy(machine, damper, frequency, state, time):
@@ -108,7 +109,7 @@ def test_the_phase_of_the_first_state_does_not_matter(impacting_orbit):
         found = measured_costs(p, states[0], time, 1)
         for name, value in expected.items():
             if name != "power_error" and np.ndim(value) == 0:
-                assert found[name] == pytest.approx(value, rel=1e-8), name
+                assert found[name] == pytest.approx(value, rel=1e-8, nan_ok=True), name
 
 
 def test_a_loose_mass_that_touches_nothing_costs_nothing():
