@@ -144,11 +144,16 @@ def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
     return float(ends[0]), float(ends[1])
 
 
-def read_radius(scales, radius) -> float | None:
+def read_radius(scales, radius, whole_gap=False) -> float | None:
     """Return the radius of the ball of random starts, or None for a search without it."""
     if radius is None:
+        if whole_gap:
+            raise ValueError("radius = None: must be given with whole_gap; 0 for a machine at rest")
         return None
-    return scales.read("radius", radius, "displacement", **RADIUS_RANGE)
+    bounds = RADIUS_RANGE
+    if whole_gap:
+        bounds = {"least": 0.0, "most": bounds["most"]}
+    return scales.read("radius", radius, "displacement", **bounds)
 
 
 def read_pair(scales, name, values) -> np.ndarray:

@@ -117,6 +117,7 @@ def frequency_response(
     *,
     starts=96,
     radius=None,
+    whole_gap=False,
     seed=1995,
     settling=None,
     life_runs=0,
@@ -141,6 +142,10 @@ def frequency_response(
     radius : float, optional
         Radius of a ball around rest in which random starts are uniform, with the loose mass in its
         gap. Without it starts are scaled by, and placed on, the motions without the damper.
+    whole_gap : bool
+        With a radius: only displacement and velocity of the primary mass lie in the ball, and the
+        loose mass is at rest relative to it, anywhere in its gap. The radius 0 then means a machine
+        at rest. By default the loose mass lies in the ball too, as in the paper.
     seed : int
         Seed of the random starts.
     settling : Settling, optional
@@ -166,7 +171,7 @@ def frequency_response(
     Warns
     -----
     UserWarning
-        If a motion without the damper is larger or faster than the radius.
+        If a motion without the damper is larger or faster than the radius, without `whole_gap`.
 
     Examples
     --------
@@ -180,10 +185,11 @@ def frequency_response(
     frequencies = read_frequencies(model.scales, frequencies)
     check_starts(starts, len(frequencies))
     check_count("seed", seed, **SEED_RANGE)
-    radius = read_radius(model.scales, radius)
+    radius = read_radius(model.scales, radius, whole_gap)
     parameters = np.array([model.pack(value) for value in frequencies])
     systems = [(model.damper, value) for value in frequencies]
-    search = search_starts(model.oscillator, systems, starts, radius, seed, settling)
+    drawn = starts, radius, seed
+    search = search_starts(model.oscillator, systems, *drawn, settling, whole_gap=whole_gap)
     runs = check_count("life_runs", life_runs, least=0, most=1000)
     cycles = check_count("life_periods", life_periods, **LIFETIME_RANGE)
     running = {"workers": workers, "progress": progress}
@@ -191,7 +197,7 @@ def frequency_response(
     found = data["outcome"][1], data["state"][1]
     lives = find_lives(parameters, *found, runs, cycles, seed, settling, **running)
     data |= {name: (("frequency", "motion"), values) for name, values in lives.items()}
-    made = model.describe(settling) | describe_search(starts, radius, seed)
+    made = model.describe(settling) | describe_search(*drawn, whole_gap)
     made |= {"life_runs": life_runs, "life_periods": life_periods}
     coordinates = {"frequency": frequencies, "component": list(COMPONENTS)}
     return dataset(data, coordinates, made, "Frequency response", model)

@@ -1,10 +1,11 @@
 """Start states of a search for motions: random states, and states on known motions.
 
-With a radius all starts are random and uniform in a ball, as in the paper (section 3, iii). Without
-one, random starts are distributed on a logarithmic scale up to SPREAD times the free motions, and
-others are placed: on free motions and at rest, with the loose mass at several places and
-velocities; on solutions of harmonic balance; at the ends of slow ramps, which find the violent
-motions of weakly damped machines, whose small basins hardly any random start hits.
+With a radius all starts are random and uniform in a ball, as in the paper (section 3, iii), or have
+the primary mass in a disk and the loose mass anywhere in its gap. Without a radius, random starts
+are distributed on a logarithmic scale up to SPREAD times the free motions, and others are placed:
+on free motions and at rest, with the loose mass at several places and velocities; on solutions of
+harmonic balance; at the ends of slow ramps, which find the violent motions of weakly damped
+machines, whose small basins hardly any random start hits.
 """
 
 import math
@@ -66,8 +67,11 @@ class Search(NamedTuple):
         return data | {"missed_share": missed_share(self.random.shape[1])}
 
 
-def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
-    """Return the starts of a search, `count` random ones for each system (damper or None, W)."""
+def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_gap=False) -> Search:
+    """Return the starts of a search, `count` random ones for each system (damper or None, W).
+
+    A `whole_gap` is meant as given, so a radius smaller than the free motions is no mistake then.
+    """
     if radius is None:
         rows = [
             wide_starts(oscillator, *system, count, [seed, i], settling)
@@ -75,18 +79,21 @@ def search_starts(oscillator, systems, count, radius, seed, settling) -> Search:
         ]
     else:
         frequencies = [frequency for _, frequency in systems]
-        free = warn_if_narrow(oscillator, frequencies, radius)
+        drawn = gap_states if whole_gap else random_states
+        free = free_sizes(oscillator, frequencies)
+        if not whole_gap:
+            warn_if_narrow(oscillator, frequencies, radius)
         rows = []
         for i, (damper, w) in enumerate(systems):
-            states = random_states(count, radius, damper, [seed, i])
+            states = drawn(count, radius, damper, [seed, i])
             rows.append((states, NO_STARTS, NO_LOOSE, radius, radius, *free[w]))
     random, placed, loose, *scales = zip(*rows, strict=True)
     return Search(np.array(random), list(placed), list(loose), *np.array(scales))
 
 
-def describe_search(starts, radius, seed) -> dict:
-    """Return the parameters of a search for a dataset, without the radius if it is None."""
-    parameters = {"starts": starts, "seed": seed}
+def describe_search(starts, radius, seed, whole_gap=False) -> dict:
+    """Return the parameters of a search for a dataset, without those that change nothing."""
+    parameters = {"starts": starts, "seed": seed} | ({"whole_gap": True} if whole_gap else {})
     return parameters if radius is None else parameters | {"radius": radius}
 
 
@@ -95,15 +102,18 @@ def missed_share(starts) -> float:
     return min(1.0, 3.0 / starts) if starts else 1.0
 
 
-def warn_if_narrow(oscillator, frequencies, radius) -> dict:
-    """Return displacement and speed of the largest free motion by frequency, from harmonic balance.
-
-    Warn if it is larger or faster than the radius of the ball of starts.
-    """
-    check_number("radius", radius, **RADIUS_RANGE)
+def free_sizes(oscillator, frequencies) -> dict:
+    """Return the largest free displacement and speed by frequency, from harmonic balance."""
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
-    worst = max(sizes, key=lambda w: sizes[w] * max(1.0, w))
-    most, fastest = sizes[worst], sizes[worst] * worst
+    return {w: (size, size * w) for w, size in sizes.items()}
+
+
+def warn_if_narrow(oscillator, frequencies, radius) -> None:
+    """Warn if a free motion is larger or faster than the radius of the ball of starts."""
+    check_number("radius", radius, **RADIUS_RANGE)
+    sizes = free_sizes(oscillator, frequencies)
+    worst = max(sizes, key=lambda w: max(sizes[w]))
+    most, fastest = sizes[worst]
     if max(most, fastest) > radius:
         told = oscillator.scales.told
         warn(
@@ -113,7 +123,21 @@ def warn_if_narrow(oscillator, frequencies, radius) -> dict:
             f"{told('speed', fastest, 'velocity')} by harmonic balance; motions may be missed; "
             "without a radius the search is scaled by the free motions",
         )
-    return {w: (size, size * w) for w, size in sizes.items()}
+
+
+def gap_states(count, radius, damper, seed):
+    """Return random states (count, 4), uniform in a disk of Z1, Z1' and in the gap.
+
+    The loose mass is at rest relative to the primary mass.
+    """
+    generator = np.random.default_rng(seed)
+    angle = generator.uniform(0, 2 * np.pi, count)
+    size = radius * np.sqrt(generator.random(count))
+    primary = np.stack([size * np.cos(angle), size * np.sin(angle)], axis=1)
+    if damper is None:
+        return np.hstack([primary, primary])
+    place = damper.clearance * generator.uniform(-1, 1, count)
+    return np.column_stack([primary, place, np.zeros(count)])
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:

@@ -41,6 +41,7 @@ def clearance_sweep(
     method="simulated",
     starts=24,
     radius=None,
+    whole_gap=False,
     seed=1995,
     settling=None,
     workers=1,
@@ -61,7 +62,7 @@ def clearance_sweep(
     method : str
         "simulated", or "harmonic_balance" for the amplitude by (7) and the rules alone, without
         motions.
-    starts, radius, seed, settling, workers, progress
+    starts, radius, whole_gap, seed, settling, workers, progress
         As in `frequency_response`, for each clearance.
 
     Returns
@@ -100,7 +101,7 @@ def clearance_sweep(
         model.scales, "clearances", clearances, "clearance", 2, **CLEARANCE_RANGE
     )
     check_starts(starts, len(clearances))
-    radius = read_radius(model.scales, radius)
+    radius = read_radius(model.scales, radius, whole_gap)
     if method == "harmonic_balance":
         check_closed_form(oscillator, model.damper)
     dampers = [replace(model.damper, clearance=float(value)) for value in clearances]
@@ -118,7 +119,8 @@ def clearance_sweep(
         )
     parameters = np.array([pack(oscillator, each, frequency) for each in dampers])
     systems = [(each, frequency) for each in dampers]
-    search = search_starts(oscillator, systems, starts, radius, seed, settling)
+    drawn = starts, radius, seed
+    search = search_starts(oscillator, systems, *drawn, settling, whole_gap=whole_gap)
     running = {"workers": workers, "progress": progress}
     data = sweep(parameters, CLEARANCE, "clearance", search, settling, **running)
     forcing = oscillator.forcing_amplitude(frequency)
@@ -142,7 +144,7 @@ def clearance_sweep(
             Flight(dampers[0].mass_ratio, dampers[0].restitution)
         ),
     }
-    made = describe(oscillator, settling) | swept | describe_search(starts, radius, seed)
+    made = describe(oscillator, settling) | swept | describe_search(*drawn, whole_gap)
     coordinates = {
         "clearance": clearances,
         "component": list(COMPONENTS),

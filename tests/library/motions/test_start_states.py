@@ -1,5 +1,6 @@
 """Starts of searches are scaled by the free motions; a narrow ball of starts misses motions."""
 
+import json
 import math
 import warnings
 
@@ -8,8 +9,10 @@ import pytest
 from helpers.known_orbits import DESIGN, PAPER
 from numpy.testing import assert_allclose
 from references.equation import KNOWN, SPRINGS
+from scipy import stats
 from scipy.integrate import solve_ivp
 
+import impact_damper as idm
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions.response import frequency_response
@@ -100,6 +103,30 @@ def test_a_radius_gives_the_ball_and_warns_only_where_it_is_narrow():
         UserWarning, match="radius = 2: .* frequency = 2, .* = 2.31.* and speed = 4.6"
     ):
         warn_if_narrow(PAPER, [1.0, 2.0, 2.3], 2.0)
+
+
+def test_the_loose_mass_anywhere_in_its_gap_beside_a_machine_in_a_disk_or_at_rest():
+    """Small radii do not warn then; in SI units the radius 0 and the gap are shown."""
+    wide = Damper(0.12, 5.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        search = search_starts(PAPER, [(wide, 2.0)], 2000, 0.5, 1, SETTLING, whole_gap=True)
+    states = search.random[0]
+    assert stats.kstest((states[:, 0] ** 2 + states[:, 1] ** 2) / 0.25, "uniform").pvalue > 0.01
+    assert stats.kstest(states[:, 2] / 10 + 0.5, "uniform").pvalue > 0.01
+    assert not states[:, 3].any()
+    machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.02, force=40)
+    damper = machine.damper(mass=0.6, gap=2e-3, restitution=0.7, contact_stiffness=2e6)
+    given = {"radius": 0.0, "whole_gap": True, "starts": 40}
+    found = idm.frequency_response(machine, damper, [20.5], **given)
+    assert found.start_displacement == 0 and found.motion_starts.sum() == 40
+    named = {"mass_ratio": 0.05, "restitution": 0.7, "contact_stiffness": 300.0}
+    sweep = idm.clearance_sweep(Oscillator(0.215), named, 2.0, [1.5, 2.0], **given)
+    assert json.loads(sweep.attrs["parameters"])["whole_gap"]
+    with pytest.raises(ValueError, match="radius"):
+        idm.frequency_response(machine, damper, [20.5], whole_gap=True)
+    with pytest.raises(ValueError, match="radius"):
+        idm.frequency_response(machine, damper, [20.5], radius=0.0)
 
 
 def test_bound_on_what_was_never_seen():
