@@ -8,6 +8,7 @@ import zipfile
 import pytest
 from helpers.running import ROOT
 
+ARCHIVE = ROOT / "workflow/archive.py"
 RULE = """
 rule motion:
     input: "config/config.yaml"
@@ -40,11 +41,6 @@ def run(folder, *arguments):
     return subprocess.run(command, cwd=folder, capture_output=True, text=True)
 
 
-def archived(folder, *arguments):
-    """Run the command of the archive in a folder."""
-    return run(folder, ROOT / "workflow/archive.py", *arguments)
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """Return the folder of a run of one job, with its archive."""
@@ -54,7 +50,7 @@ def folder(tmp_path_factory):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
     run(made, "-m", "snakemake", "--cores", "1", "results/motion/a.nc").check_returncode()
-    archived(made, "write", "run.zip").check_returncode()
+    run(made, ARCHIVE, "write", "run.zip").check_returncode()
     return made
 
 
@@ -73,7 +69,7 @@ def test_the_crate_has_each_file_and_the_job(folder):
 
 
 def test_the_check_runs_a_job_again_to_the_same_bytes(folder):
-    ended = archived(folder, "check", "run.zip")
+    ended = run(folder, ARCHIVE, "check", "run.zip")
     assert ended.returncode == 0, ended.stderr
     assert "motion/a run again writes the same bytes" in ended.stdout
 
@@ -85,6 +81,6 @@ def test_the_check_finds_a_changed_file(folder):
     with zipfile.ZipFile(folder / "changed.zip", "w") as archive:
         for name, content in contents.items():
             archive.writestr(name, content)
-    ended = archived(folder, "check", "changed.zip")
+    ended = run(folder, ARCHIVE, "check", "changed.zip")
     assert ended.returncode != 0
     assert "results/motion/a.nc" in ended.stderr
