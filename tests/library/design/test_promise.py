@@ -55,7 +55,7 @@ EXAMPLES = {
     ),
 }
 # New starts of another program in each of four cells, and cycles of a run.
-NEW, CYCLES = 100, 1500
+NEW, CYCLES = 60, 1500
 needs_odeint = pytest.mark.skipif(
     bool(odeint_runs.obstacle()), reason=odeint_runs.obstacle() or "runs"
 )
