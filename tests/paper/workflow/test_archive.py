@@ -74,13 +74,10 @@ def test_the_check_runs_a_job_again_to_the_same_bytes(folder):
     assert "motion/a run again writes the same bytes" in ended.stdout
 
 
+@pytest.mark.filterwarnings("ignore:Duplicate name")
 def test_the_check_finds_a_changed_file(folder):
-    with zipfile.ZipFile(folder / "run.zip") as archive:
-        contents = {name: archive.read(name) for name in archive.namelist()}
-    contents["results/motion/a.nc"] += b" "
-    with zipfile.ZipFile(folder / "changed.zip", "w") as archive:
-        for name, content in contents.items():
-            archive.writestr(name, content)
-    ended = run(folder, ARCHIVE, "check", "changed.zip")
+    with zipfile.ZipFile(folder / "run.zip", "a") as archive:
+        archive.writestr("results/motion/a.nc", "other")
+    ended = run(folder, ARCHIVE, "check", "run.zip")
     assert ended.returncode != 0
     assert "results/motion/a.nc" in ended.stderr
