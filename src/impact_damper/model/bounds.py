@@ -146,7 +146,7 @@ def names_arguments(function):
     """
     call = function.__init__ if inspect.isclass(function) else function
     signature = inspect.signature(call)
-    known = [name for name in signature.parameters if name != "self"]
+    known = [name for name in signature.parameters if name not in ("self", "cls")]
 
     @wraps(call)
     def checked(*args, **kwargs):

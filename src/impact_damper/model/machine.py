@@ -15,6 +15,7 @@ from impact_damper.model.bounds import (
     names_arguments,
 )
 from impact_damper.model.exit_rules import NO_TENSION
+from impact_damper.model.identification import from_response, from_ring_down
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.text import with_unit
 from impact_damper.model.units import Scales, check_si, convert, optional, physical
@@ -171,6 +172,9 @@ class Machine:
     unbalance: float | None = optional(
         "unbalance", "mass times eccentricity of a rotating unbalance", above=0, most=1e15
     )
+
+    from_ring_down = classmethod(from_ring_down)
+    from_response = classmethod(from_response)
 
     def __post_init__(self):
         for each in fields(self):

@@ -1,0 +1,262 @@
+"""Machines from measured curves, by least squares.
+
+NumPy and SciPy are imported in functions, because Snakemake reads this module at every dry run.
+"""
+
+import csv
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+from impact_damper.model.bounds import names_arguments, shown
+from impact_damper.model.units import QUANTITIES, check_si
+
+# A column of a CSV file: its name and its unit, such as "time_s" or "displacement [mm]".
+COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
+FEWEST = 20
+SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
+# Smallest derivative of the balance, which is 0 at a fold, and how often it is computed again.
+FOLD, PASSES = 0.1, 6
+
+
+class Identified(NamedTuple):
+    """A machine found by a fit, and how sure its values are.
+
+    `uncertainties` are standard uncertainties in SI units, keyed by field of the machine, if the
+    errors of samples are independent and alike. `noise` is the r.m.s. residual: m for a free decay,
+    a fraction of the amplitude for a response. `ended` says how the fit ended.
+    """
+
+    machine: object
+    uncertainties: dict[str, float]
+    noise: float
+    ended: str
+
+
+@names_arguments
+def from_ring_down(cls, data, *, mass, **excitation) -> Identified:
+    """Return the machine whose free decay m x'' + c x' + k x + k3 x^3 = 0 is nearest to a record.
+
+    Parameters
+    ----------
+    data : str, pathlib.Path, or sequence of 2 arrays
+        CSV file whose first line names columns and units, such as "time_s, displacement_mm"; or
+        time (s) and displacement (m), each of shape (n,), n at least 20. A constant offset of the
+        displacement is fitted too.
+    mass : float, str or pint.Quantity
+        kg, taken as exact: stiffnesses and damping are proportional to it.
+    excitation
+        Excitation of the machine, such as force="40 N"; by default force=0.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the data are not such a record; names file, line and column.
+
+    Examples
+    --------
+    >>> time = np.linspace(0, 2, 801)
+    >>> record = time, 1e-3 * np.exp(-2 * time) * np.cos(100 * time)
+    >>> found = Machine.from_ring_down(record, mass="3 kg")
+    >>> round(found.machine.linear_stiffness), round(found.machine.damping, 3)
+    (30012, 12.0)
+    """
+    mass = check_si("mass", mass, "mass", above=0)
+    time, measured = _read(data, ("time", "displacement"))
+    if min(time[1:] - time[:-1]) <= 0:
+        raise ValueError("time: must increase from sample to sample")
+
+    def residuals(p):
+        return _free(time, p[:5]) + p[5] - measured[:, None]
+
+    values, errors, noise, ended = _fit(residuals, *_decay(time, measured))
+    found = {name: mass * value for name, value in zip(SPRING, values, strict=False)}
+    errors = {name: mass * error for name, error in zip(SPRING, errors, strict=False)}
+    machine = cls(mass=mass, **found, **(excitation or {"force": 0.0}))
+    return Identified(machine, errors, noise, ended)
+
+
+@names_arguments
+def from_response(cls, data, *, force) -> Identified:
+    """Return the machine whose response to a known force is nearest to a measured curve.
+
+    On all branches the first harmonic balance holds, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2 =
+    F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). Its residual, divided by its
+    derivative, is the relative error of an amplitude. Where 3/4 k3 a^2 exceeds a tenth of k, the
+    missing harmonics bias the values by about a per cent.
+
+    Parameters
+    ----------
+    data : str, pathlib.Path, or sequence of 2 arrays
+        CSV file whose first line names columns and units, such as "frequency_Hz, displacement_mm";
+        or frequency (Hz) and amplitude a of the first harmonic (m), each of shape (n,), n at least
+        20, in any order, on both sides of the resonance.
+    force : float, str or pint.Quantity
+        Amplitude of the force, N, the same for all samples.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the data are not such a curve; names file, line and column.
+
+    Examples
+    --------
+    >>> f = np.linspace(10, 25, 61)
+    >>> curve = f, 5 / abs(3e4 - 3 * (2 * np.pi * f) ** 2 + 12j * 2 * np.pi * f)
+    >>> found = Machine.from_response(curve, force="5 N")
+    >>> round(found.machine.mass, 6), round(found.machine.damping, 6)
+    (3.0, 12.0)
+    """
+    import numpy as np
+
+    force = check_si("force", force, "force", above=0)
+    frequency, a = _read(data, ("frequency", "displacement"))
+    if min(*frequency, *a) <= 0:
+        raise ValueError("frequency, displacement: must be greater than 0")
+    w, square = 2 * np.pi * frequency[:, None], a[:, None] ** 2
+
+    def balance(p):
+        return p[0] + 0.75 * p[2] * square - p[3] * w**2 + 1j * p[1] * w
+
+    def residuals(p):
+        return np.log(np.abs(balance(p)) * np.sqrt(square) / force) / slope
+
+    values, scale = _resonance(w[:, 0], a, force)
+    for _ in range(PASSES):
+        z = balance(values)
+        slope = np.hypot(1 + 1.5 * values[2] * square * z.real / np.abs(z) ** 2, FOLD)
+        values, errors, noise, ended = _fit(residuals, values, scale)
+    names = (*SPRING, "mass")
+    machine = cls(force=force, **dict(zip(names, values, strict=True)))
+    return Identified(machine, dict(zip(names, errors, strict=True)), noise, ended)
+
+
+def _fit(residuals, guess, scale):
+    """Return the parameters of least squares, their errors, the r.m.s. residual and the end.
+
+    `residuals` takes parameters of shape (p, n) and returns an array of shape (samples, n).
+    """
+    import numpy as np
+    from scipy.optimize import least_squares
+
+    steps = np.column_stack([np.zeros(len(scale)), np.diag(1e-5 * scale)])
+
+    def slopes(p):
+        found = residuals((p * scale)[:, None] + steps)
+        return (found[:, 1:] - found[:, :1]) / 1e-5
+
+    def single(p):
+        return residuals((p * scale)[:, None])[:, 0]
+
+    found = least_squares(single, guess / scale, slopes, method="lm")
+    noise = float(np.sqrt(2 * found.cost / (len(found.fun) - len(guess))))
+    _, singular, rows = np.linalg.svd(found.jac, full_matrices=False)
+    errors = noise * scale * np.linalg.norm(rows / singular[:, None], axis=0)
+    return (found.x * scale).tolist(), errors.tolist(), noise, found.message
+
+
+def _free(time, parameters):
+    """Return free decays of unit mass at the times, one for each column of parameters."""
+    import numpy as np
+    from scipy.integrate import solve_ivp
+
+    stiffness, damping, cubic = parameters[:3]
+
+    def slope(_, y):
+        x, v = y.reshape(2, -1)
+        return np.concatenate([v, -damping * v - (stiffness + cubic * x**2) * x])
+
+    start, ends = parameters[3:].ravel(), time[[0, -1]]
+    least = 1e-8 * np.max(np.abs(start))
+    found = solve_ivp(slope, ends, start, "DOP853", time, rtol=1e-8, atol=least)
+    count = parameters.shape[1]
+    if not found.success:  # a decay that escapes is far from every record
+        return np.full((len(time), count), 1e3 * np.max(np.abs(parameters[3])))
+    return found.y[:count].T
+
+
+def _decay(time, measured):
+    """Return a guess of the 6 parameters of a decay, from its analytic signal, and their scales."""
+    import numpy as np
+    from scipy.signal import hilbert
+
+    offset = np.mean(measured)
+    even = np.linspace(time[0], time[-1], len(time))
+    signal = hilbert(np.interp(even, time, measured) - offset)
+    size, begin = np.abs(signal), len(even) // 30
+    small = size < 0.1 * np.max(size[begin:])
+    end = begin + int(np.argmax(np.append(small[begin:-begin], True)))
+    even, size, phase = even[begin:end], size[begin:end], np.unwrap(np.angle(signal[begin:end]))
+    rate, log = np.polyfit(even - time[0], np.log(size), 1)
+    square = np.exp(2 * (rate * (even - time[0]) + log))
+    columns = np.column_stack([np.ones(len(even)), even - time[0], np.cumsum(square)])
+    columns[:, 2] *= even[1] - even[0]
+    start, w, slope = np.linalg.lstsq(columns, phase, rcond=None)[0]
+    a = np.exp(log)
+    guess = (
+        w**2 + rate**2,
+        -2 * rate,
+        8 * w * slope / 3,
+        a * np.cos(start),
+        -a * w * np.sin(start),
+    )
+    scale = (w**2, w, w**2 / a**2, a, a * w, a)
+    return np.array([*guess, offset]), np.array(scale)
+
+
+def _resonance(w, amplitude, force):
+    """Return a guess of k, c, k3 and m from the balance, which is linear in k, k3 and m."""
+    import numpy as np
+
+    top = np.argmax(amplitude)
+    damping = force / (w[top] * amplitude[top])
+    size = np.sqrt(np.maximum((force / amplitude) ** 2 - (damping * w) ** 2, 0))
+    columns = np.column_stack([np.ones(len(w)), 0.75 * amplitude**2, -(w**2)])
+    side = np.where(w < w[top], 1, -1)
+    for _ in range(5):
+        weighted = columns * amplitude[:, None], side * size * amplitude
+        stiffness, cubic, mass = np.linalg.lstsq(*weighted, rcond=None)[0]
+        side = np.sign(columns @ [stiffness, cubic, mass])
+    scale = (stiffness, damping, stiffness / amplitude[top] ** 2, mass)
+    return np.array([stiffness, damping, cubic, mass]), np.abs(scale)
+
+
+def _read(data, kinds):
+    """Return two columns in SI units as arrays, from a CSV file or a pair of arrays."""
+    import numpy as np
+
+    is_file = isinstance(data, (str, Path))
+    columns = [np.array(each, float) for each in (_columns(Path(data), kinds) if is_file else data)]
+    shapes = {each.shape for each in columns}
+    alike = len(columns) == 2 and len(shapes) == 1 and columns[0].ndim == 1
+    if not alike or len(columns[0]) < FEWEST or not np.all(np.isfinite(columns)):
+        raise ValueError(
+            f"data = {data if is_file else shown(data)}: must be {' and '.join(kinds)}, finite, of "
+            f"the same length, at least {FEWEST}"
+        )
+    return columns
+
+
+def _columns(path, kinds):
+    """Return a list of numbers in SI units for each kind of column of a CSV file."""
+    lines = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
+    header = [COLUMN.fullmatch(each) for each in lines[0]] if lines else []
+    places = {match[1]: (place, match[2]) for place, match in enumerate(header) if match}
+    columns = []
+    for kind in kinds:
+        if kind not in places:
+            wanted = f"{kind}_{QUANTITIES[kind].label}"
+            given = ", ".join(lines[0]) if lines else "nothing"
+            raise ValueError(f"{path}, line 1: must name a column such as {wanted}; has {given}")
+        place, unit = places[kind]
+        factor = check_si(f"{path}, line 1, unit of {kind}", f"1 {unit}", kind)
+        columns.append([])
+        for count, row in enumerate(lines[1:], 2):
+            try:
+                columns[-1].append(factor * float(row[place]))
+            except (ValueError, IndexError):
+                text = shown(row[place]) if place < len(row) else "nothing"
+                raise ValueError(
+                    f"{path}, line {count}, column {kind} = {text}: must be a number"
+                ) from None
+    return columns

@@ -1,0 +1,114 @@
+"""Machines identified from noisy curves that SciPy integrated, and refusals of other files."""
+
+import doctest
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from impact_damper import Machine
+
+PAGE = Path(__file__).parents[3] / "docs/howto/measurement.md"
+TRUE = {"mass": 3.0, "linear_stiffness": 3e4, "damping": 24.0}
+CUBICS = [0.0, 6e9, -5e9]
+FORCE = 5.0
+
+
+def moved(cubic, force, w, start, times):
+    """Return the displacement of the machine at the times, integrated with tight tolerances."""
+    mass, stiffness, damping = TRUE.values()
+
+    def slope(t, y):
+        rest = force * np.cos(w * t) - damping * y[1] - stiffness * y[0] - cubic * y[0] ** 3
+        return y[1], rest / mass
+
+    ends = 0.0, times[-1]
+    return solve_ivp(slope, ends, start, "DOP853", times, rtol=1e-9, atol=1e-13).y[0]
+
+
+def written(path, header, *columns):
+    """Write a CSV file and return its path."""
+    np.savetxt(path, np.column_stack(columns), delimiter=",", header=header, comments="")
+    return path
+
+
+def check(found, names, cubic):
+    """The values lie within 3 standard uncertainties, which are below 3 % of the largest."""
+    true = TRUE | {"cubic_stiffness": cubic}
+    for name in names:
+        error = found.uncertainties[name]
+        assert abs(getattr(found.machine, name) - true[name]) < 3 * error, name
+        assert error < 0.03 * max(abs(true[name]), 6e9 * (name == "cubic_stiffness")), name
+    assert "satisfied" in found.ended
+
+
+@pytest.mark.parametrize("cubic", CUBICS)
+def test_ring_down(cubic, tmp_path):
+    """A record in mm and ms with an offset of the sensor."""
+    times, random = np.linspace(0, 1, 1001), np.random.default_rng(5)
+    noisy = moved(cubic, 0.0, 0.0, (1e-3, 0.0), times) + 1e-4 + 2e-5 * random.normal(size=1001)
+    path = written(tmp_path / "decay.csv", "time_ms, displacement_mm", 1e3 * times, 1e3 * noisy)
+    found = Machine.from_ring_down(path, mass="3 kg", unbalance=1e-3)
+    check(found, ("linear_stiffness", "damping", "cubic_stiffness"), cubic)
+    assert found.noise == pytest.approx(2e-5, rel=0.1)
+    assert found.machine.unbalance == 1e-3
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("cubic", [6e8, -6e8])
+def test_response(cubic, tmp_path):
+    """Amplitudes of a sweep towards the jump with errors of 1 %, each settled for 20 cycles."""
+    frequencies, random = (
+        np.linspace(10, 22, 49)[:: 1 if cubic > 0 else -1],
+        np.random.default_rng(4),
+    )
+    amplitudes, state = [], (0.0, 0.0)
+    for w in 2 * np.pi * frequencies:
+        times = 2 * np.pi / w * np.arange(20 * 64 + 1) / 64
+        x = moved(cubic, FORCE, w, state, times)
+        state = x[-1], np.gradient(x, times, edge_order=2)[-1]
+        phases = np.exp(-1j * w * times[-64:])
+        amplitudes.append(2 * np.abs(np.mean(x[-64:] * phases)))
+    noisy = np.array(amplitudes) * (1 + 0.01 * random.normal(size=49))
+    path = written(
+        tmp_path / "r.csv", "displacement [mm], frequency (Hz)", 1e3 * noisy, frequencies
+    )
+    found = Machine.from_response(path, force="5 N")
+    check(found, (*TRUE, "cubic_stiffness"), cubic)
+
+
+HEAD = "time_s, displacement_mm\n"
+ROWS = "".join(f"{t}, {np.cos(t)}\n" for t in range(30))
+WRONG = [
+    ("time_s, force_N\n" + ROWS, "line 1: must name a column such as displacement_mm; has time_s"),
+    ("time_kg, displacement_mm\n" + ROWS, "line 1, unit of time = '1 kg': must be a number in s"),
+    (HEAD + ROWS + "30, much\n", "line 32, column displacement = ' much': must be a number"),
+    (HEAD + ROWS + "30\n", "line 32, column displacement = nothing: must be a number"),
+    (HEAD + ROWS + "30, nan\n", "must be time and displacement, finite"),
+    (HEAD + ROWS[:40], "of the same length, at least 20"),
+    (HEAD + ROWS + "29, 1\n", "time: must increase"),
+    ("", "line 1: must name a column such as time_s; has nothing"),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), WRONG)
+def test_wrong_file_is_refused_in_words(text, words, tmp_path):
+    path = tmp_path / "wrong.csv"
+    path.write_text(text)
+    with pytest.raises(ValueError, match=re.escape(words)):
+        Machine.from_ring_down(path, mass=1.0)
+
+
+@pytest.mark.parametrize("method", [Machine.from_ring_down, Machine.from_response])
+def test_examples(method):
+    names = {"np": np, "Machine": Machine}
+    test = doctest.DocTestParser().get_doctest(method.__doc__, names, "example", None, None)
+    assert doctest.DocTestRunner().run(test).failed == 0
+
+
+def test_example_of_the_page(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for code in re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL):
+        exec(code, {})
