@@ -10,7 +10,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import linregress
 
+from chatterjee1995.methods.grid_following import Grid
 from chatterjee1995.methods.integrators import integrators
+from chatterjee1995.methods.quiet_orbits import compliant_orbit
 from impact_damper.data.datasets import dataset, is_settled
 from impact_damper.data.variables import register
 from impact_damper.model.arguments import read_increasing
@@ -22,8 +24,6 @@ from impact_damper.model.units import UNITLESS
 from impact_damper.motions import ensemble
 from impact_damper.motions.following import StrobeOrbit
 from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.orbits.grid_following import Grid
-from impact_damper.orbits.quiet_orbits import compliant_orbit
 
 register(
     """

@@ -2,21 +2,8 @@
 
 from typing import ClassVar
 
+from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
-from chatterjee1995.sections.system import (
-    BOUNDS,
-    CLEARANCE_OR_RULE,
-    COMMON,
-    CONTACT_STIFFNESS,
-    DAMPER,
-    FREQUENCY,
-    NEEDED,
-    OSCILLATOR,
-    MaybeWithDamper,
-    given,
-    keys_of,
-    range_of,
-)
 from impact_damper.command.section import missing, problem
 from impact_damper.command.values import choice, count, number
 from impact_damper.model.bounds import FREQUENCY_RANGE, HARMONIC_RANGE
@@ -26,13 +13,13 @@ from impact_damper.model.text import plain
 MAPPED = ("damping", "mass_ratio", "clearance", "restitution")
 
 
-class HarmonicConvergence(MaybeWithDamper):
+class HarmonicConvergence(system.MaybeWithDamper):
     """Motions by harmonic balance with a rising number of harmonics, and their errors."""
 
-    whole: ClassVar = (*NEEDED, "contact_stiffness")
+    whole: ClassVar = (*system.NEEDED, "contact_stiffness")
 
-    contact_stiffness: CONTACT_STIFFNESS = None
-    frequency: FREQUENCY
+    contact_stiffness: system.CONTACT_STIFFNESS = None
+    frequency: system.FREQUENCY
     highest: count("highest harmonic; the work grows with its cube", **HARMONIC_RANGE)
     highest_cold: count(
         "highest harmonic of a cold start (Newton's method begun from the solution with one "
@@ -55,19 +42,20 @@ class HarmonicConvergence(MaybeWithDamper):
 
 
 class BalanceMap(
-    keys_of(OSCILLATOR, needed=["linear_frequency"]), keys_of(DAMPER, without=[COMMON])
+    system.keys_of(system.OSCILLATOR, needed=["linear_frequency"]),
+    system.keys_of(system.DAMPER, without=[system.COMMON]),
 ):
     """Maps of the errors of harmonic balance, over frequency and another parameter."""
 
     parameter: choice("parameter that changes from row to row", *MAPPED)
-    values: range_of(
+    values: system.range_of(
         number("value of the parameter that changes, within its bounds", above=0, most=1000)
     )
-    frequency_ratios: range_of(number("forcing over peak frequency", **FREQUENCY_RANGE))
-    clearance: CLEARANCE_OR_RULE = None
+    frequency_ratios: system.range_of(number("forcing over peak frequency", **FREQUENCY_RANGE))
+    clearance: system.CLEARANCE_OR_RULE = None
 
     def contradictions(self, path, config):
-        least, most = BOUNDS[self.parameter]["least"], BOUNDS[self.parameter]["most"]
+        least, most = system.BOUNDS[self.parameter]["least"], system.BOUNDS[self.parameter]["most"]
         for end in ("first", "last"):
             value = getattr(self.values, end)
             if not least <= value <= most:
@@ -89,14 +77,14 @@ class BalanceMap(
     )
     def balance_map(self, config) -> dict:
         # Without a clearance the stage takes the clearance of the paper's rule (19) in each row.
-        values = given(self, [*OSCILLATOR, *DAMPER]).items()
+        values = system.given(self, [*system.OSCILLATOR, *system.DAMPER]).items()
         fixed = {key: value for key, value in values if value != "rule"}
         points = config.points
         return {
             "parameter": self.parameter,
             "values": self.values.even(points.map_values),
             "frequency_ratios": self.frequency_ratios.even(points.map_frequencies),
-            "fixed": {COMMON: config.contact_stiffness} | fixed,
+            "fixed": {system.COMMON: config.contact_stiffness} | fixed,
         } | config.settling.job()
 
 

@@ -3,24 +3,8 @@
 import math
 from typing import ClassVar
 
+from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
-from chatterjee1995.sections.system import (
-    BOUNDS,
-    CLEARANCE,
-    COMMON,
-    CONTACT_STIFFNESS,
-    DAMPER,
-    FREQUENCY,
-    MASS_RATIO,
-    MEANINGS,
-    NEEDED,
-    PARAMETERS,
-    RESTITUTION,
-    WithOscillator,
-    damper_values,
-    keys_of,
-    range_of,
-)
 from impact_damper.command.section import dotted, increasing, problem
 from impact_damper.command.values import number_or_range, several, starts_of
 from impact_damper.model.bounds import MOST_RUNS
@@ -29,11 +13,14 @@ from impact_damper.model.bounds import MOST_RUNS
 AXES = ("mass_ratio", "clearance", "frequency", "restitution")
 
 
-class Optimum(keys_of(DAMPER, needed=NEEDED, without=["clearance", COMMON]), WithOscillator):
+class Optimum(
+    system.keys_of(system.DAMPER, needed=system.NEEDED, without=["clearance", system.COMMON]),
+    system.WithOscillator,
+):
     """Sweeps of the clearance at one frequency, each with its optimum."""
 
-    frequency: FREQUENCY
-    clearances: range_of(CLEARANCE)
+    frequency: system.FREQUENCY
+    clearances: system.range_of(system.CLEARANCE)
     starts: starts_of("at each clearance, in place of `search.sweep_starts`") = None
 
     @stage(
@@ -42,7 +29,7 @@ class Optimum(keys_of(DAMPER, needed=NEEDED, without=["clearance", COMMON]), Wit
     )
     def optimum(self, config) -> dict:
         sweep = {
-            "damper": damper_values(self, config),
+            "damper": system.damper_values(self, config),
             "frequency": self.frequency,
             "clearances": self.clearances.even(config.points.clearances),
         }
@@ -50,15 +37,18 @@ class Optimum(keys_of(DAMPER, needed=NEEDED, without=["clearance", COMMON]), Wit
         return self.system(config) | sweep | search | config.settling.job()
 
 
-class DesignRules(WithOscillator):
+class DesignRules(system.WithOscillator):
     """Grids of dampers and frequencies on which rules for the clearance are compared."""
 
     mass_ratios: several(
-        MASS_RATIO, "rm, increasing, at most one for each distinct line style", least=1, most=5
+        system.MASS_RATIO,
+        "rm, increasing, at most one for each distinct line style",
+        least=1,
+        most=5,
     )
-    restitutions: several(RESTITUTION, "e, increasing", least=1)
-    contact_stiffnesses: several(CONTACT_STIFFNESS, "r1, increasing", least=1)
-    frequencies: several(FREQUENCY, "W, increasing, above the linear frequency", least=1)
+    restitutions: several(system.RESTITUTION, "e, increasing", least=1)
+    contact_stiffnesses: several(system.CONTACT_STIFFNESS, "r1, increasing", least=1)
+    frequencies: several(system.FREQUENCY, "W, increasing, above the linear frequency", least=1)
 
     counts: ClassVar = ("mass_ratios", "restitutions", "contact_stiffnesses", "frequencies")
 
@@ -83,11 +73,13 @@ class DesignRules(WithOscillator):
 
 def axis(name):
     """Return the type of an axis of the grid: a value, or a range with its number of points."""
-    several = range_of(PARAMETERS[name], points=True)
-    return number_or_range(several, f"{MEANINGS[name]}, one value or an even range", **BOUNDS[name])
+    several = system.range_of(system.PARAMETERS[name], points=True)
+    return number_or_range(
+        several, f"{system.MEANINGS[name]}, one value or an even range", **system.BOUNDS[name]
+    )
 
 
-class Study(WithOscillator):
+class Study(system.WithOscillator):
     """Outcomes of random starts over a grid of mass ratio, clearance, frequency and restitution."""
 
     mass_ratio: axis("mass_ratio")

@@ -27,17 +27,7 @@ from impact_damper.command.values import (
     starts_of,
     text,
 )
-from impact_damper.model.bounds import (
-    FURTHER_RANGE,
-    LIFETIME_RANGE,
-    LIMIT_RANGE,
-    PATIENCE_RANGE,
-    PERIODS_RANGE,
-    RUNS_RANGE,
-    SEED_RANGE,
-    TOLERANCE_RANGE,
-    WATCHED_RANGE,
-)
+from impact_damper.model import bounds
 
 # Keys whose product is the number of runs of a job.
 COUNTS = (
@@ -75,7 +65,7 @@ class Search(Section):
     study_starts: starts_of("in each cell of a study")
     radius: RADIUS
     life_runs: count("runs that measure how long a chaotic motion lasts", least=0, most=1000)
-    life_periods: count("forcing cycles of the runs `life_runs`", **LIFETIME_RANGE)
+    life_periods: count("forcing cycles of the runs `life_runs`", **bounds.LIFETIME_RANGE)
 
     def job(self, config, starts) -> dict:
         """Return the parameters of a search from `starts` random states."""
@@ -85,17 +75,19 @@ class Search(Section):
 class Settling(Section):
     """Length and tolerance of runs."""
 
-    tolerance: number("local error allowed in a step of the integrator", **TOLERANCE_RANGE)
+    tolerance: number("local error allowed in a step of the integrator", **bounds.TOLERANCE_RANGE)
     patience: count(
-        "forcing cycles after which a motion that is certainly chaotic is stopped", **PATIENCE_RANGE
+        "forcing cycles after which a motion that is certainly chaotic is stopped",
+        **bounds.PATIENCE_RANGE,
     )
-    limit: count("forcing cycles after which every other motion is stopped", **LIMIT_RANGE)
+    limit: count("forcing cycles after which every other motion is stopped", **bounds.LIMIT_RANGE)
     further: count(
         "largest number of forcing cycles for which an undecided motion is continued",
-        **FURTHER_RANGE,
+        **bounds.FURTHER_RANGE,
     )
     watched: count(
-        "forcing cycles over which a motion that has not settled is measured", **WATCHED_RANGE
+        "forcing cycles over which a motion that has not settled is measured",
+        **bounds.WATCHED_RANGE,
     )
 
     def job(self) -> dict:
@@ -111,13 +103,15 @@ class Settling(Section):
 class Controller(Section):
     """The migration controller, which switches the damper (the paper's figure 17), and its runs."""
 
-    trials: count("runs of each case", **RUNS_RANGE)
-    periods: count("forcing cycles of a run after which no switching begins", **PERIODS_RANGE)
+    trials: count("runs of each case", **bounds.RUNS_RANGE)
+    periods: count(
+        "forcing cycles of a run after which no switching begins", **bounds.PERIODS_RANGE
+    )
     releases: count(
         "releases of each motion with damper, and number of long runs that measure lifetimes",
-        **RUNS_RANGE,
+        **bounds.RUNS_RANGE,
     )
-    lifetime: count("forcing cycles of the long runs", **LIFETIME_RANGE)
+    lifetime: count("forcing cycles of the long runs", **bounds.LIFETIME_RANGE)
 
 
 class Captions(Section):
@@ -180,7 +174,7 @@ class Settings(Section):
         "folder below the working directory, without spaces or leading dots",
         pattern="[A-Za-z0-9_][A-Za-z0-9_.-]*(/[A-Za-z0-9_][A-Za-z0-9_.-]*)*",
     )
-    seed: count("seed of all random draws", **SEED_RANGE)
+    seed: count("seed of all random draws", **bounds.SEED_RANGE)
     contact_stiffness: CONTACT_STIFFNESS
     chunks: count("number of jobs into which a study is divided", least=1, most=100000)
     points: Points

@@ -1,7 +1,7 @@
 """Frequency responses: curves over frequency, and single motions."""
 
+from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
-from chatterjee1995.sections.system import CLEARANCE_OR_RULE, FREQUENCY, MaybeWithDamper, WithDamper
 from impact_damper.command.section import dotted, problem
 from impact_damper.command.values import choice, several
 
@@ -13,10 +13,10 @@ NEED_DAMPER = ("design_orbit", "subharmonic")
 START = [1.0, 0.5, 0.0, 0.0]
 
 
-class Curve(MaybeWithDamper):
+class Curve(system.MaybeWithDamper):
     """Response curves over frequency, of an oscillator with or without a damper."""
 
-    clearance: CLEARANCE_OR_RULE = None
+    clearance: system.CLEARANCE_OR_RULE = None
     stages: several(
         choice("", *STAGES_OF_CURVES), "stages to compute for the curve", least=1, distinct=True
     )
@@ -100,10 +100,10 @@ class Curve(MaybeWithDamper):
         return self.system(config) | {"span": [span.first, span.last]}
 
 
-class Motion(WithDamper):
+class Motion(system.WithDamper):
     """Steady motions at one frequency."""
 
-    frequency: FREQUENCY
+    frequency: system.FREQUENCY
 
     @stage("impact_damper.motions.response:steady_orbit", "Steady motion {name}")
     def motion(self, config) -> dict:
@@ -111,10 +111,10 @@ class Motion(WithDamper):
         return self.system(config) | run | config.settling.job()
 
 
-class Collision(WithDamper):
+class Collision(system.WithDamper):
     """Shares of random starts that lead to a collision, including starts beyond the walls."""
 
-    frequency: FREQUENCY
+    frequency: system.FREQUENCY
 
     @stage(
         "chatterjee1995.stages.collisions:collisions",

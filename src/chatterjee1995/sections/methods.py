@@ -3,40 +3,16 @@
 from typing import ClassVar
 
 from chatterjee1995.methods.labels import ERRORS, START_HARMONICS, STATISTICS, TOLERANCE_KEYS
+from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
-from chatterjee1995.sections.system import (
-    BOUNDS,
-    COMMON,
-    CONTACT_STIFFNESS,
-    DAMPER,
-    FREQUENCIES,
-    FREQUENCY,
-    NEEDED,
-    RADIUS,
-    RESTITUTION,
-    RUN_PERIODS,
-    MaybeWithDamper,
-    WithDamper,
-    WithOscillator,
-    damper_values,
-    given,
-    keys_of,
-    range_of,
-)
 from impact_damper.command.section import Section, increasing, problem
 from impact_damper.command.values import choice, count, number, points_of, several
-from impact_damper.model.bounds import (
-    FARTHEST,
-    HARMONIC_RANGE,
-    METHOD_TOLERANCE_RANGE,
-    PERIODS_RANGE,
-    RUNS_RANGE,
-)
+from impact_damper.model import bounds
 
-GEOMETRIC = range_of(number("end of a geometric grid", least=1e-14, most=1e9), points=True)
-TOLERANCE = number("tolerance of a method", **METHOD_TOLERANCE_RANGE)
+GEOMETRIC = system.range_of(number("end of a geometric grid", least=1e-14, most=1e9), points=True)
+TOLERANCE = number("tolerance of a method", **bounds.METHOD_TOLERANCE_RANGE)
 DECREASING = several(TOLERANCE, "decreasing tolerances", least=1)
-COMPONENT = number("component of a state", least=-FARTHEST, most=FARTHEST)
+COMPONENT = number("component of a state", least=-bounds.FARTHEST, most=bounds.FARTHEST)
 ORDER = count("order of the series", least=6, most=60)
 
 
@@ -47,14 +23,19 @@ class ContactCells(Section):
     loads: points_of("cells of the map along load")
 
 
-class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON]), WithOscillator):
+class ContactModel(
+    system.keys_of(system.DAMPER, needed=system.NEEDED, without=["restitution", system.COMMON]),
+    system.WithOscillator,
+):
     """One contact in closed form over restitution and load, and contacts of simulated motions."""
 
-    restitutions: several(RESTITUTION, "increasing restitutions of the motions", least=2)
-    frequencies: several(FREQUENCY, "increasing frequencies of the motions", least=1)
-    periods: count("forcing cycles over which contacts are logged", **PERIODS_RANGE)
+    restitutions: several(system.RESTITUTION, "increasing restitutions of the motions", least=2)
+    frequencies: several(system.FREQUENCY, "increasing frequencies of the motions", least=1)
+    periods: count("forcing cycles over which contacts are logged", **bounds.PERIODS_RANGE)
     cells: ContactCells
-    smallest_restitution: number("smallest e of the map", **BOUNDS["restitution"] | {"most": 0.99})
+    smallest_restitution: number(
+        "smallest e of the map", **system.BOUNDS["restitution"] | {"most": 0.99}
+    )
     largest_load: number(
         "largest load: acceleration divided by natural frequency and approach speed",
         above=0.0,
@@ -83,7 +64,7 @@ class ContactModel(keys_of(DAMPER, needed=NEEDED, without=["restitution", COMMON
             "periods": self.periods,
             "seed": config.seed,
         }
-        damper = {"damper": {"Damper": damper_values(self, config)}}
+        damper = {"damper": {"Damper": system.damper_values(self, config)}}
         return self.system(config) | damper | values | config.settling.job()
 
 
@@ -94,12 +75,12 @@ class RigidCells(Section):
     stiffnesses: points_of("cells of the map along contact stiffness")
 
 
-class RigidLimit(WithDamper):
+class RigidLimit(system.WithDamper):
     """The quiet motion between rigid walls compared with the one between compliant walls."""
 
-    frequency: FREQUENCY
-    frequencies: FREQUENCIES
-    stiffnesses: range_of(CONTACT_STIFFNESS)
+    frequency: system.FREQUENCY
+    frequencies: system.FREQUENCIES
+    stiffnesses: system.range_of(system.CONTACT_STIFFNESS)
     cells: RigidCells
 
     counts: ClassVar = ("cells.frequencies", "cells.stiffnesses")
@@ -120,15 +101,17 @@ class RigidLimit(WithDamper):
         return self.system(config) | values | config.settling.job()
 
 
-class MissedContacts(WithOscillator):
+class MissedContacts(system.WithOscillator):
     """Contacts that barely touch the wall (near grazing), found or missed by integrators."""
 
-    frequency: FREQUENCY
-    passages: count("random flights without contact, each over one forcing cycle", **RUNS_RANGE)
-    radius: RADIUS
+    frequency: system.FREQUENCY
+    passages: count(
+        "random flights without contact, each over one forcing cycle", **bounds.RUNS_RANGE
+    )
+    radius: system.RADIUS
     depths: GEOMETRIC
-    tolerances: range_of(TOLERANCE, points=True)
-    steps: range_of(count("steps in a forcing cycle", least=1, most=10**5))
+    tolerances: system.range_of(TOLERANCE, points=True)
+    steps: system.range_of(count("steps in a forcing cycle", least=1, most=10**5))
 
     counts: ClassVar = ("passages", "depths.points", "tolerances.points")
 
@@ -138,7 +121,7 @@ class MissedContacts(WithOscillator):
         priority=1,
     )
     def missed_contacts(self, config) -> dict:
-        values = given(self, ["frequency", "passages", "radius"]) | {
+        values = system.given(self, ["frequency", "passages", "radius"]) | {
             "depths": self.depths.geometric(),
             "tolerances": self.tolerances.geometric(),
             "steps": {"counts": [self.steps.first, self.steps.last, self.tolerances.points]},
@@ -147,18 +130,18 @@ class MissedContacts(WithOscillator):
         return self.system(config) | values
 
 
-class StableSteps(WithDamper):
+class StableSteps(system.WithDamper):
     """The quiet motion by fixed-step methods, over contact stiffness and step."""
 
-    frequency: FREQUENCY
-    stiffnesses: range_of(CONTACT_STIFFNESS, points=True)
+    frequency: system.FREQUENCY
+    stiffnesses: system.range_of(system.CONTACT_STIFFNESS, points=True)
     scaled_steps: GEOMETRIC
     most_steps: count(
         "largest number of steps in a forcing cycle; cells with more are not run",
         least=1,
         most=10**7,
     )
-    periods: RUN_PERIODS
+    periods: system.RUN_PERIODS
 
     counts: ClassVar = ("stiffnesses.points", "scaled_steps.points")
 
@@ -167,7 +150,7 @@ class StableSteps(WithDamper):
         "Largest stable steps of fixed-step methods, {name}",
     )
     def stable_steps(self, config) -> dict:
-        values = given(self, ["frequency", "most_steps", "periods"]) | {
+        values = system.given(self, ["frequency", "most_steps", "periods"]) | {
             "stiffnesses": self.stiffnesses.geometric(),
             "scaled_steps": self.scaled_steps.geometric(),
         }
@@ -181,12 +164,12 @@ class Accuracy(Section):
     within: number("largest error accepted, 0 for a number of contacts", least=0, most=1)
 
 
-class Scene(MaybeWithDamper):
+class Scene(system.MaybeWithDamper):
     """Motions on which the errors and the work of methods and models are compared."""
 
-    frequency: FREQUENCY
+    frequency: system.FREQUENCY
     state: several(COMPONENT, "Z1, Z1', Z2, Z2' at the start, W T = pi/2", least=4, most=4)
-    periods: RUN_PERIODS
+    periods: system.RUN_PERIODS
     motion: choice(
         "steady (a periodic orbit with the period of the forcing), transient or chaotic",
         "steady",
@@ -216,7 +199,7 @@ class Scene(MaybeWithDamper):
         priority=1,
     )
     def job(self, config) -> dict:
-        values = given(self, ["frequency", "state", "periods", "motion"])
+        values = system.given(self, ["frequency", "state", "periods", "motion"])
         settings = {"settings": config.comparison.model_dump(), "accuracy": dict(self.accuracy)}
         return self.system(config) | values | settings
 
@@ -241,7 +224,7 @@ class Comparison(Section):
     harmonics: count(
         "highest harmonic (Newton's method for the exact orbit begins with "
         f"{START_HARMONICS} harmonics)",
-        **HARMONIC_RANGE | {"least": START_HARMONICS},
+        **bounds.HARMONIC_RANGE | {"least": START_HARMONICS},
     )
     batch: count(
         "forcing cycles of a batch, a part of a chaotic run (errors follow from the scatter of the "
@@ -251,7 +234,7 @@ class Comparison(Section):
     )
     scipy_periods: count(
         "forcing cycles of a chaotic run by SciPy's methods, at least two batches",
-        **PERIODS_RANGE | {"least": 2},
+        **bounds.PERIODS_RANGE | {"least": 2},
     )
 
     def contradictions(self, path, config):

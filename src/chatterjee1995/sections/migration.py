@@ -1,28 +1,16 @@
 """Migration control, from one motion to another by switching the damper, and basins."""
 
+from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
-from chatterjee1995.sections.system import (
-    COMMON,
-    DAMPER,
-    FREQUENCIES,
-    FREQUENCY,
-    NEEDED,
-    MaybeWithDamper,
-    WithDamper,
-    WithOscillator,
-    damper_values,
-    given,
-    keys_of,
-)
 from impact_damper.command.section import increasing
 from impact_damper.command.values import count, entries, number, several
 from impact_damper.model.bounds import FARTHEST, FASTEST, LIFETIME_RANGE, PERIODS_RANGE, RUNS_RANGE
 
 
-class Migration(WithDamper):
+class Migration(system.WithDamper):
     """Cases of migration control."""
 
-    frequency: FREQUENCY
+    frequency: system.FREQUENCY
     longest_hold: count(
         "forcing cycles after which the damper is switched off at the latest", **PERIODS_RANGE
     )
@@ -35,10 +23,10 @@ class Migration(WithDamper):
         return self.system(config) | dict(config.controller) | run | config.settling.job()
 
 
-class ReleaseScan(WithDamper):
+class ReleaseScan(system.WithDamper):
     """Motions to which the oscillator settles after the damper is switched off (release)."""
 
-    frequencies: FREQUENCIES
+    frequencies: system.FREQUENCIES
     lifetime: count(
         "forcing cycles within which motions that have not settled are released",
         **LIFETIME_RANGE | {"least": 40},
@@ -58,10 +46,10 @@ class ReleaseScan(WithDamper):
         return self.system(config) | scan | search | config.settling.job()
 
 
-class Basins(MaybeWithDamper):
+class Basins(system.MaybeWithDamper):
     """Planes of states of the primary mass, and the motions to which they lead."""
 
-    frequency: FREQUENCY
+    frequency: system.FREQUENCY
     displacement: number("half width of the plane in Z1", above=0, most=FARTHEST)
     velocity: number("half width of the plane in Z1'", above=0, most=FASTEST)
     cells: count("states on each axis of the plane", least=2, most=10**4)
@@ -71,19 +59,19 @@ class Basins(MaybeWithDamper):
         "Motions to which the states of a plane lead, the plane {name}",
     )
     def basins(self, config) -> dict:
-        plane = given(self, ["frequency", "displacement", "velocity", "cells"])
+        plane = system.given(self, ["frequency", "displacement", "velocity", "cells"])
         return self.system(config) | plane | config.settling.job()
 
 
-class PolicyDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON])):
+class PolicyDamper(system.keys_of(system.DAMPER, needed=system.NEEDED, without=[system.COMMON])):
     """One of the dampers to compare."""
 
 
-class ReleasePolicies(WithOscillator):
+class ReleasePolicies(system.WithOscillator):
     """Policies of migration compared for several dampers, over frequency."""
 
     dampers: entries(PolicyDamper)
-    frequencies: several(FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)
+    frequencies: several(system.FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)
     trials: count("trials of each policy", **RUNS_RANGE)
     cells: count("cells on each axis of the coarse grid of a basin", least=4, most=4096)
 
@@ -98,8 +86,8 @@ class ReleasePolicies(WithOscillator):
     )
     def release_policies(self, config) -> dict:
         dampers = [each for _, each in sorted(self.dampers.items())]
-        values = {"dampers": [{"Damper": damper_values(each, config)} for each in dampers]}
-        values |= given(self, ["frequencies", "trials", "cells"])
+        values = {"dampers": [{"Damper": system.damper_values(each, config)} for each in dampers]}
+        values |= system.given(self, ["frequencies", "trials", "cells"])
         return self.system(config) | values | {"seed": config.seed} | config.settling.job()
 
 

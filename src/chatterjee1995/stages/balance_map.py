@@ -10,17 +10,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from chatterjee1995.methods.quiet_orbits import (
+    follow_quiet_orbits,
+    straight_flight_end,
+)
 from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wall
 from impact_damper.data.variables import OUTCOME, register
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, pick
 from impact_damper.motions import ensemble
-from impact_damper.motions.records import MOTION
-from impact_damper.orbits.quiet_orbits import (
-    follow_quiet_orbits,
-    is_symmetric_pair,
-    straight_flight_end,
-)
+from impact_damper.motions.records import MOTION, is_symmetric_pair
 from impact_damper.theory.design_rule import peak_frequency, rule_clearance
 from impact_damper.theory.free_oscillator import resonance
 from impact_damper.theory.single_harmonic import impacting_solutions

@@ -10,13 +10,13 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from tqdm import tqdm
 
+from chatterjee1995.methods.quiet_orbits import compliant_orbit
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import MINIMUM, STABILITY, register
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import Damper, describe
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.motions.traces import states_at
-from impact_damper.orbits.quiet_orbits import compliant_orbit
 from impact_damper.theory.optimum_clearance import CRITERIA, RULES, rule_ratios
 from impact_damper.theory.straight_flight import flight_of
 

@@ -8,14 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from chatterjee1995.methods.grid_following import Grid, follow_line
+from chatterjee1995.methods.quiet_orbits import compliant_orbit
 from chatterjee1995.methods.rigid_impacts import mended_orbit, rigid_orbit
 from chatterjee1995.stages.contact_model import extreme_motions
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import register
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import describe
-from impact_damper.orbits.grid_following import Grid, follow_line
-from impact_damper.orbits.quiet_orbits import compliant_orbit
 
 register(
     """

@@ -14,9 +14,9 @@ from impact_damper.data.whole_files import BrokenFileError
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, describe
 from impact_damper.motions import ensemble
+from impact_damper.motions.records import is_symmetric_pair
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.start_states import describe_search, warn_if_narrow
-from impact_damper.orbits.quiet_orbits import is_symmetric_pair
 
 register(
     """

@@ -6,14 +6,8 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION
+from impact_damper.model import bounds
 from impact_damper.model.arguments import read_forced
-from impact_damper.model.bounds import (
-    FREQUENCY_RANGE,
-    PERIODS_RANGE,
-    SEED_RANGE,
-    check_count,
-    names_arguments,
-)
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble, legs
@@ -48,7 +42,7 @@ class ReleaseCase(NamedTuple):
     known: np.ndarray
 
 
-@names_arguments
+@bounds.names_arguments
 def migrate(
     system,
     damper,
@@ -105,11 +99,11 @@ def migrate(
     """
     settling = check_settling(settling)
     if not isinstance(seed, np.random.SeedSequence):
-        check_count("seed", seed, **SEED_RANGE)
+        bounds.check_count("seed", seed, **bounds.SEED_RANGE)
     model = read_forced(system, damper, frequency, needs_damper=True)
-    check_count("longest_hold", longest_hold, **PERIODS_RANGE)
-    check_count("periods", periods, **PERIODS_RANGE)
-    check_count("switchings", switchings, most=10**4)
+    bounds.check_count("longest_hold", longest_hold, **bounds.PERIODS_RANGE)
+    bounds.check_count("periods", periods, **bounds.PERIODS_RANGE)
+    bounds.check_count("switchings", switchings, most=10**4)
     if release not in ("settled", "state"):
         raise ValueError(f"release = {release!r}: must be 'settled' or 'state'")
     case = release_case(model.oscillator, model.damper, model.frequency, settling)
@@ -154,8 +148,8 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     other way round.
     """
     on, off = pack(oscillator, damper, frequency), pack(oscillator, None, frequency)
-    above = min(1.1 * frequency, FREQUENCY_RANGE["most"])
-    below = max(0.9 * frequency, FREQUENCY_RANGE["least"])
+    above = min(1.1 * frequency, bounds.FREQUENCY_RANGE["most"])
+    below = max(0.9 * frequency, bounds.FREQUENCY_RANGE["least"])
     ends = (above, below) if oscillator.hardening >= 0 else (below, above)
     goal = _free_motion(oscillator, frequency, ends[0], 0, settling)
     resonance = _free_motion(oscillator, frequency, ends[1], -1, settling)

@@ -22,6 +22,8 @@ from impact_damper.motions.traces import record_beginning
 
 # A harmonic below PHASELESS times the harmonic of Z1 is a rounding error, so it has no phase.
 PHASELESS = 1e-9
+# Half a cycle later the state of a symmetric motion has changed its sign, up to this difference.
+SYMMETRIC = 1e-6
 # Number of samples in a forcing cycle, from which harmonics are computed.
 SAMPLES = 64
 # Pieces of a step, in each of which a polynomial is assumed to have at most one turning point.
@@ -209,6 +211,12 @@ def measured(p, y, periods, tolerance):
     records["state"] = y
     measure(p[None], tolerance, periods, records, NEVER)
     return records[0]
+
+
+def is_symmetric_pair(motions):
+    """Return the mask of motions that are symmetric, of period 1, with two contacts in a cycle."""
+    two = (motions["contacts"] == 2) & (motions["period"] == 1)
+    return two & (motions["asymmetry"] < SYMMETRIC)
 
 
 def phase_of(harmonic, reference):

@@ -10,6 +10,7 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled, named
 from impact_damper.data.shares import escape_rate
+from impact_damper.model import bounds
 from impact_damper.model.arguments import (
     read_forced,
     read_frequencies,
@@ -17,13 +18,6 @@ from impact_damper.model.arguments import (
     read_start,
     read_state,
     read_system,
-)
-from impact_damper.model.bounds import (
-    LIFETIME_RANGE,
-    SEED_RANGE,
-    check_count,
-    check_starts,
-    names_arguments,
 )
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import check_settling
@@ -42,7 +36,7 @@ from impact_damper.motions.watch import NEAR
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 
-@names_arguments
+@bounds.names_arguments
 def steady_motion(
     system, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, start=None, settling=None
 ):
@@ -109,7 +103,7 @@ def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None
     return simulate(system, damper, frequency, steady["state"], **run)
 
 
-@names_arguments
+@bounds.names_arguments
 def frequency_response(
     system,
     damper,
@@ -183,15 +177,15 @@ def frequency_response(
     settling = check_settling(settling)
     model = read_system(system, damper)
     frequencies = read_frequencies(model.scales, frequencies)
-    check_starts(starts, len(frequencies))
-    check_count("seed", seed, **SEED_RANGE)
+    bounds.check_starts(starts, len(frequencies))
+    bounds.check_count("seed", seed, **bounds.SEED_RANGE)
     radius = read_radius(model.scales, radius, whole_gap)
     parameters = np.array([model.pack(value) for value in frequencies])
     systems = [(model.damper, value) for value in frequencies]
     drawn = starts, radius, seed
     search = search_starts(model.oscillator, systems, *drawn, settling, whole_gap=whole_gap)
-    runs = check_count("life_runs", life_runs, least=0, most=1000)
-    cycles = check_count("life_periods", life_periods, **LIFETIME_RANGE)
+    runs = bounds.check_count("life_runs", life_runs, least=0, most=1000)
+    cycles = bounds.check_count("life_periods", life_periods, **bounds.LIFETIME_RANGE)
     running = {"workers": workers, "progress": progress}
     data = sweep(parameters, FREQUENCY, "frequency", search, settling, **running)
     found = data["outcome"][1], data["state"][1]

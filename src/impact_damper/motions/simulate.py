@@ -4,16 +4,8 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset
 from impact_damper.kernel.equation import spring
+from impact_damper.model import bounds
 from impact_damper.model.arguments import read_forced, read_start, read_state
-from impact_damper.model.bounds import (
-    MOST_RADIUS,
-    PERIODS_RANGE,
-    RADIUS_RANGE,
-    SEED_RANGE,
-    check_count,
-    check_number,
-    names_arguments,
-)
 from impact_damper.model.packed import DAMPING, FREQUENCY
 from impact_damper.motions import traces
 from impact_damper.motions.panels import base_displacement, contact_forces, penetration, wall_force
@@ -30,13 +22,15 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
     Without a damper it is a disk of (Z1, Z1'). If `within_gap`, states with |Z2| beyond the
     clearance are drawn again, because the contact spring would store a large energy.
     """
-    check_count("count", count, least=0, most=10**8)
-    check_number("radius", radius, **RADIUS_RANGE)
+    bounds.check_count("count", count, least=0, most=10**8)
+    bounds.check_number("radius", radius, **bounds.RADIUS_RANGE)
     if damper is not None and within_gap:
-        most = MOST_RADIUS * damper.clearance
-        check_number("radius", radius, above=0.0, most=most, why="few states lie within the gap")
+        most = bounds.MOST_RADIUS * damper.clearance
+        bounds.check_number(
+            "radius", radius, above=0.0, most=most, why="few states lie within the gap"
+        )
     for value in np.atleast_1d(seed):
-        check_count("seed", value, **SEED_RANGE)
+        bounds.check_count("seed", value, **bounds.SEED_RANGE)
     generator = np.random.default_rng(seed)
     size = 2 if damper is None else 4
     states = np.empty((0, size))
@@ -51,7 +45,7 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
     return np.hstack([states, states]) if damper is None else states
 
 
-@names_arguments
+@bounds.names_arguments
 def simulate(
     system,
     damper,
@@ -108,10 +102,12 @@ def simulate(
     model = read_forced(system, damper, frequency)
     p = model.pack()
     y = read_state(model, state)
-    check_number("periods", periods, above=0.0, most=PERIODS_RANGE["most"])
+    bounds.check_number("periods", periods, above=0.0, most=bounds.PERIODS_RANGE["most"])
     most = max(2, int(min(1e6, MOST_SAMPLES / periods)))
-    check_count("samples", samples, least=2, most=most, why=f"at most {MOST_SAMPLES} samples")
-    check_number("tolerance", tolerance, least=1e-15, most=1e-2)
+    bounds.check_count(
+        "samples", samples, least=2, most=most, why=f"at most {MOST_SAMPLES} samples"
+    )
+    bounds.check_number("tolerance", tolerance, least=1e-15, most=1e-2)
     start = read_start(model, state, start)
     length = periods * 2 * np.pi / p[FREQUENCY]
     times = start + np.linspace(0.0, length, max(int(np.ceil(periods * samples)), 1) + 1)

@@ -6,15 +6,8 @@ import numpy as np
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import BASIN_LABEL
+from impact_damper.model import bounds
 from impact_damper.model.arguments import read_forced, read_pair, read_span
-from impact_damper.model.bounds import (
-    FARTHEST,
-    FASTEST,
-    check_count,
-    check_number,
-    names_arguments,
-    shown,
-)
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import check_settling
 from impact_damper.motions.attractors import (
@@ -42,7 +35,7 @@ CELLS_RANGE = {"least": 2, "most": 10**4}
 STROBE = math.pi / 2
 
 
-@names_arguments
+@bounds.names_arguments
 def basins(
     system,
     damper,
@@ -108,8 +101,8 @@ def basins(
     settling = check_settling(settling)
     model = read_forced(system, damper, frequency)
     p = model.pack()
-    check_count("cells", cells, **CELLS_RANGE)
-    phase = check_number("phase", phase, least=0, most=2 * math.pi)
+    bounds.check_count("cells", cells, **CELLS_RANGE)
+    phase = bounds.check_number("phase", phase, least=0, most=2 * math.pi)
     free = free_motions(model.oscillator, model.frequency, settling)
     sizes = np.array([free.displacement or 1.0, free.speed or 1.0])
     sides = _sides(model.scales, sizes, displacement, velocity)
@@ -120,7 +113,7 @@ def basins(
     made = model.describe(settling) | {"cells": cells}
     if damper is None:
         if loose is not None:
-            raise ValueError(f"loose = {shown(loose)}: must be None without a damper")
+            raise ValueError(f"loose = {bounds.shown(loose)}: must be None without a damper")
         reach = np.maximum(REACH * sizes, 1.5 * window)
         data, records = _free(p, plane, window, reach, phase, cells, settling, running)
     else:
@@ -140,7 +133,7 @@ def basins(
 def _sides(scales, sizes, displacement, velocity):
     """Return the least and the greatest value on each axis of the plane, shape (2, 2)."""
     sides = np.outer(WIDTH * sizes, (-1.0, 1.0))
-    given = ("displacement", displacement, FARTHEST), ("velocity", velocity, FASTEST)
+    given = ("displacement", displacement, bounds.FARTHEST), ("velocity", velocity, bounds.FASTEST)
     for row, (name, value, most) in zip(sides, given, strict=True):
         if isinstance(value, list | tuple | np.ndarray):
             row[:] = read_span(scales, name, value, name, least=-most, most=most)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from impact_damper.data.datasets import dataset, flag
+from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.data.sweeps import runs_of_true
 from impact_damper.model.arguments import read_increasing, read_radius, read_swept_damper
 from impact_damper.model.bounds import (
@@ -19,9 +19,10 @@ from impact_damper.model.bounds import (
 from impact_damper.model.packed import CLEARANCE, pack
 from impact_damper.model.parameters import check_closed_form, describe
 from impact_damper.model.settling import check_settling
+from impact_damper.motions.records import is_symmetric_pair
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
-from impact_damper.motions.sweep import SAME, reached, sweep
+from impact_damper.motions.sweep import reached, sweep
 from impact_damper.orbits.branches import between, follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory.design_rule import rule_clearance
@@ -169,12 +170,7 @@ def _quiet_motions(data, clearances, rule):
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
-    quiet = (
-        (table["outcome"] == flag("outcome", "settled"))
-        & (table["period"] == 1)
-        & (np.abs(table["contacts"] - 2) < SAME)
-        & (table["asymmetry"] < SAME)
-    )
+    quiet = is_settled(table) & is_symmetric_pair(table)
     size = np.where(quiet, table["maximum_displacement"], np.nan)
     rows, anchor = np.flatnonzero(quiet.any(axis=1)), None
     if len(rows):

@@ -13,6 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from impact_damper.model.packed import CLEARANCE
+from impact_damper.motions.records import SYMMETRIC
 from impact_damper.motions.segment_runs import FINE_NUDGE, NUDGE, slopes_of_ends
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
@@ -33,8 +34,6 @@ REFINED, UNMOVED = 1e-4, 5e-6
 # A linear system is nearly singular if its solution exceeds the right side by SINGULAR^-0.5. Then
 # singular values below SINGULAR times the largest one are set to zero.
 SINGULAR = 1e-8
-# An orbit is symmetric if its asymmetry, the entry of `records.MOTION`, is below SYMMETRIC.
-SYMMETRIC = 1e-6
 # First and shortest step along a branch, as a distance in the metric of `Problem`.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
 # Longest step, divided by the length of the vector of unknowns (at least SMALLEST), for symmetric

@@ -5,21 +5,13 @@ import xarray as xr
 from tqdm import tqdm
 
 from impact_damper.data.datasets import dataset, flag, from_si
+from impact_damper.model import bounds
 from impact_damper.model.arguments import (
     carried_phase,
     read_forced,
     read_span,
     read_state,
     read_system,
-)
-from impact_damper.model.bounds import (
-    FREQUENCY_RANGE,
-    check_count,
-    check_frequency,
-    check_number,
-    names_arguments,
-    shown,
-    warn,
 )
 from impact_damper.model.families import LINEAR, family_of, read_followed
 from impact_damper.model.packed import FREQUENCY
@@ -35,7 +27,7 @@ from impact_damper.orbits.switching import follow_others, met_by
 BEYOND = 300
 
 
-@names_arguments
+@bounds.names_arguments
 def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     """Find the periodic orbit near a state by Newton's method.
 
@@ -84,7 +76,9 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     model = read_forced(system, damper, frequency)
     state, orbit = _checked_orbit(model, state, period, phase)
     if orbit.repeats_sooner():
-        warn(f"period = {period}: the orbit found already repeats after a divisor of {period}")
+        bounds.warn(
+            f"period = {period}: the orbit found already repeats after a divisor of {period}"
+        )
     log = orbit.contacts
     data = orbit_variables([(model.frequency, orbit)]) | {
         "orbit_branch": np.zeros(1, int),
@@ -98,7 +92,7 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     return dataset(data, {"component": list(COMPONENTS)}, made, "Periodic orbit", model)
 
 
-@names_arguments
+@bounds.names_arguments
 def orbit_branches(
     system,
     damper,
@@ -198,16 +192,16 @@ def _all_branches(system, damper, span, motions, progress):
     """Return the branches of the orbits of all settled motions, and those that leave them."""
     model = read_system(system, damper)
     damper = model.damper
-    span = read_span(model.scales, "span", span, "frequency", **FREQUENCY_RANGE)
+    span = read_span(model.scales, "span", span, "frequency", **bounds.FREQUENCY_RANGE)
     if not isinstance(motions, list) or not all(isinstance(each, xr.Dataset) for each in motions):
-        raise TypeError(f"motions = {shown(motions)}: must be a list of datasets of motions")
+        raise TypeError(f"motions = {bounds.shown(motions)}: must be a list of datasets of motions")
 
     motions = [from_si(each, model.scales) for each in motions]
     packed = model.pack(span[0])
 
     def family(value):
         p = packed.copy()
-        p[FREQUENCY] = check_frequency(value)
+        p[FREQUENCY] = bounds.check_frequency(value)
         return p
 
     def follow(orbit, value):
@@ -232,11 +226,11 @@ def _all_branches(system, damper, span, motions, progress):
 
 def _checked_orbit(model, state, period, phase):
     """Return the checked state and the orbit near it; raises as `periodic_orbit` does."""
-    check_count("period", period, most=1000)
+    bounds.check_count("period", period, most=1000)
     if phase is None:
         carried = carried_phase(state)
         phase = STROBE if carried is None else carried
-    check_number("phase", phase, least=-1e6, most=1e6)
+    bounds.check_number("phase", phase, least=-1e6, most=1e6)
     state = read_state(model, state)
     orbit = find_orbit(model.pack(), state, period, phase)
     if not orbit.converged:

@@ -9,8 +9,9 @@ from itertools import islice
 
 import numpy as np
 
+from impact_damper.motions.records import SYMMETRIC
 from impact_damper.orbits import segments
-from impact_damper.orbits.continuation import SYMMETRIC, Point, Problem
+from impact_damper.orbits.continuation import Point, Problem
 from impact_damper.orbits.grazing import at_height, through_grazing, turns_of, with_gradient
 from impact_damper.orbits.shooting import shoot
 

@@ -15,6 +15,7 @@ from references.equation import SPRINGS
 import impact_damper as idm
 from chatterjee1995.methods.equations import rate
 from chatterjee1995.methods.many_harmonics import Balance
+from chatterjee1995.methods.quiet_orbits import straight_flight_end
 from impact_damper.kernel import batch
 from impact_damper.kernel import equation as kernel
 from impact_damper.model.families import FORCING
@@ -27,7 +28,6 @@ from impact_damper.model.parameters import (
     parameters_in,
 )
 from impact_damper.motions.start_states import barrier
-from impact_damper.orbits.quiet_orbits import straight_flight_end
 from impact_damper.theory.design_rule import peak_frequency, rule_clearance
 from impact_damper.theory.free_oscillator import (
     free_folds,
@@ -156,7 +156,7 @@ BENT_PLACES = {
     "theory/design_rule.py": [peak_frequency, partial(rule_clearance, mass_ratio=0.1)],
 }
 # Files that need a spring force that is odd in Z1.
-SYMMETRIC = "methods/many_harmonics.py, orbits/quiet_orbits.py, orbits/shooting.py"
+SYMMETRIC = "methods/many_harmonics.py, methods/quiet_orbits.py, orbits/shooting.py"
 
 
 def flat(result):
@@ -247,7 +247,7 @@ def test_parameters_are_named_by_their_kind(name):
         )
         if forced:
             ends = [straight_flight_end(each, 2.0, 0.5) for each in (one, other)]
-            assert ends[0] != ends[1], f"orbits/quiet_orbits.py: straight_flight_end lacks {name}"
+            assert ends[0] != ends[1], f"methods/quiet_orbits.py: straight_flight_end lacks {name}"
         elif name not in NONLINEAR and name not in LOOSE:
             flights = [np.hstack(flight_of(each, DAMPER, W)) for each in (one, other)]
             assert np.any(flights[0] != flights[1]), f"theory/straight_flight.py lacks {name}"

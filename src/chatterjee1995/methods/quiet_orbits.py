@@ -8,16 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.motions.records import measured
+from chatterjee1995.methods.grid_following import Grid
+from impact_damper.motions.records import SYMMETRIC, measured
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish
-from impact_damper.orbits.grid_following import Grid
 from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import newton, shoot
 
 # Number of contacts of the orbits in a forcing cycle.
 CONTACTS = 2
-# Half a cycle later the state of a symmetric orbit has changed its sign, up to this difference.
-SYMMETRIC = 1e-6
 
 
 class CompliantOrbit(NamedTuple):
@@ -82,12 +80,6 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
     if left <= 0:
         return np.inf
     return float(np.sqrt(oscillator.force * most / left))
-
-
-def is_symmetric_pair(records):
-    """Return the mask of `records.MOTION` that are symmetric, of period 1, with two contacts."""
-    two = (records["contacts"] == CONTACTS) & (records["period"] == 1)
-    return two & (records["asymmetry"] < SYMMETRIC)
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:

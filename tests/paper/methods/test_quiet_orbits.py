@@ -6,19 +6,19 @@ import numpy as np
 import pytest
 from helpers.known_orbits import DESIGN, PAPER
 
+from chatterjee1995.methods.quiet_orbits import (
+    PHASE,
+    find_quiet_orbit,
+    follow_quiet_orbits,
+    straight_flight_end,
+)
 from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
+from impact_damper.motions.records import is_symmetric_pair
 from impact_damper.orbits.orbit import STROBE
-from impact_damper.orbits.quiet_orbits import (
-    PHASE,
-    find_quiet_orbit,
-    follow_quiet_orbits,
-    is_symmetric_pair,
-    straight_flight_end,
-)
 from impact_damper.orbits.shooting import shoot
 
 LEFT, RIGHT = 0, 1
