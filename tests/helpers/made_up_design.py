@@ -36,7 +36,8 @@ def made_up_design(decision="build", told=None, **changed):
         "seed": 1995,
         "gap": None,
         "tolerances": {"gap": 0.1, "restitution": 0.1},
-        "pull_free_restitution": 0.72,
+        "gravity": 0.0,
+        "friction": 0.0,
         "settling": SETTLING,
         "compared_settling": SETTLING | {"patience": 150, "limit": 900},
     }

@@ -24,14 +24,13 @@ def is_outside(a, i):
 @kernel_only
 def load_across(a):
     """Compute ACROSS at the beginning of the step, its bound MOST, and whether it acts (SWAYS)."""
-    acting = 0.0
-    rough = 0.0
+    acting = 0
+    rough = 0
     for i in range(LANES):
-        rough = max(rough, a[FRICTION + i])
-        acting = max(acting, max(abs(a[GRAVITY + i]), a[BASE + i]))
-    acting = max(acting, rough)
+        acting += 1 if abs(a[GRAVITY + i]) + a[BASE + i] + a[FRICTION + i] > 0.0 else 0
+        rough += 1 if a[FRICTION + i] > 0.0 else 0
     # All rows are 0 in steps in which nothing acts.
-    if acting > 0.0 or a[SWAYS] > 0.0:
+    if acting > 0 or a[SWAYS] > 0.0:
         for i in range(LANES):
             a[DRAW + i] = a[GRAVITY + i]
             a[BASE_COSINE + i] = a[BASE + i] * a[COSINE + i]

@@ -53,7 +53,7 @@ def expect_contact(a):
         wall = a[WALL + i] = 1.0 if a[Y3 + i] > 0.0 else -1.0
         bend = 0.5 * length * (a[G + i] + a[ACROSS + i])
         reached = wall * (a[Y2 + i] + length * (a[Y3 + i] + bend))
-        reaches = reached > a[CLEARANCE + i] and not is_outside(a, i) and a[STUCK + i] == 0.0
+        reaches = reached > a[CLEARANCE + i] and a[APART + i] <= 0.0
         a[MODE + i] = BRACKET if reaches else MISSED
         expected += 1 if reaches else 0
     if expected > 0:
@@ -111,7 +111,7 @@ def find_contact(a):
         certain = speed + wall * final > change
         awaited = certain and t < a[LENGTH + i]
         missed = not awaited and ((clear and left) or (certain and ahead > 0.0))
-        missed = missed or is_outside(a, i) or a[STUCK + i] > 0.0
+        missed = missed or a[APART + i] > 0.0
         a[WALL + i] = wall
         a[MODE + i] = MISSED if missed else (BRACKET if certain else MARCH)
         expected += 1 if awaited else 0

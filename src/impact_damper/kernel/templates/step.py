@@ -133,7 +133,9 @@ def flight_step(a):
     for i in range(LANES):
         a[MODE + i] = MISSED
         walls += 1 if a[CLEARANCE + i] < math.inf else 0
-        outside += 1 if is_outside(a, i) else 0
+        apart = max(abs(a[Y2 + i]) - a[CLEARANCE + i], a[STUCK + i])
+        a[APART + i] = apart
+        outside += 1 if apart > 0.0 else 0
     if outside > 0:
         shorten_outside(a)
     if walls > 0:

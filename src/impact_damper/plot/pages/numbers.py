@@ -28,6 +28,8 @@ QUANTITIES = {
     "gap": "gap",
     "restitution": "restitution",
     "contact_stiffness": "stiffness of the walls",
+    "gravity": "gravity along the gap",
+    "friction": "friction of the loose mass",
     "stiffness": "stiffness of the spring",
     "damping": "damping",
     "force": "excitation",
@@ -35,6 +37,8 @@ QUANTITIES = {
 # Rows of tables: names of variables or keys, descriptions, units, factors of the units, and the
 # quantity that deviates.
 TABLES = {
+    # A loose mass that hits a wall less often in a cycle is ballast.
+    "HARDLY": 0.2,
     "GIVEN": (
         ("mass", "mass without the loose mass", "kg", 1, None),
         ("linear_stiffness", "stiffness of the spring", "N/m", 1, "stiffness"),
@@ -93,6 +97,10 @@ def numbers_of(data) -> dict:
         "sets": len(data["promise_factor"]),
         "worst_values": _worst_values(data),
         "untouched": _peak(data, "untouched_displacement").size,
+        "based": any(
+            asked["machine"].get(f"base_{each}") for each in ("displacement", "acceleration")
+        ),
+        "hits": _hits(data),
         "linear": not asked["machine"].get("cubic_stiffness"),
         "condition": _condition(data, ends),
         "keeping": (
@@ -119,6 +127,13 @@ def numbers_of(data) -> dict:
         "masses": _masses(data, asked),
     }
     return found | _transients(data, asked)
+
+
+def _hits(data) -> float:
+    """Return the largest number of impacts in a cycle over the band, NaN if it is not known."""
+    if "impact_rate_by_frequency" not in data:
+        return np.nan
+    return float((data["impact_rate_by_frequency"] / data["frequency"]).max())
 
 
 def _peak(data, name) -> SimpleNamespace:
