@@ -59,14 +59,14 @@ def test_ring_down(cubic, tmp_path):
 @pytest.mark.thorough
 @pytest.mark.parametrize("cubic", [6e8, -6e8])
 def test_response(cubic, tmp_path):
-    """Amplitudes of a sweep towards the jump with errors of 1 %, each settled for 20 cycles."""
+    """Amplitudes of a sweep towards the jump with errors of 1 %, each settled for 30 cycles."""
     frequencies, random = (
         np.linspace(10, 22, 49)[:: 1 if cubic > 0 else -1],
         np.random.default_rng(4),
     )
     amplitudes, state = [], (0.0, 0.0)
     for w in 2 * np.pi * frequencies:
-        times = 2 * np.pi / w * np.arange(20 * 64 + 1) / 64
+        times = 2 * np.pi / w * np.arange(30 * 64 + 1) / 64
         x = moved(cubic, FORCE, w, state, times)
         state = x[-1], np.gradient(x, times, edge_order=2)[-1]
         phases = np.exp(-1j * w * times[-64:])
