@@ -27,14 +27,13 @@ class SiMotion:
         return self.damper.contact_stiffness * depth + self.dashpot * wall * y[3]
 
     def slope(self, t, y, wall):
-        """Return the time derivative of the integrated vector y."""
+        """Return the time derivative of the vector y: the state, and the loss in contacts."""
         machine, push, force = self.machine, self.push(y, wall), self.force(t)
         loss = machine.viscous_damping * y[1]
         spring = machine.linear_stiffness * y[0] + machine.cubic_stiffness * y[0] ** 3
         a = (force - spring - loss - wall * push) / machine.mass
-        works = [force * y[1], loss * y[1], self.dashpot * y[3] ** 2 if wall else 0.0, push]
         loose = wall * push / self.damper.mass if wall else 0.0
-        return [y[1], a, y[3], a - loose, *works]
+        return [y[1], a, y[3], a - loose, self.dashpot * y[3] ** 2 if wall else 0.0]
 
     def run(self, state, begin, end, *, longest=5e-3, in_contact=2e-4):
         """Yield each flight and each contact as (wall, solution).
@@ -51,7 +50,7 @@ class SiMotion:
             return y[1]
 
         reached.terminal = True
-        t, wall, y = begin, 0, np.concatenate([state, np.zeros(4)])
+        t, wall, y = begin, 0, np.concatenate([state, [0.0]])
         while t < end:
             reached.direction = -1 if wall else 1
             solution = solve_ivp(

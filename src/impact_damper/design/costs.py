@@ -1,23 +1,10 @@
-"""Costs of a motion with a damper: impacts, forces, losses, noise, and the pressure of contacts.
-
-The force of a wall per unit of primary mass is f = r1 q + D q', with the penetration q, the contact
-stiffness r1 and the dashpot coefficient D. Over a period of the motion,
-
-    work of the external force = losses in the machine's dashpot, in contacts and by friction.
-"""
+"""Costs of a motion with a damper: impacts, forces, losses, and the pressure of contacts."""
 
 import numpy as np
 
-from impact_damper.kernel.equation import energy, forcing_amplitude, spring
+from impact_damper.kernel.equation import forcing_amplitude, spring
 from impact_damper.kernel.single import side_of
-from impact_damper.model.packed import (
-    BASE,
-    DAMPING,
-    DASHPOT,
-    FREQUENCY,
-    FRICTION,
-    INVERSE_MASS_RATIO,
-)
+from impact_damper.model.packed import BASE, DAMPING, DASHPOT, FREQUENCY
 from impact_damper.motions.panels import (
     base_displacement,
     integrals,
@@ -46,7 +33,24 @@ def measured_costs(p, y, begin, periods) -> dict:
     panels = sampled(p, y, begin, begin + time, POLISH_TOLERANCE)
     if np.isnan(panels.states[-1, -1, 0]):
         time = np.nan
-    return _impacts(p, panels, time) | _extremes_and_powers(p, panels, time)
+    wall, (x, v) = panels.wall[:, None], np.moveaxis(panels.states, -1, 0)[:2]
+    depth, rate = penetration(p, panels.states, wall)
+    contact = wall_force(p, depth, rate)
+    # `py_func` is the Python function of a compiled function; it accepts arrays.
+    external = forcing_amplitude.py_func(p) * np.cos(p[FREQUENCY] * panels.times)
+    free = (1 - p[BASE]) * external - p[DAMPING] * v - spring.py_func(p, x)
+    absolute = largest(x + base_displacement(p, panels.times)) if p[BASE] else np.nan
+    _, start, end, approach, _ = panels.log.T
+    whole = np.isfinite(end) & (start > panels.times[0, 0])
+    return {
+        "impact_rate": np.sum(whole) / time,
+        "impact_speed": np.max(np.abs(approach[whole]), initial=0.0),
+        "contact_force": largest(contact),
+        "penetration": largest(depth),
+        "largest_acceleration": largest(free - wall * contact),
+        "absolute_displacement": absolute,
+        "impact_power": np.sum(integrals(panels, p[DASHPOT] * rate**2)) / time,
+    }
 
 
 def pressure_costs(machine, damper, contact, speed) -> tuple[float, str]:
@@ -77,50 +81,3 @@ def _in_flight(p, y, begin):
     middle = (log[0, 2] + following) / 2
     states = states_at(p, y, begin, [middle], POLISH_TOLERANCE)
     return middle, states[-1]
-
-
-def _impacts(p, panels, time):
-    """Return impulses and losses of whole contacts, and rate and speed of impacts."""
-    depth, rate = penetration(p, panels.states, panels.wall[:, None])
-    force = wall_force(p, depth, rate)
-    impulse, loss = (
-        np.bincount(panels.contact + 1, integrals(panels, values), len(panels.log) + 1)[1:]
-        for values in (force, p[DASHPOT] * rate**2)
-    )
-    _, start, end, approach, _ = panels.log.T
-    whole = np.isfinite(end) & (start > panels.times[0, 0])
-    return {
-        "contact_impulse": impulse[whole],
-        "contact_loss": loss[whole],
-        "impact_rate": np.sum(whole) / time,
-        "impact_speed": np.max(np.abs(approach[whole]), initial=0.0),
-    }
-
-
-def _extremes_and_powers(p, panels, time):
-    """Return the largest force, penetration and acceleration, mean powers, and their balance."""
-    depth, rate = penetration(p, panels.states, panels.wall[:, None])
-    contact = wall_force(p, depth, rate)
-    x, v = panels.states[..., 0], panels.states[..., 1]
-    # `py_func` is the Python function of a compiled function; it accepts arrays.
-    external = forcing_amplitude.py_func(p) * np.cos(p[FREQUENCY] * panels.times)
-    acceleration = (1 - p[BASE]) * external - p[DAMPING] * v - spring.py_func(p, x)
-    w, loose = panels.states[..., 3], 1 / p[INVERSE_MASS_RATIO]
-    # On a moving base, the force of inertia acts on the loose mass too.
-    supplied = external * (v + p[BASE] * loose * (v - w))
-    spent = p[DAMPING] * v**2 + loose * p[FRICTION] * np.abs(w)
-    powers = supplied, spent, p[DASHPOT] * rate**2
-    work, damped, lost = (np.sum(integrals(panels, each)) / time for each in powers)
-    first, last = (energy.py_func(p, panels.states[place, place]) for place in (0, -1))
-    stored = (last - first) / time
-    return {
-        "contact_force": largest(contact),
-        "penetration": largest(depth),
-        "largest_acceleration": largest(acceleration - panels.wall[:, None] * contact),
-        "absolute_displacement": largest(x + base_displacement(p, panels.times))
-        if p[BASE]
-        else np.nan,
-        "force_power": work,
-        "impact_power": lost,
-        "power_error": (work - damped - lost - stored) / (damped + lost),
-    }

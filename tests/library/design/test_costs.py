@@ -1,16 +1,15 @@
-"""Costs of motions compared with SciPy in SI units, conservation laws, and Hertz's formulas."""
+"""Costs of motions compared with SciPy in SI units, and Hertz's formulas."""
 
 import math
 
 import numpy as np
 import pytest
-from helpers.known_orbits import DESIGN, PAPER
 from helpers.sampling import sample
 from helpers.si_motions import SiMotion
 
 import impact_damper as idm
 from impact_damper.design.costs import measured_costs, pressure_costs
-from impact_damper.model.packed import FREQUENCY, INVERSE_MASS_RATIO, pack
+from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.motions import panels
 from impact_damper.motions.strobe_map import strobe_time
 
@@ -33,10 +32,7 @@ def packed(machine, damper, frequency):
 
 
 def by_scipy(machine, damper, frequency, state, time):
-    """Return the last values of the equations of `SiMotion`, and largest force and acceleration.
-
-    The values are the state, then the works and the impulse that `SiMotion` integrates.
-    """
+    """Return the last state and loss in contacts, and the largest force and acceleration."""
     angular = 2 * math.pi * frequency
     amplitude = machine.force if machine.force else machine.unbalance * angular**2
     motion = SiMotion(machine, damper, lambda t: amplitude * math.cos(angular * t))
@@ -65,36 +61,12 @@ def test_costs_are_those_that_scipy_integrates_in_si_units(machine, gap, frequen
     time = periods / frequency
     y, force, acceleration = by_scipy(machine, damper, frequency, steady["state"].values, time)
     np.testing.assert_allclose(y[:4], steady["state"], rtol=0, atol=1e-8)
-    power, impulse, energy = (scales.unit(name) for name in ("power", "impulse", "energy"))
-    assert power * found["force_power"] == pytest.approx(y[4] / time, rel=1e-6)
-    assert power * found["impact_power"] == pytest.approx(y[6] / time, rel=1e-6)
-    assert impulse * found["contact_impulse"].sum() == pytest.approx(y[7], rel=1e-6)
-    assert energy * found["contact_loss"].sum() == pytest.approx(y[6], rel=1e-6)
+    assert scales.unit("power") * found["impact_power"] == pytest.approx(y[4] / time, rel=1e-6)
     assert scales.unit("force") * found["contact_force"] == pytest.approx(force, rel=1e-5)
     largest = scales.unit("acceleration") * found["largest_acceleration"]
     assert largest == pytest.approx(acceleration, rel=1e-5)
     rate = float(steady["contacts"]) * frequency
     assert scales.unit("rate") * found["impact_rate"] == pytest.approx(rate, rel=1e-12)
-
-
-def test_an_impulse_is_the_change_of_momentum_and_powers_balance(impacting_orbit):
-    p = impacting_orbit.parameters
-    found = measured_costs(p, impacting_orbit.state, impacting_orbit.strobe, 1)
-    assert abs(found["power_error"]) < 1e-11
-    end = impacting_orbit.strobe + 2 * np.pi / p[FREQUENCY]
-    _, log = sample(p, impacting_orbit.state, impacting_orbit.strobe, [end])
-    states, _ = sample(p, impacting_orbit.state, impacting_orbit.strobe, log[:, 1:3].ravel())
-    loose = (states[:, 1] - states[:, 3]).reshape(-1, 2)
-    change = log[:, 0] * np.diff(loose)[:, 0] / p[INVERSE_MASS_RATIO]
-    np.testing.assert_allclose(found["contact_impulse"], change, rtol=1e-11)
-
-
-def test_powers_balance_in_chaos():
-    """In a motion that does not repeat, the work that is not lost is stored as energy."""
-    p = pack(PAPER, DESIGN, 1.9)
-    found = measured_costs(p, np.array([1.0, 0.5, -0.3, 2.0]), strobe_time(p), 200)
-    assert abs(found["power_error"]) < 1e-10
-    assert len(found["contact_loss"]) > 300
 
 
 def test_the_phase_of_the_first_state_does_not_matter(impacting_orbit):
@@ -108,8 +80,7 @@ def test_the_phase_of_the_first_state_does_not_matter(impacting_orbit):
         states, _ = sample(p, impacting_orbit.state, begin, [time])
         found = measured_costs(p, states[0], time, 1)
         for name, value in expected.items():
-            if name != "power_error" and np.ndim(value) == 0:
-                assert found[name] == pytest.approx(value, rel=1e-8, nan_ok=True), name
+            assert found[name] == pytest.approx(value, rel=1e-8, nan_ok=True), name
 
 
 def test_a_loose_mass_that_touches_nothing_costs_nothing():
@@ -117,7 +88,6 @@ def test_a_loose_mass_that_touches_nothing_costs_nothing():
     found = measured_costs(p, np.zeros(4), strobe_time(p), 20)
     for name in ("impact_rate", "impact_speed", "contact_force", "penetration", "impact_power"):
         assert found[name] == 0, name
-    assert abs(found["power_error"]) < 1e-10
 
 
 def test_a_motion_that_escapes_has_no_costs():
