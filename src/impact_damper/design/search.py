@@ -16,7 +16,7 @@ from impact_damper.design.task import NOMINAL, Task
 # First search over all gaps: largest number of gaps, of frequencies, and starts.
 GAPS, FREQUENCIES, STARTS = 40, 9, 12
 # Comparison near the best gaps: frequencies, starts, and rounds of at most `candidates` gaps.
-CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 6
+CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
 # Typical level of a regime (`cells.return_level`) divided by a record of few motions.
 RECORD = 1.2
 # Neighbouring displacements with a larger ratio are a jump. Intervals between gaps, as logarithms,

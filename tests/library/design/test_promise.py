@@ -39,7 +39,7 @@ EXAMPLES = {
         {"machine": BOARD, "mass": 0.015, "restitution": 0.7, "contact": 1e7},
         {"band": (165, 195)},
         (0.8, 2),
-        0.78,
+        0.85,
     ),
     "pump": (
         {"machine": PUMP, "mass": 1.2, "restitution": 0.6, "contact": 2e7},
