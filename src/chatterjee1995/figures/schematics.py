@@ -5,76 +5,66 @@ from itertools import pairwise
 import numpy as np
 from matplotlib.patches import Circle, FancyBboxPatch, Polygon
 
-from chatterjee1995.figures.schematic_parts import (
-    arrow,
-    coordinate,
-    dashpot,
-    filled,
-    ground,
-    letter,
-    mass,
-    sheet,
-    spring,
-    stroke,
-    wheels,
-)
+from chatterjee1995.figures import schematic_parts as parts
 from impact_damper.plot import style
 
 
 def carriage(axes):
     """Draw the primary mass on its rail, with springs and dashpot on the left and the force."""
-    ground(axes, (0.35, 2.5), (0.35, 0.3))
-    ground(axes, (0.35, 0.3), (6.75, 0.3))
-    mass(axes, 2.05, 0.46, 3.9, 1.86)
-    wheels(axes, (2.65, 5.35), 0.3)
-    spring(axes, 0.35, 2.05, 2.03)
-    arrow(axes, (0.97, 1.85), (1.43, 2.21))
-    spring(axes, 0.35, 2.05, 1.39)
-    dashpot(axes, 0.35, 2.05, 0.75)
+    parts.ground(axes, (0.35, 2.5), (0.35, 0.3))
+    parts.ground(axes, (0.35, 0.3), (6.75, 0.3))
+    parts.mass(axes, 2.05, 0.46, 3.9, 1.86)
+    parts.wheels(axes, (2.65, 5.35), 0.3)
+    parts.spring(axes, 0.35, 2.05, 2.03)
+    parts.arrow(axes, (0.97, 1.85), (1.43, 2.21))
+    parts.spring(axes, 0.35, 2.05, 1.39)
+    parts.dashpot(axes, 0.35, 2.05, 0.75)
     for y, symbol in ((2.31, "$k_1$"), (1.59, "$k_l$"), (0.97, "$c_1$")):
-        letter(axes, 1.2, y, symbol)
-    arrow(axes, (5.95, 1.39), (6.6, 1.39), "outline", color=style.VERMILION)
-    letter(axes, 6.36, 1.58, r"$F\/\cos\,\omega t$", color=style.VERMILION)
-    letter(axes, 2.27, 2.12, "$m_1$")
-    coordinate(axes, 2.05, 2.55, "$x_1$")
+        parts.letter(axes, 1.2, y, symbol)
+    parts.arrow(axes, (5.95, 1.39), (6.6, 1.39), "outline", color=style.VERMILION)
+    parts.letter(axes, 6.36, 1.58, r"$F\/\cos\,\omega t$", color=style.VERMILION)
+    parts.letter(axes, 2.27, 2.12, "$m_1$")
+    parts.coordinate(axes, 2.05, 2.55, "$x_1$")
 
 
 def slot(axes, contact):
     """Draw the slot with the loose mass midway between two contacts, each drawn by `contact`."""
-    mass(axes, 2.5, 0.66, 3.0, 1.46, style.WHITE)
-    wheels(axes, (3.85, 4.15), 0.66, 0.04)
-    mass(axes, 3.68, 0.74, 0.64, 0.90, style.PALE_SKY)
-    letter(axes, 4.0, 1.19, "$m_2$")
+    parts.mass(axes, 2.5, 0.66, 3.0, 1.46, style.WHITE)
+    parts.wheels(axes, (3.85, 4.15), 0.66, 0.04)
+    parts.mass(axes, 3.68, 0.74, 0.64, 0.90, style.PALE_SKY)
+    parts.letter(axes, 4.0, 1.19, "$m_2$")
     for wall, plate, side in ((2.5, 3.15, 3.68), (5.5, 4.85, 4.32)):
         contact(axes, wall, plate)
-        stroke(axes, [(plate, 0.88), (plate, 1.5)])
+        parts.stroke(axes, [(plate, 0.88), (plate, 1.5)])
         for x in (plate, side):
-            stroke(axes, [(x, 1.7), (x, 1.86)], "fine", color=style.GREY)
-        arrow(axes, (plate, 1.8), (side, 1.8), "fine", "<|-|>")
-        letter(axes, (plate + side) / 2, 1.94, "$d/2$")
-    stroke(axes, [(4.0, 1.7), (4.0, 2.47)], "fine", color=style.GREY, linestyle=(0, (8, 2, 2, 2)))
-    coordinate(axes, 4.0, 2.55, "$x_2$")
-    letter(axes, 5.5, 2.55, "$y = x_1 - x_2$", color=style.BLUE)
+            parts.stroke(axes, [(x, 1.7), (x, 1.86)], "fine", color=style.GREY)
+        parts.arrow(axes, (plate, 1.8), (side, 1.8), "fine", "<|-|>")
+        parts.letter(axes, (plate + side) / 2, 1.94, "$d/2$")
+    parts.stroke(
+        axes, [(4.0, 1.7), (4.0, 2.47)], "fine", color=style.GREY, linestyle=(0, (8, 2, 2, 2))
+    )
+    parts.coordinate(axes, 4.0, 2.55, "$x_2$")
+    parts.letter(axes, 5.5, 2.55, "$y = x_1 - x_2$", color=style.BLUE)
 
 
 def elastic_contact(axes, wall, plate):
     """Draw a contact spring k2 between a wall of the slot and a plate."""
-    spring(axes, wall, plate, 1.19, 4)
-    letter(axes, (wall + plate) / 2, 1.41, "$k_2$")
+    parts.spring(axes, wall, plate, 1.19, 4)
+    parts.letter(axes, (wall + plate) / 2, 1.41, "$k_2$")
 
 
 def inelastic_contact(axes, wall, plate):
     """Draw a contact spring k2 and a dashpot c2 in parallel between a wall and a plate."""
-    spring(axes, wall, plate, 1.39, 4)
-    dashpot(axes, wall, plate, 0.99, 0.16)
-    letter(axes, (wall + plate) / 2, 1.59, "$k_2$")
-    letter(axes, (wall + plate) / 2, 0.80, "$c_2$")
+    parts.spring(axes, wall, plate, 1.39, 4)
+    parts.dashpot(axes, wall, plate, 0.99, 0.16)
+    parts.letter(axes, (wall + plate) / 2, 1.59, "$k_2$")
+    parts.letter(axes, (wall + plate) / 2, 0.80, "$c_2$")
 
 
 @style.context()
 def elastic_model():
     """Return figure 1: primary mass with a loose mass between two contact springs k2."""
-    axes = sheet("double", 2.75)
+    axes = parts.sheet("double", 2.75)
     carriage(axes)
     slot(axes, elastic_contact)
     return axes.figure
@@ -83,7 +73,7 @@ def elastic_model():
 @style.context()
 def inelastic_model():
     """Return figure 9: as figure 1, with a dashpot c2 parallel to each contact spring."""
-    axes = sheet("double", 2.75)
+    axes = parts.sheet("double", 2.75)
     carriage(axes)
     slot(axes, inelastic_contact)
     return axes.figure
@@ -97,14 +87,14 @@ def place(u, v, level):
 
 def region(axes, u, v, level, color):
     """Draw a filled region of a plane."""
-    axes.add_patch(Polygon(place(u, v, level), **filled(color)))
+    axes.add_patch(Polygon(place(u, v, level), **parts.filled(color)))
 
 
 def attractor(axes, centre, radius, level, color, **keywords):
     """Draw a closed orbit: a circle in a plane."""
     angle = np.linspace(0, 2 * np.pi, 200)
     points = place(centre[0] + radius * np.cos(angle), centre[1] + radius * np.sin(angle), level)
-    stroke(axes, points, color=color, **keywords)
+    parts.stroke(axes, points, color=color, **keywords)
 
 
 def approach(axes, start, centre, radius, level, color, rate, **keywords):
@@ -115,23 +105,23 @@ def approach(axes, start, centre, radius, level, color, rate, **keywords):
     distance = radius + (np.hypot(*offset) - radius) * np.exp(-rate * turned)
     u, v = centre[0] + distance * np.cos(angle), centre[1] + distance * np.sin(angle)
     points = place(u, v, level)
-    stroke(axes, points, "detail", color=color, **keywords)
-    arrow(axes, points[44], points[50], color=color)
+    parts.stroke(axes, points, "detail", color=color, **keywords)
+    parts.arrow(axes, points[44], points[50], color=color)
 
 
 def passage(axes, low, high, edge, words, upward):
     """Draw a switching of the damper: a vertical line from `low` to `high`, dashed above `edge`."""
     x = low[0]
     ends = [(x, low[1] + 0.03), (x, edge)]
-    stroke(axes, [(x, edge), high], "detail", linestyle=(0, (2, 2)))
-    arrow(axes, *(ends if upward else ends[::-1]))
+    parts.stroke(axes, [(x, edge), high], "detail", linestyle=(0, (2, 2)))
+    parts.arrow(axes, *(ends if upward else ends[::-1]))
     axes.text(x + 0.1, edge - 0.33, words, va="center")
 
 
 def state(axes, position, symbol, shift):
     """Draw a state of the oscillator as a dot, with its symbol moved by `shift`."""
     axes.add_patch(Circle(position, 0.032, color=style.BLACK, zorder=4))
-    letter(axes, *np.add(position, shift), symbol)
+    parts.letter(axes, *np.add(position, shift), symbol)
 
 
 def triad(axes, x, y):
@@ -141,8 +131,8 @@ def triad(axes, x, y):
         ((x + 0.2, y + 0.24), "$Z_1\u2032$", (0.09, 0.09)),
         ((x, y + 0.48), r"$\mathbf{Z}_\mathrm{c}$", (0, 0.12)),
     ):
-        arrow(axes, (x, y), end, "fine")
-        letter(axes, *np.add(end, shift), symbol)
+        parts.arrow(axes, (x, y), end, "fine")
+        parts.letter(axes, *np.add(end, shift), symbol)
 
 
 def planes(axes, off, on):
@@ -158,7 +148,7 @@ def planes(axes, off, on):
         (off, 4.7, r"$B(A_\mathrm{d})$"),
         (on, 4.7, r"$B(A_\mathrm{c})$"),
     ):
-        letter(axes, *place(u, 1.75, level)[0], basin)
+        parts.letter(axes, *place(u, 1.75, level)[0], basin)
     for level, words, symbols in (
         (off, "Damper off", r"$(\mathbf{Z}, \theta)$"),
         (on, "Damper on", r"$(\mathbf{Z}, \theta, \mathbf{Z}_\mathrm{c})$"),
@@ -170,7 +160,7 @@ def planes(axes, off, on):
 @style.context()
 def migration_scheme():
     """Return figure 12: migration from one attractor of the free oscillator to another."""
-    axes = sheet("double", 3.6)
+    axes = parts.sheet("double", 3.6)
     off, on = 0.15, 2.1
     bad, goal, damped = (1.35, 1.0), (4.35, 1.0), (2.95, 1.0)
     first, release = (0.5, 0.7), (3.3, 0.65)
@@ -182,7 +172,7 @@ def migration_scheme():
         (damped, 0.5, on, style.BLACK, r"$A_\mathrm{c}$"),
     ):
         attractor(axes, centre, radius, level, color)
-        letter(axes, *place(*centre, level)[0], name, color=color)
+        parts.letter(axes, *place(*centre, level)[0], name, color=color)
     approach(axes, first, bad, 0.55, off, style.VERMILION, 0.4, linestyle=(0, (4, 2)))
     approach(axes, first, damped, 0.5, on, style.BLACK, 1.6)
     approach(axes, release, goal, 0.34, off, style.BLUE, 0.8)
@@ -204,10 +194,10 @@ def node(axes, x, y, width, height, words, color):
     across, up = width / 2, height / 2
     if color == style.PALE_ORANGE:
         corners = [(x - across, y), (x, y - up), (x + across, y), (x, y + up)]
-        axes.add_patch(Polygon(corners, **filled(color)))
+        axes.add_patch(Polygon(corners, **parts.filled(color)))
     else:
         ends = f"round,pad=0,rounding_size={up if color == style.PALE_SKY else 0}"
-        box = FancyBboxPatch((x - across, y - up), width, height, ends, **filled(color))
+        box = FancyBboxPatch((x - across, y - up), width, height, ends, **parts.filled(color))
         axes.add_patch(box)
     axes.text(x, y, words, ha="center", va="center", linespacing=1.05)
 
@@ -215,7 +205,7 @@ def node(axes, x, y, width, height, words, color):
 @style.context()
 def algorithm():
     """Return figure 17: the loop of migration control."""
-    axes = sheet("single", 5.06)
+    axes = parts.sheet("single", 5.06)
     x, side, width, margin = 1.17, 2.84, 1.76, 0.1
     chain = [
         (4.89, 0.24, "Start", style.PALE_SKY),
@@ -229,29 +219,29 @@ def algorithm():
     for y, height, words, color in chain:
         node(axes, x, y, 0.7 if words == "Start" else width, height, words, color)
     for (y, height, *_), (below, depth, *_) in pairwise(chain):
-        arrow(axes, (x, y - height / 2), (x, below + depth / 2))
+        parts.arrow(axes, (x, y - height / 2), (x, below + depth / 2))
     for y, height, words in ((3.43, 0.96, "Reached"), (2.29, 0.80, "Not reached")):
-        letter(axes, x + 0.12, y - height / 2 - 0.1, "no", size=9)
+        parts.letter(axes, x + 0.12, y - height / 2 - 0.1, "no", size=9)
         node(axes, side, y, 0.92, 0.3, words, style.PALE_SKY)
-        arrow(axes, (x + width / 2, y), (side - 0.46, y))
-        letter(axes, x + width / 2 + 0.14, y + 0.1, "yes", size=9)
-    stroke(axes, [(x - width / 2, 0.23), (margin, 0.23), (margin, 4.34)], "detail")
-    arrow(axes, (margin, 4.34), (x - width / 2, 4.34))
+        parts.arrow(axes, (x + width / 2, y), (side - 0.46, y))
+        parts.letter(axes, x + width / 2 + 0.14, y + 0.1, "yes", size=9)
+    parts.stroke(axes, [(x - width / 2, 0.23), (margin, 0.23), (margin, 4.34)], "detail")
+    parts.arrow(axes, (margin, 4.34), (x - width / 2, 4.34))
     return axes.figure
 
 
 @style.context()
 def impact_pair():
     """Return figure B1: two masses in contact through a spring k2 and a dashpot c2."""
-    axes = sheet("single", 1.4)
-    ground(axes, (0.1, 0.2), (3.3, 0.2))
+    axes = parts.sheet("single", 1.4)
+    parts.ground(axes, (0.1, 0.2), (3.3, 0.2))
     for left, symbol, displacement in ((0.25, "$m_1$", "$X_1$"), (2.3, "$m_2$", "$X_2$")):
-        wheels(axes, (left + 0.2, left + 0.65), 0.2, 0.06)
-        mass(axes, left, 0.32, 0.85, 0.68, style.PALE if left < 1 else style.PALE_SKY)
-        letter(axes, left + 0.425, 0.66, symbol)
-        coordinate(axes, left, 1.2, displacement)
-    spring(axes, 1.1, 2.3, 0.85)
-    dashpot(axes, 1.1, 2.3, 0.48)
-    letter(axes, 1.7, 1.05, "$k_2$")
-    letter(axes, 1.7, 0.68, "$c_2$")
+        parts.wheels(axes, (left + 0.2, left + 0.65), 0.2, 0.06)
+        parts.mass(axes, left, 0.32, 0.85, 0.68, style.PALE if left < 1 else style.PALE_SKY)
+        parts.letter(axes, left + 0.425, 0.66, symbol)
+        parts.coordinate(axes, left, 1.2, displacement)
+    parts.spring(axes, 1.1, 2.3, 0.85)
+    parts.dashpot(axes, 1.1, 2.3, 0.48)
+    parts.letter(axes, 1.7, 1.05, "$k_2$")
+    parts.letter(axes, 1.7, 0.68, "$c_2$")
     return axes.figure

@@ -9,17 +9,7 @@ import yaml
 from pydantic import ValidationError, create_model
 from pydantic_core import core_schema
 
-from impact_damper.command.section import (
-    LOADER,
-    SCIENTIFIC,
-    ConfigurationError,
-    Section,
-    check_file,
-    dotted,
-    missing,
-    problem,
-    problems_of,
-)
+from impact_damper.command import section
 from impact_damper.command.values import Allowed, count, number, points_of, starts_of
 from impact_damper.model.bounds import RESTITUTION_RANGE, range_words
 from impact_damper.model.hertz import HertzContact
@@ -72,7 +62,7 @@ def fields_of(part, *, optional=False):
     return found
 
 
-class Given(Section):
+class Given(section.Section):
     """Base of the models whose keys are the arguments of a dataclass in SI units."""
 
     def values(self) -> dict:
@@ -80,7 +70,7 @@ class Given(Section):
         return {key: value for key, value in self if value is not None}
 
 
-class Span(Section):
+class Span(section.Section):
     """Evenly spaced values of a physical quantity; the first value is less than the last."""
 
     def contradictions(self, path, config):
@@ -88,7 +78,7 @@ class Span(Section):
         first, last = (si_value("", end, quantity) for end in (self.first, self.last))
         if first >= last:
             reason = f"must be less than last = {self.last!r} (a range ascends)"
-            yield problem((*path, "first"), self.first, reason)
+            yield section.problem((*path, "first"), self.first, reason)
 
 
 def span_of(quantity, meaning):
@@ -154,7 +144,7 @@ Ball = create_model("Ball", __base__=Given, **fields_of(HertzContact, optional=T
 Rival = create_model("Rival", __base__=Given, **fields_of(TunedAbsorber, optional=True))
 
 
-class MachineEntry(Section):
+class MachineEntry(section.Section):
     """Machines for which a damper is designed, in SI units: numbers, or texts with units."""
 
     machine: Body
@@ -182,7 +172,7 @@ class MachineEntry(Section):
             machine = Machine(**self.machine.values())
             machine.oscillator()
         except (TypeError, ValueError) as error:
-            yield f"{dotted((*path, 'machine'))}.{error}"
+            yield f"{section.dotted((*path, 'machine'))}.{error}"
             return
         try:
             if not lacking:
@@ -191,24 +181,24 @@ class MachineEntry(Section):
                 arguments = design_arguments(self.model_dump(exclude_none=True))
                 Task(machine=machine, **arguments)
         except (TypeError, ValueError) as error:
-            yield f"{dotted(path)}: {error}" if path else str(error)
+            yield f"{section.dotted(path)}: {error}" if path else str(error)
 
     def _lacking(self, path):
         """Yield a line for each missing key of the contact."""
         rival, ball = self.absorber.values(), self.contact.values()
         for key in Rival.model_fields:
             if rival and key not in rival:
-                yield missing((*path, "absorber", key), "needed for a tuned absorber")
+                yield section.missing((*path, "absorber", key), "needed for a tuned absorber")
         for key in ("radius", "youngs_modulus", "poissons_ratio"):
             if ball and key not in ball:
-                yield missing((*path, "contact", key), "needed for a contact after Hertz")
+                yield section.missing((*path, "contact", key), "needed for a contact after Hertz")
         stiffness = self.damper.contact_stiffness
         if ball and stiffness is not None:
             reason = "must be left out: it is computed from the keys of contact"
-            yield problem((*path, "damper", "contact_stiffness"), stiffness, reason)
+            yield section.problem((*path, "damper", "contact_stiffness"), stiffness, reason)
         if not ball and stiffness is None:
             reason = "needed here, or radius and material of a ball under contact in its place"
-            yield missing((*path, "damper", "contact_stiffness"), reason)
+            yield section.missing((*path, "damper", "contact_stiffness"), reason)
 
 
 def design_arguments(content, workers=1) -> dict:
@@ -232,12 +222,14 @@ def design_arguments(content, workers=1) -> dict:
     }
 
 
-class _Loader(LOADER):
+class _Loader(section.LOADER):
     """YAML loader that reads 2e5 as a number; in YAML 1.1 it is text."""
 
 
 _Loader.add_implicit_resolver(
-    "tag:yaml.org,2002:float", re.compile(f"(?:{SCIENTIFIC.pattern})$"), list("-+.0123456789")
+    "tag:yaml.org,2002:float",
+    re.compile(f"(?:{section.SCIENTIFIC.pattern})$"),
+    list("-+.0123456789"),
 )
 # Values of keys that a file may leave out. With 73 starts, all of which lead to quiet motions, the
 # lower end of the 95 % interval (Wilson) of the share is 0.95, the share required here.
@@ -251,27 +243,29 @@ def read_machine_file(path) -> dict:
     Other than in the configuration, `band` may be a list of two frequencies, and `frequencies`
     their number.
     """
-    check_file(path)
+    section.check_file(path)
     given = yaml.load(Path(path).read_bytes(), _Loader)
     if not isinstance(given, dict):
-        raise ConfigurationError(f"{Path(path).name}: must have keys with values, such as machine:")
+        raise section.ConfigurationError(
+            f"{Path(path).name}: must have keys with values, such as machine:"
+        )
     content = DEFAULTS | given
     band, points = content.get("band"), content.pop("frequencies", POINTS)
     if isinstance(band, list):
         if len(band) != 2:
             words = "must be least and greatest frequency; `frequencies` is their number"
-            raise ConfigurationError(problem(("band",), band, words))
+            raise section.ConfigurationError(section.problem(("band",), band, words))
         content["band"] = {"first": band[0], "last": band[1]}
     if isinstance(content.get("band"), dict):
         content["band"] = {"points": points} | content["band"]
         if "frequencies" in given and content["band"]["points"] != points:
             words = "must be left out with band.points, which means the same"
-            raise ConfigurationError(problem(("frequencies",), points, words))
+            raise section.ConfigurationError(section.problem(("frequencies",), points, words))
     try:
         entry = MachineEntry.model_validate(content)
     except ValidationError as error:
-        raise ConfigurationError("\n".join(problems_of(error))) from None
+        raise section.ConfigurationError("\n".join(section.problems_of(error))) from None
     problems = list(entry.contradictions((), None))
     if problems:
-        raise ConfigurationError("\n".join(problems))
+        raise section.ConfigurationError("\n".join(problems))
     return content

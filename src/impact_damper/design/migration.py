@@ -38,46 +38,16 @@ def migration(
 
     Each release is a run of `migrate`: during the large free motion the damper is switched on at a
     random phase, with the loose mass at a random place, and off at a random phase after the motion
-    has settled.
+    has settled, or after `longest_hold` cycles. `share` of the releases must succeed. The gaps (m)
+    are by default spread over those that the machine can touch. The other arguments are as for
+    `design_damper`; `effort` has the numbers of frequencies, gaps (`candidates`) and releases at
+    each (`starts`).
 
-    Parameters
-    ----------
-    machine : Machine
-        With a cubic spring, so that it has two motions without damper.
-    mass, band, restitution, contact, share
-        As for `design_damper`; `share` is the share of releases that must succeed.
-    gaps : sequence of float or str, optional
-        Gaps of the damper, m; by default spread over those that the machine can touch.
-    longest_hold : int
-        Forcing cycles after which the damper is switched off in any case.
-    effort : Effort, optional
-        Numbers of frequencies, of gaps (`candidates`) and of releases at each (`starts`).
-    progress : str, optional
-        Title of a progress bar.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over gap and frequency the share of releases that succeed, their median time, and
-        `migration_bound`, the time within which `share` of all releases succeed, at 95 %
-        confidence, or infinity. For each gap `sure_frequency`, the lowest frequency from which
-        this time is finite at all higher ones; for the gap with the lowest one `migration_gap`.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If an argument is out of range, or there is nowhere a second motion without damper.
-
-    Examples
-    --------
-    >>> import impact_damper as idm
-    >>> from impact_damper.design.migration import migration
-    >>> machine = idm.Machine(
-    ...     mass=20, linear_stiffness=1.5e5, cubic_stiffness=8e8, damping_ratio=0.02, force=60
-    ... )
-    >>> found = migration(
-    ...     machine, mass=1.2, restitution=0.8, contact=1e7, band=(15, 17)
-    ... )  # doctest: +SKIP
+    The dataset has over gap and frequency the share of releases that succeed, their median time,
+    and `migration_bound`: the time within which `share` of all releases succeed, at 95 %
+    confidence, or infinity; for each gap `sure_frequency`, the lowest one from which this time is finite at all
+    higher ones, and for the gap with the lowest one `migration_gap`. ValueError if the machine has
+    nowhere a second motion without damper.
     """
     effort = Effort() if effort is None else effort
     task = Task(

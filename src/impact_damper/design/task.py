@@ -14,17 +14,7 @@ import xarray as xr
 
 from impact_damper.data.datasets import SOURCE, shown_variable
 from impact_damper.data.shares import starts_needed
-from impact_damper.model.bounds import (
-    MASS_RATIO_RANGE,
-    RESTITUTION_RANGE,
-    SEED_RANGE,
-    STIFFNESS_RANGE,
-    check_count,
-    check_number,
-    check_starts,
-    names_arguments,
-    shown,
-)
+from impact_damper.model import bounds
 from impact_damper.model.exit_rules import NO_TENSION
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.machine import (
@@ -88,7 +78,7 @@ def labelled(values, **coordinates) -> xr.Dataset:
     return xr.Dataset(made, known, {"source": SOURCE})
 
 
-@names_arguments
+@bounds.names_arguments
 @dataclass(frozen=True, kw_only=True)
 class Effort:
     """How much a design computes; more effort gives a finer and surer design.
@@ -128,11 +118,11 @@ class Effort:
     workers: int = 1
 
     def __post_init__(self):
-        check_count("frequencies", self.frequencies, least=3, most=10**4)
-        check_count("candidates", self.candidates, least=4, most=1000)
-        check_count("starts", self.starts, least=1, most=10**5)
-        check_count("seed", self.seed, **SEED_RANGE)
-        check_count("workers", self.workers, least=1, most=1024)
+        bounds.check_count("frequencies", self.frequencies, least=3, most=10**4)
+        bounds.check_count("candidates", self.candidates, least=4, most=1000)
+        bounds.check_count("starts", self.starts, least=1, most=10**5)
+        bounds.check_count("seed", self.seed, **bounds.SEED_RANGE)
+        bounds.check_count("workers", self.workers, least=1, most=1024)
         settling = check_settling(self.settling)
         settling = replace(settling, watched=max(settling.watched, WATCHED), further=0)
         object.__setattr__(self, "settling", settling)
@@ -176,26 +166,28 @@ class Task:
 
     def __post_init__(self):
         if not isinstance(self.machine, Machine):
-            raise TypeError(f"machine = {shown(self.machine)}: must be a Machine")
+            raise TypeError(f"machine = {bounds.shown(self.machine)}: must be a Machine")
         if not isinstance(self.effort, Effort):
-            raise TypeError(f"effort = {shown(self.effort)}: must be an Effort")
-        least = self.scales.to_si(MASS_RATIO_RANGE["least"], "mass")
+            raise TypeError(f"effort = {bounds.shown(self.effort)}: must be an Effort")
+        least = self.scales.to_si(bounds.MASS_RATIO_RANGE["least"], "mass")
         why = "mass of the machine: a heavier loose mass is no damper"
         mass = check_si("mass", self.mass, "mass", least=least, most=self.machine.mass, why=why)
         self._set("mass", mass)
         for name, value in mounting(mass, **(self.mount or {})).items():
             self._set(name, value)
-        restitution = check_si("restitution", self.restitution, "number", **RESTITUTION_RANGE)
+        restitution = check_si(
+            "restitution", self.restitution, "number", **bounds.RESTITUTION_RANGE
+        )
         self._set("restitution", restitution)
         self._check_excitation()
         self._set("band", checked_band(self.machine, self.band, self.resonance))
         self._set("contact_stiffness", self._stiffness())
         self._set("tolerances", self._checked_tolerances())
-        check_number("share", self.share, least=0.5, most=0.999)
+        bounds.check_number("share", self.share, least=0.5, most=0.999)
         least, effort = starts_needed(self.share), self.effort
         why = f"a share of {self.share:g} at 95 % confidence needs {least}"
-        check_count("starts", effort.starts, least=least, most=10**5, why=why)
-        check_starts(effort.starts, effort.frequencies * effort.candidates, least)
+        bounds.check_count("starts", effort.starts, least=least, most=10**5, why=why)
+        bounds.check_starts(effort.starts, effort.frequencies * effort.candidates, least)
         if self.displacement_limit is not None:
             why = "the machine without damper moves no further"
             self._check_length("displacement_limit", 1e-3 * float(self.bare.max()), why)
@@ -207,7 +199,7 @@ class Task:
             self._set("absorber", TunedAbsorber(**self.absorber))
         if self.absorber is not None and not isinstance(self.absorber, TunedAbsorber):
             raise TypeError(
-                f"absorber = {shown(self.absorber)}: must have mass, stiffness and damping"
+                f"absorber = {bounds.shown(self.absorber)}: must have mass, stiffness and damping"
             )
         self._check_deviations()
 
@@ -216,8 +208,8 @@ class Task:
 
     def _check_length(self, name, most, why):
         """Check a length, at most `most` m; infinite if the machine without damper escapes."""
-        bounds = {"most": most, "why": why} if math.isfinite(most) else {}
-        length = check_si(name, getattr(self, name), "displacement", above=0, **bounds)
+        limits = {"most": most, "why": why} if math.isfinite(most) else {}
+        length = check_si(name, getattr(self, name), "displacement", above=0, **limits)
         self._set(name, length)
 
     def _stiffness(self):
@@ -226,13 +218,13 @@ class Task:
         By Hertz's law it grows with the speed of impact. Here the loose mass crosses the gap of
         rule (18) in half a cycle, at the middle frequency of the band.
         """
-        bounds = self.scales.range_to_si(STIFFNESS_RANGE, "stiffness")
+        limits = self.scales.range_to_si(bounds.STIFFNESS_RANGE, "stiffness")
         stiffness = self.contact
         if isinstance(stiffness, HertzContact):
             middle = sum(self.band) / 2
             reduced = self.machine.mass * self.mass / (self.machine.mass + self.mass)
             stiffness = stiffness.stiffness(2 * self.rule_gap(middle) * middle, reduced)
-        return check_si("contact", stiffness, "stiffness", **bounds)
+        return check_si("contact", stiffness, "stiffness", **limits)
 
     def _check_excitation(self):
         if not self.machine.static_force:
@@ -246,11 +238,11 @@ class Task:
         gap = self.gap or 1e-3 * self.gap_span[0]
         widths = self.deviations(1e3 * gap)
         least = self.restitution * (1 - self.tolerances.get("restitution", 0.0))
-        if least < RESTITUTION_RANGE["least"]:
+        if least < bounds.RESTITUTION_RANGE["least"]:
             raise ValueError(
                 f"tolerances['restitution'] = {self.tolerances['restitution']:g}: the restitution "
                 f"{self.restitution:g} may fall to {least:.3g}, must stay at least "
-                f"{RESTITUTION_RANGE['least']:g} ({RESTITUTION_RANGE['why']})"
+                f"{bounds.RESTITUTION_RANGE['least']:g} ({bounds.RESTITUTION_RANGE['why']})"
             )
         for factors in (NOMINAL, 1 - widths, 1 + widths):
             self.damper(gap, factors).check_for(self.machine)
@@ -260,7 +252,7 @@ class Task:
     def _checked_tolerances(self):
         """Return the largest relative deviations as numbers, and of the gap an absolute as text."""
         if not isinstance(self.tolerances, Mapping):
-            raise TypeError(f"tolerances = {shown(self.tolerances)}: must be a dictionary")
+            raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
         given = next(name for name in EXCITATIONS if getattr(machine, name) is not None)
         excitation = machine.__dataclass_fields__[given].metadata["quantity"]
@@ -273,11 +265,13 @@ class Task:
         }
         for name, value in self.tolerances.items():
             if name not in VARIED:
-                raise ValueError(f"tolerances = {shown(name)}: must be of {', '.join(VARIED)}")
+                raise ValueError(
+                    f"tolerances = {bounds.shown(name)}: must be of {', '.join(VARIED)}"
+                )
             told = f"tolerances[{name!r}]"
             width = absolute_value(value, quantities.get(name))
             if width is not None and name == "gap":
-                found[name] = f"{check_number(told, width, above=0)!r} m"
+                found[name] = f"{bounds.check_number(told, width, above=0)!r} m"
                 continue
             if width is not None and nominal[name]:
                 value = width / nominal[name]
@@ -482,8 +476,8 @@ def checked_band(machine, band, resonance) -> tuple[float, float]:
     """Return the ends of a band, Hz; it must reach into the range `resonance`."""
     if not isinstance(band, Sequence | np.ndarray) or isinstance(band, str) or len(band) != 2:
         raise ValueError(
-            f"band = {shown(band)}: must be least and greatest frequency (how many frequencies "
-            "between them are computed is `frequencies` of the effort)"
+            f"band = {bounds.shown(band)}: must be least and greatest frequency (how many "
+            "frequencies between them are computed is `frequencies` of the effort)"
         )
     ends = tuple(machine.check_frequency(f"band[{i}]", value) for i, value in enumerate(band))
     low, high = resonance

@@ -4,16 +4,7 @@ import math
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
 
-from impact_damper.model.bounds import (
-    CLEARANCE_RANGE,
-    DAMPING_RANGE,
-    FREQUENCY_RANGE,
-    MASS_RATIO_RANGE,
-    RESTITUTION_RANGE,
-    STIFFNESS_RANGE,
-    check_number,
-    names_arguments,
-)
+from impact_damper.model import bounds
 from impact_damper.model.exit_rules import NO_TENSION
 from impact_damper.model.identification import from_response, from_ring_down
 from impact_damper.model.parameters import Damper, Oscillator
@@ -36,7 +27,7 @@ class Derived(float):
     """A value of a machine that was computed from others; a changed copy computes it again."""
 
 
-@names_arguments
+@bounds.names_arguments
 @dataclass(frozen=True, kw_only=True)
 class MachineDamper:
     """A loose mass in a gap of a machine, in SI units; made and checked by `Machine.damper`."""
@@ -44,7 +35,7 @@ class MachineDamper:
     mass: float = physical("mass", "loose mass", above=0)
     gap: float = physical("clearance", "full play of the loose mass from wall to wall", above=0)
     restitution: float = physical(
-        "number", "coefficient of restitution", **RESTITUTION_RANGE, default=1.0
+        "number", "coefficient of restitution", **bounds.RESTITUTION_RANGE, default=1.0
     )
     contact_stiffness: float = physical("stiffness", "stiffness of the contact", above=0)
     gravity: float = physical(
@@ -70,12 +61,12 @@ class MachineDamper:
         fraction m2/(m1 + m2) of the machine's static force, which accelerates the loose mass m2.
         """
         scales = machine.scales
-        clearances = scales.range_to_si(CLEARANCE_RANGE, "clearance")
+        clearances = scales.range_to_si(bounds.CLEARANCE_RANGE, "clearance")
         gaps = {end: 2 * value for end, value in clearances.items()}
-        check_si("mass", self.mass, "mass", **scales.range_to_si(MASS_RATIO_RANGE, "mass"))
+        check_si("mass", self.mass, "mass", **scales.range_to_si(bounds.MASS_RATIO_RANGE, "mass"))
         check_si("gap", self.gap, "clearance", **gaps)
-        bounds = scales.range_to_si(STIFFNESS_RANGE, "stiffness")
-        check_si("contact_stiffness", self.contact_stiffness, "stiffness", **bounds)
+        limits = scales.range_to_si(bounds.STIFFNESS_RANGE, "stiffness")
+        check_si("contact_stiffness", self.contact_stiffness, "stiffness", **limits)
         share = self.mass / (machine.mass + self.mass)
         play = 2 * share * machine.static_force / self.contact_stiffness
         why = "static play: compression of the contacts on both sides"
@@ -101,7 +92,7 @@ class MachineDamper:
         )
 
 
-@names_arguments
+@bounds.names_arguments
 @dataclass(frozen=True, kw_only=True)
 class Machine:
     """A mass on a spring and a dashpot with its excitation, in SI units.
@@ -237,8 +228,8 @@ class Machine:
         if self.damping is not None and critical:
             why = f"{MOST_DAMPING:g} of critical damping, near which nothing vibrates"
             check_si("damping", self.damping, "damping", most=MOST_DAMPING * critical, why=why)
-        bounds = self.scales.range_to_si(DAMPING_RANGE, "damping")
-        check_si("damping", self.viscous_damping, "damping", **bounds)
+        limits = self.scales.range_to_si(bounds.DAMPING_RANGE, "damping")
+        check_si("damping", self.viscous_damping, "damping", **limits)
 
     @property
     def viscous_damping(self) -> float:
@@ -323,8 +314,8 @@ class Machine:
 
     def check_frequency(self, name, value) -> float:
         """Return a forcing frequency in Hz, or raise an error that names the allowed range."""
-        bounds = self.scales.range_to_si(FREQUENCY_RANGE, "frequency")
-        return check_si(name, value, "frequency", **bounds)
+        limits = self.scales.range_to_si(bounds.FREQUENCY_RANGE, "frequency")
+        return check_si(name, value, "frequency", **limits)
 
     def damper(self, *, mass, gap=None, clearances=None, mount=None, **contact) -> MachineDamper:
         """Return a damper for this machine.
@@ -374,26 +365,12 @@ def mounting(
     normal_force=None,
     friction=None,
 ) -> dict:
-    """Return gravity along the gap (m/s^2) and friction (N) of a loose mass, keyed by name.
+    """Return gravity along the gap (m/s^2) and friction (N) of a loose mass (kg), keyed by name.
 
-    Parameters
-    ----------
-    mass : float, str or pint.Quantity
-        Loose mass, kg.
-    inclination, gravity : float, str or pint.Quantity, optional
-        Angle between the gap and the horizontal, radian, such as "90 deg" for a vertical gap; or
-        the component of gravity along the gap, m/s^2. Left out, the gap is horizontal.
-    friction_coefficient : float or str
-        Coefficient of Coulomb friction between the loose mass and its floor.
-    normal_force : float, str or pint.Quantity, optional
-        Force between the loose mass and its floor, N; by default its weight across the gap.
-    friction : float, str or pint.Quantity, optional
-        The force of friction, N, in place of the two arguments before.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If a value is out of range, or two values exclude each other.
+    `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
+    default 0; `normal_force` (N) is between the loose mass and its floor, by default the weight
+    across the gap. Gravity or friction may be given in place of the values that they follow from.
+    ValueError if two values exclude each other.
     """
     mass = check_si("mass", mass, "mass", above=0)
     coefficient = check_si("friction_coefficient", friction_coefficient, "number", **FRICTIONS)
@@ -417,7 +394,7 @@ def mounting(
     return {"gravity": along, "friction": friction}
 
 
-@names_arguments
+@bounds.names_arguments
 @dataclass(frozen=True, kw_only=True)
 class TunedAbsorber:
     """A mass that is connected to a machine by a spring and a dashpot.
@@ -439,7 +416,7 @@ class TunedAbsorber:
 
     def detuned(self, detuning) -> "TunedAbsorber":
         """Return the absorber with its stiffness times 1 + detuning."""
-        factor = 1 + check_number("detuning", detuning, above=-1, most=10)
+        factor = 1 + bounds.check_number("detuning", detuning, above=-1, most=10)
         return replace(self, stiffness=self.stiffness * factor)
 
 

@@ -8,28 +8,18 @@ NumPy, because Snakemake reads it at every dry run.
 import math
 from dataclasses import dataclass, field, fields
 
-from impact_damper.model.bounds import (
-    AMPLITUDE_RANGE,
-    CLEARANCE_RANGE,
-    DAMPING_RANGE,
-    MASS_RATIO_RANGE,
-    RESTITUTION_RANGE,
-    STIFFNESS_RANGE,
-    check_number,
-    names_arguments,
-    shown,
-)
+from impact_damper.model import bounds
 from impact_damper.model.exit_rules import EXIT_RULES, ZERO_PENETRATION, damping_ratio
 from impact_damper.model.units import UNITLESS, Scales
 
 
-def parameter(bounds, kind, symbol, meaning, *, machine=None, power=None, **default):
+def parameter(limits, kind, symbol, meaning, *, machine=None, power=None, **default):
     """Return a dataclass field for a dimensionless number, with all facts about it.
 
     `kind` is a key of `units.QUANTITIES`, `machine` the name for a machine if it differs, and
     `power` the power of Z1 if the parameter is the coefficient of a nonlinear term of the spring.
     """
-    facts = {"bounds": bounds, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
+    facts = {"bounds": limits, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
     return field(metadata=facts | {"meaning": f"{symbol}, {meaning}"}, **default)
 
 
@@ -37,7 +27,7 @@ def _check(part):
     """Check the parameters of a frozen dataclass; an array without dimensions becomes a float."""
     for each in parameters_in(part):
         value = getattr(part, each.name)
-        number = check_number(each.name, value, **each.metadata["bounds"])
+        number = bounds.check_number(each.name, value, **each.metadata["bounds"])
         if hasattr(value, "ndim"):
             object.__setattr__(part, each.name, number)
 
@@ -45,16 +35,16 @@ def _check(part):
 def check_oscillator(oscillator):
     """Raise TypeError if `oscillator` is not an Oscillator."""
     if not isinstance(oscillator, Oscillator):
-        raise TypeError(f"oscillator = {shown(oscillator)}: must be an Oscillator")
+        raise TypeError(f"oscillator = {bounds.shown(oscillator)}: must be an Oscillator")
 
 
 def check_damper(damper):
     """Raise TypeError if `damper` is not a Damper; None is not allowed either."""
     if not isinstance(damper, Damper):
-        raise TypeError(f"damper = {shown(damper)}: must be a Damper")
+        raise TypeError(f"damper = {bounds.shown(damper)}: must be a Damper")
 
 
-@names_arguments
+@bounds.names_arguments
 @dataclass(frozen=True)
 class Oscillator:
     """Harmonically forced Duffing oscillator, equation (3) without the damper, dimensionless.
@@ -75,7 +65,7 @@ class Oscillator:
     (0.0, 1.0)
     """
 
-    damping: float = parameter(DAMPING_RANGE, "damping", "h", "damping")
+    damping: float = parameter(bounds.DAMPING_RANGE, "damping", "h", "damping")
     linear_frequency: float = parameter(
         {"least": 0.0, "most": 100.0},
         "frequency",
@@ -94,10 +84,14 @@ class Oscillator:
         default=1.0,
     )
     force: float = parameter(
-        AMPLITUDE_RANGE, "force", "F", "amplitude of the external force", default=1.0
+        bounds.AMPLITUDE_RANGE, "force", "F", "amplitude of the external force", default=1.0
     )
     unbalance: float = parameter(
-        AMPLITUDE_RANGE, "unbalance", "U", "adds U W^2 to the amplitude of the force", default=0.0
+        bounds.AMPLITUDE_RANGE,
+        "unbalance",
+        "U",
+        "adds U W^2 to the amplitude of the force",
+        default=0.0,
     )
     base: float = parameter(
         {"least": 0.0, "most": 1.0},
@@ -164,7 +158,7 @@ class Oscillator:
         return self.force + self.unbalance * frequency**2
 
 
-@names_arguments
+@bounds.names_arguments
 @dataclass(frozen=True)
 class Damper:
     """Loose mass in a gap whose walls have a spring and a dashpot (figures 1 and 9 of the paper).
@@ -185,20 +179,24 @@ class Damper:
     """
 
     mass_ratio: float = parameter(
-        MASS_RATIO_RANGE, "mass", "rm", "loose mass over primary mass", machine="mass"
+        bounds.MASS_RATIO_RANGE, "mass", "rm", "loose mass over primary mass", machine="mass"
     )
     clearance: float = parameter(
-        CLEARANCE_RANGE,
+        bounds.CLEARANCE_RANGE,
         "clearance",
         "d0",
         "half of the gap of the loose mass",
         machine="clearance_each_side",
     )
     restitution: float = parameter(
-        RESTITUTION_RANGE, "number", "e", "1 for elastic contact", default=1.0
+        bounds.RESTITUTION_RANGE, "number", "e", "1 for elastic contact", default=1.0
     )
     contact_stiffness: float = parameter(
-        STIFFNESS_RANGE, "stiffness", "r1", "stiffness of the contact springs", default=2000.0
+        bounds.STIFFNESS_RANGE,
+        "stiffness",
+        "r1",
+        "stiffness of the contact springs",
+        default=2000.0,
     )
     gravity: float = parameter(
         {"least": -1e6, "most": 1e6},
@@ -208,7 +206,7 @@ class Damper:
         default=0.0,
     )
     friction: float = parameter(
-        AMPLITUDE_RANGE,
+        bounds.AMPLITUDE_RANGE,
         "acceleration",
         "f",
         "Coulomb friction of the loose mass on its floor, per unit of its mass",
@@ -219,9 +217,9 @@ class Damper:
     def __post_init__(self):
         _check(self)
         if self.exit_rule not in EXIT_RULES:
-            raise ValueError(
-                f"exit_rule = {shown(self.exit_rule)}: must be one of {', '.join(EXIT_RULES)}"
-            )
+            allowed = ", ".join(EXIT_RULES)
+            given = bounds.shown(self.exit_rule)
+            raise ValueError(f"exit_rule = {given}: must be one of {allowed}")
 
     @property
     def contact_damping(self) -> float:

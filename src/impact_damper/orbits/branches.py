@@ -7,23 +7,8 @@ from functools import cached_property
 import numpy as np
 
 from impact_damper.motions.segment_runs import NUDGE
+from impact_damper.orbits import continuation
 from impact_damper.orbits.bifurcations import Event, bifurcations_between, events_between
-from impact_damper.orbits.continuation import (
-    FIRST_STEP,
-    LONGEST,
-    LONGEST_UNSTABLE,
-    SHORTEST_STEP,
-    SMALLEST,
-    Point,
-    Problem,
-    folds_twice,
-    holds_still,
-    next_point,
-    passes_unseen,
-    point_at_value,
-    recut,
-    with_bend,
-)
 from impact_damper.orbits.grazing import through_grazing
 
 # Largest number of orbits in one direction.
@@ -60,7 +45,7 @@ class Branch:
     """
 
     family: Callable[[float], np.ndarray]
-    points: list[Point]
+    points: list[continuation.Point]
     events: list[tuple[int, Event]]
     ends: tuple[str, str]
     lost: int
@@ -95,14 +80,14 @@ class Branch:
 def between(point, ahead, value):
     """Return the point at a value on the step between two points; None if Newton's method fails."""
     if np.array_equal(point.problem.phases, ahead.problem.phases):
-        return point_at_value(point, ahead, value)
+        return continuation.point_at_value(point, ahead, value)
     return point.problem.at_value(point, value)
 
 
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
     """Follow a branch from an orbit in both directions of a parameter."""
     family = _extended(family, span)
-    problem = Problem.of(family, orbit)
+    problem = continuation.Problem.of(family, orbit)
     walks = []
     for direction in (-1, 1):
         first = problem.begin(orbit, value, direction)
@@ -146,16 +131,16 @@ def _walk(problem, first, span, beyond) -> Branch:
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
         outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0
         end = "range_ends" if outward else ""
-    if not holds_still(first):
-        points[0] = first = recut(first)
-    length, tried = FIRST_STEP, None
+    if not continuation.holds_still(first):
+        points[0] = first = continuation.recut(first)
+    length, tried = continuation.FIRST_STEP, None
     while not end and len(points) < MOST_POINTS:
         point = points[-1]
         pieces, factor, searched = _next_pieces(point, span, length, tried is not point)
         tried = point if searched else tried
         if not pieces:
             length *= factor
-            if length < SHORTEST_STEP:
+            if length < continuation.SHORTEST_STEP:
                 end = _loss(point)
             continue
         for piece in pieces:
@@ -175,13 +160,13 @@ def _walk(problem, first, span, beyond) -> Branch:
                 break
         if not end:
             coarse = not (problem.symmetric or ahead.orbit.stable)
-            size = max(ahead.problem.length(ahead.x), SMALLEST)
-            longest = size * (LONGEST_UNSTABLE if coarse else LONGEST)
+            size = max(ahead.problem.length(ahead.x), continuation.SMALLEST)
+            longest = size * (continuation.LONGEST_UNSTABLE if coarse else continuation.LONGEST)
             length = min(factor * ahead.problem.length(ahead.x - start.x), longest)
-            if not holds_still(ahead):
-                points[-1] = recut(ahead)
+            if not continuation.holds_still(ahead):
+                points[-1] = continuation.recut(ahead)
             elif len(pieces) == 1:
-                points[-1] = with_bend(start, ahead)
+                points[-1] = continuation.with_bend(start, ahead)
     return Branch(problem.family, points, events, ("", end or "point_limit"), lost)
 
 
@@ -191,23 +176,23 @@ def _next_pieces(point, span, length, search):
     The second result is the factor for the length of the following step, the third whether a
     grazing was searched for, as allowed by `search`.
     """
-    ahead, factor = next_point(point, span, length)
+    ahead, factor = continuation.next_point(point, span, length)
     changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
     close = ahead is None and length < CLOSE_STEP and point.problem.damped
     search = search and (changes or close)
     if search:
-        pieces = _through_grazing(point, max(length, SHORTEST_STEP * 1e3) * REACH)
+        pieces = _through_grazing(point, max(length, continuation.SHORTEST_STEP * 1e3) * REACH)
         if pieces:
             return pieces, factor, search
     if ahead is None:
         return [], factor, search
     if changes and length > CLOSE_STEP:
         return [], 0.5, search
-    if length > CLEAR_STEP and folds_twice(point, ahead):
+    if length > CLEAR_STEP and continuation.folds_twice(point, ahead):
         return [], 0.5, search
     along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
     located, missed = events_between(point, ahead, along)
-    if length > CLEAR_STEP and (missed or passes_unseen(point, ahead, located)):
+    if length > CLEAR_STEP and (missed or continuation.passes_unseen(point, ahead, located)):
         return [], 0.5, search
     return [(point, ahead, located, missed)], factor, search
 
@@ -282,7 +267,7 @@ def _passes(point, ahead, first):
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
         return None
-    again = point_at_value(point, ahead, first.value)
+    again = continuation.point_at_value(point, ahead, first.value)
     return again if again is not None and first.orbit.is_same(again.orbit, SAME) else None
 
 

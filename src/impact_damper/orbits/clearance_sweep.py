@@ -7,15 +7,8 @@ from scipy.optimize import brentq, minimize_scalar
 
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.data.sweeps import runs_of_true
+from impact_damper.model import bounds
 from impact_damper.model.arguments import read_increasing, read_radius, read_swept_damper
-from impact_damper.model.bounds import (
-    CLEARANCE_RANGE,
-    SEED_RANGE,
-    check_count,
-    check_starts,
-    names_arguments,
-    shown,
-)
 from impact_damper.model.packed import CLEARANCE, pack
 from impact_damper.model.parameters import check_closed_form, describe
 from impact_damper.model.settling import check_settling
@@ -32,7 +25,7 @@ from impact_damper.theory.straight_flight import Flight, least_displacement_rati
 METHODS = "simulated", "harmonic_balance"
 
 
-@names_arguments
+@bounds.names_arguments
 def clearance_sweep(
     system,
     damper,
@@ -93,15 +86,15 @@ def clearance_sweep(
     2.3944
     """
     if method not in METHODS:
-        raise ValueError(f"method = {shown(method)}: must be one of {', '.join(METHODS)}")
+        raise ValueError(f"method = {bounds.shown(method)}: must be one of {', '.join(METHODS)}")
     settling = check_settling(settling)
-    check_count("seed", seed, **SEED_RANGE)
+    bounds.check_count("seed", seed, **bounds.SEED_RANGE)
     model = read_swept_damper(system, damper, frequency)
     oscillator, frequency = model.oscillator, model.frequency
     clearances = read_increasing(
-        model.scales, "clearances", clearances, "clearance", 2, **CLEARANCE_RANGE
+        model.scales, "clearances", clearances, "clearance", 2, **bounds.CLEARANCE_RANGE
     )
-    check_starts(starts, len(clearances))
+    bounds.check_starts(starts, len(clearances))
     radius = read_radius(model.scales, radius, whole_gap)
     if method == "harmonic_balance":
         check_closed_form(oscillator, model.damper)
@@ -221,8 +214,8 @@ def minimum_table(values, sizes, size_at, span):
             "near_clearance": np.full(2, np.nan),
         }
     k = int(np.argmin(sizes))
-    bounds = values[max(k - 1, 0)], values[min(k + 1, len(values) - 1)]
-    inner = minimize_scalar(size_at, bounds=bounds, method="bounded", options={"xatol": 1e-9})
+    ends = values[max(k - 1, 0)], values[min(k + 1, len(values) - 1)]
+    inner = minimize_scalar(size_at, bounds=ends, method="bounded", options={"xatol": 1e-9})
     best, least = min((values[k], sizes[k]), (inner.x, inner.fun), key=lambda pair: pair[1])
     room = min(best - values[0], values[-1] - best)
     if room < 1e-6:
