@@ -45,9 +45,9 @@ def migration(
 
     The dataset has over gap and frequency the share of releases that succeed, their median time,
     and `migration_bound`: the time within which `share` of all releases succeed, at 95 %
-    confidence, or infinity; for each gap `sure_frequency`, the lowest one from which this time is finite at all
-    higher ones, and for the gap with the lowest one `migration_gap`. ValueError if the machine has
-    nowhere a second motion without damper.
+    confidence, or infinity. For each gap it has `sure_frequency`, the lowest one from which this
+    time is finite at all higher ones, and for the gap with the lowest one `migration_gap`.
+    ValueError if the machine has nowhere a second motion without damper.
     """
     effort = Effort() if effort is None else effort
     task = Task(
