@@ -32,7 +32,7 @@ APART = 1.3
 # the TAIL largest peaks of BLOCK cycles. All its motions together are run for POOLED cycles at
 # least and for MOST_POOLED at most.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
-POOLED, MOST_POOLED = 50_000, 200_000
+POOLED, MOST_POOLED = 25_000, 200_000
 # A record over fewer cycles may grow by MISSING for each doubling up to POOLED.
 MISSING = 0.06
 # If the records of the four quarters of a run differ by at most STEADY, the regime is a torus.
