@@ -58,24 +58,6 @@ def _symmetric(p, state, phase):
     return orbit
 
 
-@pytest.mark.parametrize("damping_share", [0.2, 0.5])
-def test_optimum_of_a_light_mass_is_met_to_first_order(damping_share):
-    """Gendelman; Gourc et al.: at resonance the smallest motion has impacts at Z1 = 0."""
-    errors = []
-    for mass in (0.004, 0.002):
-        loss = 2 / np.pi * (1 - 0.5) / (1 + 0.5)
-        best = 1 / (2 * damping_share * mass * loss + 8 * mass / np.pi**2)
-        oscillator = Oscillator(2 * damping_share * mass, 1.0, cubic=0.0)
-        clearances = np.linspace(0.98, 1.02, 401) * best
-        sizes = [
-            min(each.displacement for each in two_impact_motions(oscillator, damper, 1.0))
-            for damper in (Damper(mass, clearance, 0.5) for clearance in clearances)
-        ]
-        errors.append(clearances[np.argmin(sizes)] / best - 1)
-    assert abs(errors[1]) < 0.01
-    assert abs(errors[1]) < 0.65 * abs(errors[0])
-
-
 # Thompson and Stewart's oscillator x'' + 0.08 x' + x^3 = 0.2 cos t: a start on each of its five
 # motions, and the shares of 10 000 starts in a box computed by bSTAB (Stender and Hoffmann,
 # Nonlinear Dyn. 107, 1451, 2022).

@@ -305,10 +305,6 @@ def test_the_help_holds_a_file_that_works(tmp_path):
     assert read_machine_file(tmp_path / "machine.yaml").keys() > {"machine", "damper", "band"}
 
 
-def test_the_version_is_told():
-    assert run("--version").strip() == idm.__version__
-
-
 # The packages that only the paper and the command line need.
 BLOCKED = """
 import sys

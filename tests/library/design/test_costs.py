@@ -10,7 +10,6 @@ from helpers.si_motions import SiMotion
 import impact_damper as idm
 from impact_damper.design.costs import measured_costs, pressure_costs
 from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.motions import panels
 from impact_damper.motions.strobe_map import strobe_time
 
 SPRING = {"mass": 12, "linear_stiffness": 2e5, "damping_ratio": 0.005}
@@ -105,17 +104,3 @@ def test_pressure_is_that_of_hertz():
     assert pressure == pytest.approx(HERTZ.pressure(impact.force)) and yields == "yes"
     assert pressure_costs(LINEAR, damper, HERTZ, 0.0) == (0, "no")
     assert pressure_costs(LINEAR, damper, None, 0.3)[1] == "unknown"
-
-
-@pytest.mark.parametrize("frequency", [1.0, 3.0])
-def test_integrals_and_largest_values_of_panels_are_exact(frequency):
-    lengths = np.array([0.9, 0.6, 1.1])
-    begins = np.array([0.0, 0.9, 1.5])
-    times = begins[:, None] + lengths[:, None] * (panels.NODES + 1) / 2
-    made = panels.Panels(None, lengths, times, None, None, None)
-    values = np.cos(frequency * times - 0.4) + 0.1 * times
-    closed = (np.sin(2.6 * frequency - 0.4) + np.sin(0.4)) / frequency + 0.05 * 2.6**2
-    assert np.sum(panels.integrals(made, values)) == pytest.approx(closed, rel=1e-8)
-    moments = np.linspace(0, 2.6, 10**6)
-    dense = np.max(np.abs(np.cos(frequency * moments - 0.4) + 0.1 * moments))
-    assert panels.largest(values) == pytest.approx(dense, rel=1e-9)

@@ -89,16 +89,6 @@ def test_liouville(oscillator, damper):
     assert_allclose(errors, 0, atol=5e-14)
 
 
-def test_symmetry(known_orbit):
-    """(Z, T) -> (-Z, T + half a period) takes motions to motions."""
-    p, half = known_orbit.parameters, known_orbit.period / 2
-    times = known_orbit.strobe + np.linspace(0.1, 3, 50) * known_orbit.period
-    here, log = sample(p, known_orbit.state, known_orbit.strobe, times)
-    there, mirrored = sample(p, -known_orbit.state, known_orbit.strobe + half, times + half)
-    assert_allclose(there, -here, atol=2e-11)
-    assert np.array_equal(mirrored[:, 0], -log[:, 0])
-
-
 def isolated_contact(mass_ratio, restitution, stiffness):
     """Return restitution, speed of the oscillator after it is hit at rest, and time in contact."""
     p = pack(PAPER, Damper(mass_ratio, 1.0, restitution, stiffness), 2.0)

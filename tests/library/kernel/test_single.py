@@ -1,23 +1,18 @@
 """Events against exact arithmetic, steps against their order, tangents against differences."""
 
-import math
 from fractions import Fraction
 
 import numpy as np
 import pytest
-from helpers.known_orbits import DESIGN, INELASTIC, PAPER
+from helpers.known_orbits import PAPER
 from helpers.pointed import part
-from helpers.sampling import sample
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
-from numpy.testing import assert_allclose
 
 from impact_damper.kernel import single
 from impact_damper.kernel.instances import FLIGHT_ORDER, SERIES, SINGLE, instance
-from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import pack
-from impact_damper.model.parameters import Damper, Oscillator
 
 # Bound on the rounding error of the polynomials in this module. A larger penetration means that a
 # wall was passed.
@@ -167,34 +162,3 @@ def test_order_of_flight_steps():
     errors = [np.max(np.abs(integrated(p, state, 0, 2.4, n, 1e15) - exact)) for n in (3, 4, 6)]
     orders = np.log(np.divide(errors[:-1], errors[1:])) / np.log([4 / 3, 3 / 2])
     assert np.all(orders > FLIGHT_ORDER - 2)
-
-
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9, 1e-12])
-def test_contact_steps_never_pass_a_separation(tolerance):
-    """A contact lasts nearly half a natural period, with stiff and with soft walls."""
-    for stiffness in (1e2, 1e4, 1e6):
-        damper = Damper(0.12, 2.0, 1.0, stiffness)
-        p = pack(PAPER, damper, 2.0)
-        _, log = sample(p, [0.0, 0.0, 2.0, 1.0], math.pi / 4, [math.pi / 4 + 1.0], tolerance)
-        half = math.pi / math.sqrt(stiffness * (1 + 1 / damper.mass_ratio))
-        assert abs(log[0, 2] - log[0, 1] - half) < 0.2 * half
-
-
-@pytest.mark.parametrize("damper", [DESIGN, INELASTIC])
-def test_tangents_of_a_motion_that_starts_in_contact(damper):
-    """Against central differences. The dashpot's force jumps at the separation."""
-    p = pack(Oscillator(0.3, 1.1), damper, 1.9)
-    state = np.array([0.4, 0.2, damper.clearance + 0.01, 1.0])
-
-    def after(y, tangents):
-        y = y.copy()
-        advance(p, y, tangents, 1, 0.2, 0.7, 1e-14, single.workspace())
-        return y
-
-    tangents = np.eye(4)
-    after(state, tangents)
-    h = 1e-5
-    for k, unit in enumerate(np.eye(4)):
-        none = np.empty((0, 4))
-        difference = (after(state + h * unit, none) - after(state - h * unit, none)) / (2 * h)
-        assert_allclose(tangents[k], difference, rtol=1e-6, atol=1e-6)

@@ -10,7 +10,6 @@ from references import equation
 from references.equation import SPRINGS, in_other_units
 from scipy.integrate import quad, solve_ivp
 
-from impact_damper.kernel.equation import no_return
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 
@@ -94,22 +93,6 @@ def test_linear_oscillator_in_closed_form(damping, force):
     expected = (free * np.exp(root * times) + complex_amplitude * np.exp(1j * w * times)).real
     states, _ = sample(pack(oscillator, None, w), np.tile(STATE[:2], 2), 0.0, times)
     assert_allclose(states[:, 0], expected, atol=3e-13)
-
-
-@pytest.mark.parametrize("cubic", [-0.2, 0.0, 0.7])
-def test_energy_without_forcing_and_damping(cubic):
-    """With the smallest damping allowed the energy is constant."""
-    p = pack(Oscillator(1e-9, 1.0, cubic, 0.0), None, 1.0)
-    barrier = 1 / math.sqrt(0.2)
-    speed = math.sqrt(
-        2 * 0.99 * equation.potential(pack(Oscillator(1e-9, 1.0, -0.2), None, 1.0), barrier)
-    )
-    states, _ = sample(p, [0.0, speed, 0.0, speed], 0.0, np.linspace(1, 300, 500))
-    energy = states[:, 1] ** 2 / 2 + equation.potential(p, states[:, 0])
-    assert_allclose(energy, speed**2 / 2, rtol=1e-6)
-    assert np.max(np.abs(states[:, 0])) < barrier
-    if cubic >= 0:
-        assert no_return(p) == math.inf
 
 
 def test_time_of_an_escape():

@@ -59,15 +59,3 @@ def test_branches_end_at_folds(free):
     order, again = np.argsort(ends[:, 0]), np.argsort(other[:, 0])
     assert_allclose(ends[order], other[again], atol=1e-4)
     assert np.array_equal(ends[order][:, 1], [-1, -1, 1, 1])
-
-
-def test_following_finds_what_random_starts_miss():
-    """A start near rest does not reach the upper resonance branch; following does."""
-    frequencies = np.array([0.8, 1.1, 1.4, 1.7, 2.0])
-    parameters = np.array([pack(PAPER, None, w) for w in frequencies])
-    states = np.full((5, 1, 4), 0.01)
-    data = sweep(parameters, FREQUENCY, "frequency", random_search(states), Settling())
-    top = np.nanmax(data["maximum_displacement"][1], axis=1)
-    assert np.all(np.diff(top) > 0) and top[-1] > 2.3
-    assert data["origin"][1][-1, 0] == flag("origin", "followed")
-    assert data["motion_starts"][1][-1, 0] == 0

@@ -28,16 +28,6 @@ def damped(value):
     return pack(PAPER, DESIGN, value)
 
 
-@pytest.mark.parametrize(("family", "name"), [(free, "resonance"), (damped, "design")])
-def test_every_orbit_is_exact(family, name):
-    branch = follow_branch(
-        family, find_orbit(family(2.0), polished_orbit(name).state), 2.0, (0.6, 2.6)
-    )
-    for point in branch.points:
-        assert point.orbit.converged and point.orbit.liouville_error < 1e-10
-        assert point.orbit.p[0] == point.value
-
-
 def test_period_doubles_where_simulation_doubles_it():
     """The large motion has period 1 above the frequency of the event and period 2 below."""
     orbit = find_orbit(damped(1.7), polished_orbit("large").state)

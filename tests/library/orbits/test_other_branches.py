@@ -3,14 +3,10 @@
 import numpy as np
 import pytest
 from helpers.known_orbits import DESIGN, PAPER, polished_orbit
-from numpy.testing import assert_allclose
 from references import extended
 
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.model.settling import Settling
-from impact_damper.motions.ensemble import settle
-from impact_damper.orbits import switching
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import LEAVING, follow_others, met_by, other_branch
@@ -97,26 +93,3 @@ def test_the_doubled_branch_of_a_stable_orbit_is_followed_once():
     met = [met_by(branches, number, edge) for number in doubled for edge in (0, 1)]
     assert met.count(0) == 1
     assert any(point.orbit.stable for number in doubled for point in branches[number].points)
-
-
-def test_doubled_motion_is_the_one_that_simulation_finds(monkeypatch):
-    def family(value):
-        return pack(PAPER, DESIGN, value)
-
-    large = find_orbit(family(1.7), polished_orbit("large").state)
-    events = [event for _, event in follow_branch(family, large, 1.7, (1.58, 1.8)).events]
-    event = next(event for event in events if event.kind == "period_doubling")
-    monkeypatch.setattr(switching, "DISTANCES", (4e-3,))
-    other = other_branch(event)
-    assert other.orbit.periods == 2 and not other.orbit.repeats_sooner()
-    assert np.min(np.abs(other.orbit.multipliers - 1)) < 0.01
-    value = event.point.value - 2e-3
-    branch = follow_branch(family, other.orbit, other.value, (value, 1.8))
-    assert set(branch.ends) == {"range_ends", "period_doubling"}
-    end = next(point for point in branch.points if point.value == value)
-    nudged = event.point.orbit.strobe_states[0] + np.array([1e-3, 0, 1e-3, 0])
-    settling = Settling(tolerance=1e-10, patience=300, limit=3000)
-    record = settle(family(value)[None], nudged[None], settling, from_strobe=True)[0]
-    assert_allclose(
-        end.orbit.record["maximum_displacement"], record["maximum_displacement"], rtol=1e-6
-    )

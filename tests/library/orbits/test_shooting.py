@@ -2,26 +2,20 @@
 
 import numpy as np
 import pytest
-from helpers.known_orbits import DESIGN, PAPER, STARTS, polished_orbit
+from helpers.known_orbits import PAPER, STARTS, polished_orbit
 from numpy.testing import assert_allclose
 from references import extended
 
 from impact_damper.model.packed import DAMPING, DASHPOT, INVERSE_MASS_RATIO, pack
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import TURN
-from impact_damper.orbits.shooting import find_orbit, shoot
+from impact_damper.orbits.shooting import find_orbit
 
 
 @pytest.fixture(scope="module", params=list(STARTS))
 def orbit(request):
     known_orbit = polished_orbit(request.param)
     return find_orbit(known_orbit.parameters, known_orbit.state)
-
-
-def test_residual_and_phase(orbit):
-    assert orbit.converged and orbit.residual <= 1e-12 * max(1, np.abs(orbit.state).max())
-    assert orbit.margin(orbit.phase) > 0.1
 
 
 def test_liouville(orbit):
@@ -46,24 +40,6 @@ def test_multipliers_by_80_bit_arithmetic(orbit):
     order = np.lexsort((-expected.imag.round(9), -np.abs(expected).round(9)))
     again = np.lexsort((-found.imag.round(9), -np.abs(found).round(9)))
     assert_allclose(found[again], expected[order], atol=1e-9)
-
-
-def test_unstable_orbit_is_found_and_left_by_simulation():
-    """Newton's method finds the large symmetric orbit."""
-    branch = follow_branch(
-        lambda value: pack(PAPER, DESIGN, value),
-        find_orbit(pack(PAPER, DESIGN, 2.0), polished_orbit("design").state),
-        2.0,
-        (1.1, 2.0),
-    )
-    upper = max(branch.points, key=lambda point: point.orbit.record["maximum_displacement"])
-    unstable = upper.orbit
-    growth = unstable.multipliers[0].real
-    assert growth > 5
-    direction = np.linalg.eig(unstable.monodromy)
-    leading = direction.eigenvectors[:, np.argmax(np.abs(direction.eigenvalues))].real
-    nudged = shoot(unstable.p, unstable.state + 1e-7 * leading, 1, unstable.phase)
-    assert_allclose(nudged.ends[0] - unstable.state, growth * 1e-7 * leading, atol=2e-9)
 
 
 # Damping of a hardening oscillator, damper, W, and a state at W T = pi/2 near a stable orbit, whose

@@ -64,17 +64,6 @@ def test_order_of_fixed_steps(method, free):
     assert_allclose(np.log2(np.divide(errors[:-1], errors[1:])), ORDERS[method], atol=0.15)
 
 
-@pytest.mark.parametrize("locate", [False, True])
-def test_merson_follows_its_tolerance(locate, free):
-    """Error of order h^4 and estimate of order h^5 make the error fall as tolerance^(4/5)."""
-    p, end = free
-    merson = integrators()["merson"]
-    runs = [merson.run(p, START, 0.0, 2, tolerance, locate) for tolerance in (1e-6, 1e-9, 1e-12)]
-    errors = [np.abs(run.state - end).max() for run in runs]
-    slope = np.polyfit([-6, -9, -12], np.log10(errors), 1)[0]
-    assert 0.7 < slope < 1.1
-
-
 @pytest.mark.parametrize("name", integrators("accuracy"))
 def test_a_run_on_a_smooth_motion(name, free):
     p, end = free

@@ -9,11 +9,12 @@ from references import equation
 from references.equation import KNOWN, SPRINGS
 from scipy.integrate import solve_ivp
 
+from chatterjee1995.methods import fourier, hill, many_harmonics
+from chatterjee1995.methods.many_harmonics import Balance, refine, single_term, solve, state_of
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.theory import fourier, hill, many_harmonics, single_harmonic
-from impact_damper.theory.many_harmonics import Balance, refine, single_term, solve, state_of
+from impact_damper.theory import single_harmonic
 
 
 def arbitrary(balance, seed=1):

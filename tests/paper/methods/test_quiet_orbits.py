@@ -72,22 +72,6 @@ def test_the_fold_by_simulation_on_both_sides(design_orbit):
     assert not is_symmetric_pair(left)
 
 
-def test_all_cells_hold_one_orbit_whichever_it_is_followed_from(design_orbit):
-    clearances, frequencies = np.linspace(1.6, 2.0, 3), np.linspace(1.0, 2.0, 6)
-    grid = np.concatenate([row(replace(DESIGN, clearance=d), frequencies) for d in clearances])
-    states = np.full((3, 6, 4), np.nan)
-    states[2, -1] = design_orbit.state
-    first = follow_quiet_orbits(grid, states)
-    corner, _ = find_quiet_orbit(
-        grid[0, 1], orbit_at(replace(DESIGN, clearance=1.6), 1.2, design_orbit).state
-    )
-    states = np.full((3, 6, 4), np.nan)
-    states[0, 1] = corner.strobe_states[0]
-    second = follow_quiet_orbits(grid, states)
-    assert np.isnan(first.displacement[:, 0]).all() and np.isfinite(first.displacement[:, 1:]).all()
-    assert np.allclose(first.displacement, second.displacement, atol=1e-9, equal_nan=True)
-
-
 @pytest.mark.parametrize("restitution", [0.5, 0.6])
 def test_with_inelastic_contact_it_ends_where_straight_flight_predicts(restitution):
     """The closed form holds for rigid walls and high frequency; d0 = 0.5 is close to this limit."""

@@ -5,7 +5,6 @@ import pytest
 from helpers.known_orbits import PAPER
 
 from chatterjee1995.stages.balance_map import balance_map
-from chatterjee1995.tables.balance import balance_map as table_of
 from impact_damper.data.datasets import decode
 from impact_damper.model.parameters import Damper
 from impact_damper.model.settling import Settling
@@ -47,11 +46,3 @@ def test_displacement_is_that_of_a_simulation(over_restitution):
     motion = simulate(PAPER, damper, frequency, steady["state"].values, **begin)
     found = float(over_restitution["quiet_orbit_displacement"][row, column])
     assert np.abs(motion["displacement"].values).max() == pytest.approx(found, rel=1e-5)
-
-
-def test_counts_add_up(over_restitution):
-    table = table_of({"balance_map": {"made": over_restitution}})
-    for question in ("quiet motion", "violent motion", "start at the quiet solution"):
-        counted = table[table.question == question]
-        assert counted["map cells"].sum() == over_restitution["quiet_verdict"].size
-    assert (table["map cells"] <= table["of cells"]).all()

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose, assert_array_equal
+from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.stats import binom
 
@@ -11,7 +11,7 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions.attractors import PHASES, release_set
-from impact_damper.motions.legs import HOLD, STATE, depth_of
+from impact_damper.motions.legs import HOLD, depth_of
 
 CUBIC = Oscillator(0.215)
 PAPER = Damper(0.12, 2.0)
@@ -78,17 +78,6 @@ def test_depth_tells_where_free_motions_of_scipy_settle(trials):
         assert (attractors.owner[nearest] == 0) == (depth > 0)
         told += 1
     assert told > 15
-
-
-def test_trials_add_up_and_neither_threads_nor_other_rules_matter(trials):
-    rules = [(HOLD, 1.3, 0), (STATE, 350.0, 0)]
-    one = trials.run(rules, 30, 3)[1]
-    (two,) = trials._replace(workers=2).run(rules[1:], 30, 3)
-    for first, second in zip(one, two, strict=True):
-        assert_array_equal(first, second)
-    assert np.all(one.cycles[one.reached] <= 350) and np.all(np.isinf(one.cycles[~one.reached]))
-    assert np.all(one.damper <= one.cycles)
-    assert np.all(one.releases[one.reached] >= 1)
 
 
 def test_the_interval_of_a_quantile_covers_it():

@@ -20,23 +20,6 @@ def runs():
     return migration(CUBIC, PAPER, 1.85, **SMALL, settling=Settling())
 
 
-def test_every_run_ends_once(runs):
-    """Switchings follow each other in time until the goal is reached, and all are counted."""
-    goal = flag("destination", "non_resonance")
-    made = runs.destination.values != flag("destination", "none")
-    assert_array_equal(made.sum(axis=1), runs.switchings)
-    assert int(runs.destination_count.sum()) == int(runs.switchings.sum())
-    assert_array_equal(
-        np.any(runs.destination == goal, axis=1),
-        runs.trial_outcome == flag("trial_outcome", "reached"),
-    )
-    for row, count in zip(runs.destination.values, runs.switchings.values, strict=True):
-        assert goal not in row[: count - 1]
-    for before, after in (("on_time", "off_time"), ("off_time", "end_time")):
-        assert np.all((runs[before] < runs[after]).values[made])
-    assert np.all(runs.damper_time < runs.total_time)
-
-
 @pytest.mark.parametrize("row", [1, 2])
 def test_releases(runs, row):
     """Releases of the quiet motion and of the motion of period 3 lead where SciPy's runs lead."""
