@@ -180,28 +180,21 @@ def _decay(time, measured):
     import numpy as np
     from scipy.signal import hilbert
 
+    t = np.linspace(0, time[-1] - time[0], len(time))
     offset = np.mean(measured)
-    even = np.linspace(time[0], time[-1], len(time))
-    signal = hilbert(np.interp(even, time, measured) - offset)
-    size, begin = np.abs(signal), len(even) // 30
-    small = size < 0.1 * np.max(size[begin:])
-    end = begin + int(np.argmax(np.append(small[begin:-begin], True)))
-    even, size, phase = even[begin:end], size[begin:end], np.unwrap(np.angle(signal[begin:end]))
-    rate, log = np.polyfit(even - time[0], np.log(size), 1)
-    square = np.exp(2 * (rate * (even - time[0]) + log))
-    columns = np.column_stack([np.ones(len(even)), even - time[0], np.cumsum(square)])
-    columns[:, 2] *= even[1] - even[0]
-    start, w, slope = np.linalg.lstsq(columns, phase, rcond=None)[0]
-    a = np.exp(log)
-    guess = (
-        w**2 + rate**2,
-        -2 * rate,
-        8 * w * slope / 3,
-        a * np.cos(start),
-        -a * w * np.sin(start),
-    )
-    scale = (w**2, w, w**2 / a**2, a, a * w, a)
-    return np.array([*guess, offset]), np.array(scale)
+    signal = hilbert(np.interp(time[0] + t, time, measured) - offset)
+    begin = 1 + len(t) // 30  # the ends of an analytic signal are wrong
+    small = np.abs(signal) < 0.1 * np.max(np.abs(signal[begin:]))
+    end = begin + np.argmax(np.append(small[begin:-begin], True))
+    t, signal, step = t[begin:end], signal[begin:end], t[1]
+    rate, size = np.polyfit(t, np.log(np.abs(signal)), 1)
+    squares = step * np.cumsum(np.exp(2 * (rate * t + size)))
+    columns = np.column_stack([np.ones(len(t)), t, squares])
+    phase, w, slope = np.linalg.lstsq(columns, np.unwrap(np.angle(signal)), rcond=None)[0]
+    a, start = np.exp(size), np.exp(size + 1j * phase)
+    spring = w**2 + rate**2, -2 * rate, 8 * w * slope / 3
+    scale = w**2, w, w**2 / a**2, a, a * w, a
+    return np.array([*spring, start.real, -w * start.imag, offset]), np.array(scale)
 
 
 def _resonance(w, amplitude, force):
@@ -239,24 +232,30 @@ def _read(data, kinds):
 
 def _columns(path, kinds):
     """Return a list of numbers in SI units for each kind of column of a CSV file."""
-    lines = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
-    header = [COLUMN.fullmatch(each) for each in lines[0]] if lines else []
-    places = {match[1]: (place, match[2]) for place, match in enumerate(header) if match}
-    columns = []
-    for kind in kinds:
-        if kind not in places:
-            wanted = f"{kind}_{QUANTITIES[kind].label}"
-            given = ", ".join(lines[0]) if lines else "nothing"
-            raise ValueError(f"{path}, line 1: must name a column such as {wanted}; has {given}")
-        place, unit = places[kind]
-        factor = check_si(f"{path}, line 1, unit of {kind}", f"1 {unit}", kind)
-        columns.append([])
-        for count, row in enumerate(lines[1:], 2):
-            try:
-                columns[-1].append(factor * float(row[place]))
-            except (ValueError, IndexError):
-                text = shown(row[place]) if place < len(row) else "nothing"
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        reader = csv.DictReader(file)
+        matches = filter(None, map(COLUMN.fullmatch, reader.fieldnames or ()))
+        titles = {match[1]: match for match in matches}
+        factors = {}
+        for kind in kinds:
+            wanted, given = f"{kind}_{QUANTITIES[kind].label}", shown(reader.fieldnames)
+            if kind not in titles:
                 raise ValueError(
-                    f"{path}, line {count}, column {kind} = {text}: must be a number"
-                ) from None
-    return columns
+                    f"{path}, line 1: must name a column such as {wanted}; has {given}"
+                )
+            where = f"{path}, line 1, unit of {kind}"
+            factors[kind] = check_si(where, f"1 {titles[kind][2]}", kind)
+        rows = [
+            [f * _cell(path, reader.line_num, k, row[titles[k][0]]) for k, f in factors.items()]
+            for row in reader
+        ]
+    return list(zip(*rows, strict=True))
+
+
+def _cell(path, line, kind, text):
+    """Return the number in a cell, or raise an error that names the cell."""
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        where = f"{path}, line {line}, column {kind}"
+        raise ValueError(f"{where} = {shown(text)}: must be a number") from None
