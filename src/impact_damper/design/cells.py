@@ -34,7 +34,7 @@ APART = 1.3
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
 POOLED, MOST_POOLED = 25_000, 200_000
 # A record over fewer cycles may grow by MISSING for each doubling up to POOLED.
-MISSING = 0.06
+MISSING = 0.03
 # If the records of the four quarters of a run differ by at most STEADY, the regime is a torus.
 # A motion that approaches an orbit may exceed it by as much as SLACK.
 STEADY, SLACK = 0.002, 0.001
