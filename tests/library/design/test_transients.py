@@ -102,11 +102,8 @@ def test_a_slow_sweep_meets_the_resonance_peak():
     [
         ({"force": 40}, lambda w: 40.0),
         ({"unbalance": 0.003}, lambda w: 0.003 * w**2),
-        ({"base_displacement": 1e-4}, lambda w: 1e-4 * math.hypot(2e5, w * LINEAR.viscous_damping)),
-        (
-            {"base_acceleration": 2.0},
-            lambda w: 2.0 / w**2 * math.hypot(2e5, w * LINEAR.viscous_damping),
-        ),
+        ({"base_displacement": 1e-4}, lambda w: 12 * 1e-4 * w**2),
+        ({"base_acceleration": 2.0}, lambda w: 12 * 2.0),
     ],
 )
 def test_a_sweep_begins_in_steady_state(excitation, amplitude):
