@@ -134,6 +134,7 @@ def by_events(p, y, end):
         events = [halt, meet] if slide or not wall else [halt]
         rate = equation.rates(p, wall, slide)
         tight = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-13, "max_step": 0.01}
+        tight["first_step"] = min(1e-6, end - t)
         run = solve_ivp(rate, (t, end), y, events=events, **tight)
         t, y = run.t[-1], run.y[:, -1].copy()
         if run.status == 0:
