@@ -9,7 +9,7 @@ import xarray as xr
 import helpers.every_variable  # noqa: F401
 from helpers.made_up_orbits import branch, branches
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION
+from impact_damper.data.motion_variables import DAMPED_MOTION, FREE_MOTION
 
 STIFFNESS = 2000.0  # r1 of the walls
 # Peak frequency by damping without linear stiffness, and by linear frequency at damping 0.215.

@@ -15,7 +15,7 @@ from chatterjee1995.methods.quiet_orbits import (
     straight_flight_end,
 )
 from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wall
-from impact_damper.data.variables import OUTCOME, register
+from impact_damper.data.variables import register
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, pick
 from impact_damper.motions import ensemble
@@ -25,24 +25,13 @@ from impact_damper.theory.free_oscillator import resonance
 from impact_damper.theory.single_harmonic import impacting_solutions
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
-BALANCE_VERDICT = {"none": 0, "stable": 1, "unstable": 2, "unresolved": 3}
-RUN_MOTION = {
-    "not_run": -1,
-    "unresolved": 0,
-    "quiet": 1,
-    "other_low": 2,
-    "low_chaotic": 3,
-    "high": 4,
-    "high_chaotic": 5,
-    "no_contact": 6,
-}
 register(
     """
 map_value | map_value | | | value of the parameter that differs between the rows of a map
 frequency_ratio | frequency_ratio | | Omega/Omega_p | forcing frequency over the peak frequency
 balance_quiet | map_value frequency_ratio | | | stability of the quiet solution of harmonic
   balance by the slow flow
-  : BALANCE_VERDICT
+  : none 0, stable 1, unstable 2, unresolved 3
 balance_quiet_amplitude | map_value frequency_ratio | | |a| | |a| of the quiet solution of
   harmonic balance
 quiet_orbit_displacement | map_value frequency_ratio | | max |Z1| | largest displacement in the
@@ -61,23 +50,21 @@ straight_flight_end | map_value | | | Omega/Omega_p at the upper end of quiet or
   walls at high frequency
 quiet_run_motion | map_value frequency_ratio | | | motion to which a start at the quiet solution
   of harmonic balance leads
-  : RUN_MOTION
+  : not_run -1, unresolved 0, quiet 1, other_low 2, low_chaotic 3, high 4, high_chaotic 5,
+  : no_contact 6
 balance_high | map_value frequency_ratio | | | stability of the high solution of harmonic balance
-  : BALANCE_VERDICT
+  : balance_quiet
 high_run_motion | map_value frequency_ratio | | | motion to which the high run leads; the run
   starts at the high solution of harmonic balance or, where none exists, on the free resonance
   branch
-  : RUN_MOTION
+  : quiet_run_motion
 high_run_outcome | map_value frequency_ratio | | | outcome of the high run
-  : OUTCOME
+  : outcome
 high_verdict | map_value frequency_ratio | | | high motion: result of harmonic balance, then
   motion to which the high run leads
   : not_run -1, unresolved 0, stable_near 1, stable_far 2, stable_chaotic 3, stable_low 4,
   : stable_no_contact 5, none_settled 6, none_chaotic 7, none_low 8, none_no_contact 9
-    """,
-    BALANCE_VERDICT=BALANCE_VERDICT,
-    RUN_MOTION=RUN_MOTION,
-    OUTCOME=OUTCOME,
+    """
 )
 
 NEAR = 0.2  # largest relative difference of max |Z1| from the predicted one of a near motion

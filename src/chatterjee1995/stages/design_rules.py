@@ -12,7 +12,7 @@ from tqdm import tqdm
 
 from chatterjee1995.methods.quiet_orbits import compliant_orbit
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.variables import MINIMUM, STABILITY, register
+from impact_damper.data.variables import register
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import Damper, describe
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
@@ -27,17 +27,15 @@ rule | rule | | | rule for the clearance
 best_ratio | mass_ratio restitution contact_stiffness frequency criterion | | | r_m Omega^2 d0
   (dimensionless clearance) at the optimum
 best_kind | mass_ratio restitution contact_stiffness frequency criterion | | | kind of minimum
-  : MINIMUM
+  : optimum_kind
 best_stability | mass_ratio restitution contact_stiffness frequency criterion | |  | stability of
   the motion at the optimum
-  : STABILITY
+  : stability
 rule_ratio | mass_ratio restitution contact_stiffness frequency criterion rule | | | r_m Omega^2
   d0 by the rule
 rule_excess | mass_ratio restitution contact_stiffness frequency rule | | | relative excess of max
   |Z1|, at the clearance by the rule, above the smallest max |Z1|
-    """,
-    MINIMUM=MINIMUM,
-    STABILITY=STABILITY,
+    """
 )
 
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")

@@ -10,8 +10,9 @@ from itertools import count
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.data.motion_variables import DAMPED_MOTION, FREE_MOTION
 from impact_damper.data.shares import BOUNDS, wilson
-from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION, VARIABLES
+from impact_damper.data.variables import VARIABLES
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.motions import ensemble, legs

@@ -9,7 +9,8 @@ import math
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled, load, oscillator_of, save
-from impact_damper.data.variables import OUTCOME, register
+from impact_damper.data.motion_variables import OUTCOME
+from impact_damper.data.variables import register
 from impact_damper.data.whole_files import BrokenFileError
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, describe

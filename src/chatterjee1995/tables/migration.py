@@ -7,8 +7,8 @@ from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading.datasets import POLICIES
 from chatterjee1995.tables.columns import DAMPER, parameter_columns
 from impact_damper.data.datasets import flag
+from impact_damper.data.motion_variables import DAMPED_MOTION
 from impact_damper.data.sweeps import runs_of_true
-from impact_damper.data.variables import DAMPED_MOTION
 
 KINDS = {number: kind for kind, number in DAMPED_MOTION.items()}
 

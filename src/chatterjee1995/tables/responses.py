@@ -8,7 +8,7 @@ from chatterjee1995.reading import orbits
 from chatterjee1995.reading.bands import high_motions
 from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.columns import DAMPER, parameter_columns
-from impact_damper.data.variables import OUTCOME
+from impact_damper.data.motion_variables import OUTCOME
 
 # Stages with the outcome of each start, and their names in the table `outcomes`.
 SWEPT = {

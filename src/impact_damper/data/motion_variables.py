@@ -1,34 +1,6 @@
 """Variables of motions, harmonic balance, orbits, basins and migration control."""
 
-from impact_damper.data.variables import (
-    DAMPED_MOTION,
-    END,
-    FREE_MOTION,
-    MINIMUM,
-    OUTCOME,
-    STABILITY,
-    register,
-)
-
-EVENT = {
-    "fold": 1,
-    "symmetry_breaking": 2,
-    "period_doubling": 3,
-    "neimark_sacker": 4,
-    "grazing": 5,
-    "merging": 6,
-}
-BRANCH_END = {
-    "range_ends": 0,
-    "closed": 1,
-    "symmetry_breaking": 2,
-    "period_doubling": 3,
-    "contact_lost": 4,
-    "lost": 5,
-    "point_limit": 6,
-    "unstable": 7,
-}
-CURVE = {"complete": 0, "cut": 1}
+from impact_damper.data.variables import VARIABLES, register
 
 register(
     """
@@ -59,7 +31,15 @@ largest_contact_force | | force | | largest force of all contacts
 absolute_displacement | time | displacement | | displacement of the primary mass on a moving base
 absolute_acceleration | time | acceleration | | acceleration of the primary mass on a moving base
 outcome | frequency motion | | | outcome of the motion
-  : OUTCOME
+  # unresolved: the run ended before the outcome was certain
+  # settled: on a stable periodic orbit, with contacts or without a damper
+  # diverged: the state is no longer finite
+  # non_colliding: settled, and the loose mass touches no wall
+  # escaped: over the barrier of a softening spring
+  # at_rest: a motion without forcing has come to rest
+  # drifting: the primary mass is on an orbit; the loose mass drifts and touched no wall so far
+  : absent -1, unresolved 0, settled 1, chaotic 2, diverged 3, non_colliding 4, escaped 5,
+  : at_rest 6, quasi_periodic 7, drifting 8
 period | frequency motion | | n | period of the motion in cycles
 contacts | frequency motion | | | contacts begun per cycle
 maximum_displacement | frequency motion | displacement | max |Z1| | largest displacement
@@ -84,7 +64,7 @@ share_upper | frequency motion | | | share of random starts, upper end of its 95
 origin | frequency motion | | | how the motion was first found
   : absent 0, random_start 1, followed 2, placed_start 3
 run_outcome | frequency start | | | outcome of a random start
-  : OUTCOME
+  : outcome
 run_motion | frequency start | | | index along `motion` of the motion that a start leads to
 run_length | frequency start | | | cycles run from a random start
 end_value | end | followed | | parameter of the sweep at the end of a branch
@@ -92,7 +72,7 @@ end_branch | end | | | branch that ends
 end_direction | end | | | direction of the sweep in which the branch ends
   : down -1, up 1
 end_event | end | | | event that ends the branch
-  : END
+  : not_smooth 0, fold 1, symmetry_breaking 2, period_doubling 3, neimark_sacker 4
 end_displacement | end | displacement | | largest displacement at the end of a branch
 # lives of chaotic motions
 life_ends | frequency motion | | | runs of the chaotic motion that ended; -1 without runs
@@ -118,13 +98,13 @@ kind | frequency solution | | | whether the loose mass touches the walls
   : absent 0, impacting 1, resting 2
 growth_rate | frequency solution | rate | | largest real part of the eigenvalues of the slow flow
 stability | frequency solution | | | stability by the slow flow
-  : STABILITY
+  : absent -2, unstable -1, marginal 0, stable 1
 balance_status | frequency | | | how the solution of the harmonic balance ended
   : solved 0, unresolved 1
 free_amplitude | frequency free_solution | displacement | a | amplitude of Z1 without the damper
 free_phase | frequency free_solution | angle | theta_1 | phase of Z1 without the damper
 free_stability | frequency free_solution | | | stability by the slow flow without the damper
-  : STABILITY
+  : stability
 rigid_amplitude | frequency root | displacement | a | signed amplitude of Z1 for rigid walls
 rigid_wall | frequency root | | | whether rigid walls push the loose mass, or would have to pull it
   : absent 0, pushes 1, pulls 2
@@ -150,7 +130,7 @@ analytical_status | clearance | | | whether the harmonic balance (7) has a stabl
 optimum_clearance | | clearance | d0 | clearance at which the quiet motion is smallest
 optimum_displacement | | displacement | max |Z1| | smallest quiet_displacement
 optimum_kind | | | | kind of minimum: smooth, kink, end of the branch or of the sweep
-  : MINIMUM
+  : not_found 0, smooth 1, kink 2, jump 3, edge 4
 near_clearance | edge | clearance | | clearances with at most 1.1 times the smallest displacement
 analytical_optimum | | clearance | d0 | clearance at which (7) has a solution with a = 0
 rule_clearance | | clearance | d0 | clearance of rule (18) at the forcing frequency
@@ -162,7 +142,7 @@ followed_value | point | followed | | parameter that is varied along a branch of
 orbit_branch | point | | | number of the branch an orbit lies on
 orbit_displacement | point | displacement | max |Z1| | largest displacement in an orbit
 orbit_stability | point | | | whether all Floquet multipliers are less than 1 in modulus
-  : STABILITY
+  : stability
 orbit_status | point | | | whether Newton's method converged, or a contact is near grazing
   : not_converged 0, regular 1, near_grazing 2
 orbit_contacts | point | | | contacts begun per cycle in an orbit
@@ -182,13 +162,14 @@ orbit_restitution | point | | | smallest ratio of the relative speeds after and 
 design_orbit_status | | | | whether the quiet orbit was followed from heavy damping
   : no_start 0, found 1, not_followed 2
 design_run_outcome | design_start | | | outcome of a random start at the design point
-  : OUTCOME
+  : outcome
 design_run_displacement | design_start | displacement | max |Z1| | largest displacement from a start
 # branches
 branch_period | branch | | n | period in cycles of the orbits
 branch_events_lost | branch | | | number of events on a branch that were not located
 branch_end | branch edge | | | event or limit that ends a branch
-  : BRANCH_END
+  : range_ends 0, closed 1, symmetry_breaking 2, period_doubling 3, contact_lost 4, lost 5,
+  : point_limit 6, unstable 7
 branch_met | branch edge | | | branch of more symmetry at which a branch ends, or -1
 seeds | | | | number of motions from which Newton's method searched for an orbit
 seeds_lost | | | | number of motions from which Newton's method converged to no orbit
@@ -196,7 +177,7 @@ seeds_lost | | | | number of motions from which Newton's method converged to no 
 event_branch | event | | | branch on which an event lies
 event_place | event | | | index along the branch of the orbit at an event
 event_kind | event | | | kind of event
-  : EVENT
+  : fold 1, symmetry_breaking 2, period_doubling 3, neimark_sacker 4, grazing 5, merging 6
 event_value | event | followed | | varied parameter at an event
 event_displacement | event | displacement | max |Z1| | largest displacement at an event
 event_speed | event | velocity | | smallest relative speed at the beginning of a contact
@@ -222,7 +203,7 @@ saddle_period | saddle | | n | period of an unstable orbit in cycles
 saddle_displacement | saddle | displacement | Z1 | displacement of an unstable orbit in the plane
 saddle_velocity | saddle | velocity | Z1' | velocity of an unstable orbit in the plane
 saddle_curve | saddle | | | whether the stable manifold is complete in the plane
-  : CURVE
+  : complete 0, cut 1
 boundary_displacement | boundary | displacement | Z1 | displacement on a manifold; NaN at gaps
 boundary_velocity | boundary | velocity | Z1' | velocity on a manifold; NaN at gaps
 boundary_saddle | boundary | | | index of the unstable orbit
@@ -231,9 +212,10 @@ on_time | trial switching | time | T | time at which the damper is switched on
 off_time | trial switching | time | T | time at which the damper is switched off
 end_time | trial switching | time | T | time at which the free motion has settled
 released_from | trial switching | | | damped motion in which the damper is switched off
-  : DAMPED_MOTION
+  # quiet: of period 1, smaller than half the motion at resonance without the damper; else violent
+  : none -1, unsettled 0, quiet 1, violent 2, subharmonic 3
 destination | trial switching | | | free motion to which a release leads
-  : FREE_MOTION
+  : none -1, unresolved 0, non_resonance 1, resonance 2, subharmonic 3, other 4
 trial_outcome | trial | | | whether a run arrives on the non-resonance branch
   : not_reached 0, reached 1
 switchings | trial | | | number of times that the damper is switched on in a run
@@ -248,7 +230,7 @@ reached_share | bound | | | share of runs that arrive on the non-resonance branc
 within_share | bound | | | share of runs that arrive within 350 cycles
 # releases of each damped motion
 damped_kind | damped | | | kind of damped motion
-  : DAMPED_MOTION
+  : released_from
 damped_period | damped | | n | period in cycles, 0 if it has not settled
 damped_displacement | damped | displacement | max |Z1| | largest displacement, if settled
 damped_contacts | damped | | | contacts begun per cycle, if the motion has settled
@@ -257,16 +239,11 @@ release_displacement | damped release | displacement | Z1 | displacement of the 
   the release
 release_velocity | damped release | velocity | Z1' | velocity of the primary mass at the release
 release_destination | damped release | | | free motion to which the release leads
-  : FREE_MOTION
+  : destination
 release_share | damped free_motion bound | | | share of releases that lead to each free motion
-    """,
-    BRANCH_END=BRANCH_END,
-    CURVE=CURVE,
-    DAMPED_MOTION=DAMPED_MOTION,
-    END=END,
-    EVENT=EVENT,
-    FREE_MOTION=FREE_MOTION,
-    MINIMUM=MINIMUM,
-    OUTCOME=OUTCOME,
-    STABILITY=STABILITY,
+    """
+)
+
+OUTCOME, DAMPED_MOTION, FREE_MOTION = (
+    VARIABLES[name].flags for name in ("outcome", "released_from", "destination")
 )

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.data.variables import OUTCOME
+from impact_damper.data.motion_variables import OUTCOME
 
 NAMES = {value: name for name, value in OUTCOME.items()}
 

@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import flag
+from impact_damper.data.motion_variables import FREE_MOTION
 from impact_damper.data.shares import bounding_rank
-from impact_damper.data.variables import FREE_MOTION
 from impact_damper.design.task import Effort, Task, labelled
 from impact_damper.model.bounds import PERIODS_RANGE, check_count, names_arguments
 from impact_damper.model.machine import describe_si

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
-from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION
+from impact_damper.data.motion_variables import DAMPED_MOTION, FREE_MOTION
 from impact_damper.model import bounds
 from impact_damper.model.arguments import read_forced
 from impact_damper.model.packed import FREQUENCY, pack

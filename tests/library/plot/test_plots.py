@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 import impact_damper as idm
 from impact_damper.data.datasets import dataset
-from impact_damper.data.variables import OUTCOME
+from impact_damper.data.motion_variables import OUTCOME
 from impact_damper.plot.sheets import sheet
 
 matplotlib.use("Agg")

@@ -19,7 +19,7 @@ from chatterjee1995.figures.responses import (
     draw_shares,
 )
 from impact_damper.data.datasets import dataset, flag
-from impact_damper.data.variables import DAMPED_MOTION, FREE_MOTION, OUTCOME
+from impact_damper.data.motion_variables import DAMPED_MOTION, FREE_MOTION, OUTCOME
 from impact_damper.plot import style
 from impact_damper.plot.motions import DAMPER_ON, SWITCHED
 from impact_damper.plot.sweeps import NEAR, OPTIMUM
