@@ -131,7 +131,10 @@ FUNCTIONS = {
         | {"clearances": [1.9, 2.0], "starts": 1},
         {"damper": no_damper | st.sampled_from([None, {"mass": 0.1}, {"clearance": 1}])},
     ),
-    "basins": (GOOD | {"frequency": 1.95, "cells": 2}, {"phase": no_start | negative}),
+    "basins": (
+        GOOD | {"frequency": 1.95, "cells": 2},
+        {"phase": no_start | negative, "shock": limit, "within": count},
+    ),
     "migrate": (
         GOOD | {"frequency": 1.95},
         {"damper": no_damper | st.none(), "periods": count, "release": st.just("later")},

@@ -196,7 +196,15 @@ basin_share | attractor basin_velocity basin_displacement | | | fraction of the 
 attractor | attractor | | | index of an attractor, by rising max |Z1|
 attractor_period | attractor | | n | period in cycles
 attractor_displacement | attractor | displacement | max |Z1| | largest displacement
+basin_time | basin_velocity basin_displacement | | | convergence time: cycles until a motion is
+  known to lead to its attractor, the longest of the places of the loose mass; -1 without one
 attractor_share | attractor | | | share of the states that lead to an attractor
+attractor_time | attractor | | | median convergence time, cycles
+attractor_within | attractor | | | finite-time basin stability: share of the states that lead to an
+  attractor within a given time
+attractor_shock | attractor | impulse | | minimal critical shock: smallest impulse on the primary
+  mass after which a motion leaves the attractor
+attractor_return | attractor | | | convergence time after a given impulse, cycles
 attractor_point | attractor passage | displacement | Z1 | displacement at the phase of the plane
 attractor_speed | attractor passage | velocity | Z1' | velocity at the phase of the plane
 saddle_period | saddle | | n | period of an unstable orbit in cycles

@@ -80,11 +80,16 @@ def with_neighbourhoods(p, records) -> Attractors:
 
 def orbit_passages(p, record, phase):
     """Return Z1, Z1' of an orbit at all times with a given forcing phase, shape (period, 2)."""
+    return orbit_states(p, record, phase)[:, :2]
+
+
+def orbit_states(p, record, phase):
+    """Return the states of an orbit at all times with a given forcing phase, shape (period, 4)."""
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_time(p)
     first = begin + (phase / p[FREQUENCY] - begin) % period
     times = first + period * np.arange(record["period"])
-    return traces.states_at(p, record["state"], begin, times, POLISH_TOLERANCE)[:, :2]
+    return traces.states_at(p, record["state"], begin, times, POLISH_TOLERANCE)
 
 
 def _distinct(p, motions):
@@ -156,10 +161,11 @@ def _radius(coefficients, step, contraction):
     return low
 
 
-def label_damped(p, states, phase, settling, workers=1, progress=None):
-    """Return labels of states (n, 4) at a forcing phase with the damper on, and the attractors.
+def label_damped(p, states, phase, settling, known=(), workers=1, progress=None):
+    """Return labels of states (n, 4) at a phase with the damper on, cycles run, and the attractors.
 
-    A label is the index of an attractor, by ascending max |Z1|, or a flag of `basin_label`.
+    A label is the index of an attractor or a flag of `basin_label`. The first attractors are those
+    `known`; others follow by ascending max |Z1|.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     if begin > strobe_time(p):
@@ -171,19 +177,19 @@ def label_damped(p, states, phase, settling, workers=1, progress=None):
     labels = np.full(len(motions), BASIN_LABEL["unresolved"])
     for outcome, label in LABELS.items():
         labels[motions["outcome"] == outcome] = label
-    attractors = []
+    attractors = list(known)
     settled = np.flatnonzero(motions["outcome"] == records.SETTLED)
     order = settled[np.argsort(motions["maximum_displacement"][settled], kind="stable")]
     for i in order:
-        for index, known in enumerate(attractors):
-            ratio = motions["maximum_displacement"][i] / known["maximum_displacement"]
-            if known["period"] == motions["period"][i] and abs(ratio - 1) < SAME:
+        for index, each in enumerate(attractors):
+            ratio = motions["maximum_displacement"][i] / each["maximum_displacement"]
+            if each["period"] == motions["period"][i] and abs(ratio - 1) < SAME:
                 labels[i] = index
                 break
         else:
             labels[i] = len(attractors)
             attractors.append(motions[i])
-    return labels, np.array(attractors, records.MOTION)
+    return labels, motions["periods_run"], np.array(attractors, records.MOTION)
 
 
 class ReleaseSet(NamedTuple):

@@ -70,7 +70,7 @@ class Search(NamedTuple):
 def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_gap=False) -> Search:
     """Return the starts of a search, `count` random ones for each system (damper or None, W).
 
-    A `whole_gap` is meant as given, so a radius smaller than the free motions is no mistake then.
+    With `whole_gap` starts near rest are wanted, so a radius below the free motions is no mistake.
     """
     if radius is None:
         rows = [

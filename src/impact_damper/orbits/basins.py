@@ -21,6 +21,7 @@ from impact_damper.motions.attractors import (
 from impact_damper.motions.ensemble import label_states
 from impact_damper.motions.start_states import free_motions
 from impact_damper.orbits.boundary import saddles, stable_manifold
+from impact_damper.orbits.robustness import Labelled, robustness
 
 # Default half widths of the plane, divided by the size of the motions without a damper.
 WIDTH = 1.5
@@ -46,6 +47,8 @@ def basins(
     cells=400,
     phase=STROBE,
     loose=None,
+    shock=None,
+    within=300,
     settling=None,
     workers=1,
     progress=None,
@@ -72,6 +75,11 @@ def basins(
         With a damper: Z2 and Z2' of all states. By default each state is run five times, with the
         loose mass at rest relative to the primary at five places in the gap, and gets the share of
         places from which it leads to each attractor.
+    shock : float, optional
+        Impulse on the primary mass, N s for a machine, otherwise divided by this mass; the time is
+        wanted in which a motion returns to each attractor.
+    within : int
+        Forcing cycles of the finite-time basin stability.
     settling : Settling, optional
     workers : int
         Threads; the result does not depend on it.
@@ -82,9 +90,17 @@ def basins(
     -------
     xarray.Dataset
         For each state of the grid the number of the attractor to which it leads, or a negative
-        number with the reason why it leads to none. For each attractor its period, size, points
-        at the phase of the plane, and share of the states. Without a damper also unstable orbits
-        with the periods of the attractors, and their stable manifolds, the boundaries of basins.
+        number with the reason why it leads to none, and the convergence time in forcing cycles,
+        after which this is known. For each attractor its period, size, points at the phase of the
+        plane, and share of the states; in the terms of Attractors.jl also
+
+        - the median convergence time, and the longest one after `shock`, infinite if it leads away;
+        - the finite-time basin stability, the share of states that lead to it `within` some cycles;
+        - the minimal critical shock, the smallest impulse at the phase of the plane that leads away
+          or into lasting chaos, by steps of 1/256 of the largest |Z1'| of the plane, then refined.
+
+        Without a damper also unstable orbits with the periods of the attractors, and their stable
+        manifolds, the boundaries of basins.
 
     Raises
     ------
@@ -103,6 +119,9 @@ def basins(
     p = model.pack()
     bounds.check_count("cells", cells, **CELLS_RANGE)
     phase = bounds.check_number("phase", phase, least=0, most=2 * math.pi)
+    bounds.check_count("within", within, most=10**8)
+    if shock is not None:
+        shock = model.scales.read("shock", shock, "impulse", above=0, most=bounds.FASTEST)
     free = free_motions(model.oscillator, model.frequency, settling)
     sizes = np.array([free.displacement or 1.0, free.speed or 1.0])
     sides = _sides(model.scales, sizes, displacement, velocity)
@@ -110,17 +129,20 @@ def basins(
     grid = [np.linspace(*ends, cells) for ends in sides]
     plane = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     running = {"workers": workers, "progress": progress}
-    made = model.describe(settling) | {"cells": cells}
+    made = model.describe(settling) | {"cells": cells, "within": within, "shock": shock}
     if damper is None:
         if loose is not None:
             raise ValueError(f"loose = {bounds.shown(loose)}: must be None without a damper")
         reach = np.maximum(REACH * sizes, 1.5 * window)
-        data, records = _free(p, plane, window, reach, phase, cells, settling, running)
+        data, found = _free(p, plane, window, reach, phase, cells, settling, running)
     else:
         places = None if loose is None else read_pair(model.scales, "loose", loose)
-        data, records = _damped(p, plane, model.damper, phase, cells, places, settling, running)
+        data, found = _damped(p, plane, model.damper, phase, cells, places, settling, running)
         made |= {"loose": None if places is None else places.tolist()}
-    data |= _attractor_data(p, records, phase, data)
+    data |= _attractor_data(p, found, phase)
+    data |= robustness(p, found, phase, window[1], shock, within)
+    times = np.where(found.labels >= 0, found.periods, -1).max(axis=0)
+    data["basin_time"] = times.reshape(cells, cells)
     coordinates = {
         "basin_displacement": grid[0],
         "basin_velocity": grid[1],
@@ -143,28 +165,30 @@ def _sides(scales, sizes, displacement, velocity):
 
 
 def _free(p, plane, window, reach, phase, cells, settling, running):
-    """Return the variables of the plane without a damper, and the records of the attractors.
+    """Return the variables of the plane without a damper, and the labels of its states.
 
     Stable manifolds are followed within the half widths `reach`.
     """
     attractors = free_attractors(p, reach / 2, settling)
-    labels, _ = label_states(
-        p, plane, phase, attractors, settling.tolerance, settling.limit, **running
-    )
+    limits = settling.tolerance, settling.limit
+    labels, periods = label_states(p, plane, phase, attractors, *limits, **running)
     lost = np.flatnonzero(labels == BASIN_LABEL["unresolved"])
     if len(lost):
         more = find_attractors(p, plane[lost[:: max(1, len(lost) // TRIED)]], settling)
         attractors = _joined(p, attractors, more)
-        labels[lost], _ = label_states(
-            p, plane[lost], phase, attractors, settling.tolerance, settling.limit, **running
-        )
+        again = label_states(p, plane[lost], phase, attractors, *limits, **running)
+        labels[lost], periods[lost] = again
         order = np.argsort(attractors.records["maximum_displacement"], kind="stable")
         rank = np.argsort(order)
         labels = np.where(labels >= 0, rank[np.maximum(labels, 0)] if len(rank) else labels, labels)
         attractors = with_neighbourhoods(p, attractors.records[order])
     data = boundary_data(p, attractors, window, reach, phase, cells, settling)
     data["basin_label"] = labels.reshape(cells, cells).astype(np.int8)
-    return data, attractors.records
+
+    def label(states):
+        return label_states(p, states[:, :2], phase, attractors, *limits, running["workers"])
+
+    return data, Labelled(labels[None], periods[None], attractors.records, label)
 
 
 def _joined(p, attractors, more):
@@ -211,7 +235,7 @@ def boundary_data(p, attractors, window, reach, phase, cells, settling):
 
 
 def _damped(p, plane, damper, phase, cells, loose, settling, running):
-    """Return the variables of the plane with a damper, and the records of the attractors."""
+    """Return the variables of the plane with a damper, and the labels of its states."""
     if loose is None:
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:
@@ -219,8 +243,8 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
     states = np.concatenate(
         [np.hstack([plane, np.tile(place, (len(plane), 1))]) for place in places]
     )
-    labels, records = label_damped(p, states, phase, settling, **running)
-    labels = labels.reshape(len(places), -1)
+    labels, periods, records = label_damped(p, states, phase, settling, **running)
+    labels, periods = (each.reshape(len(places), -1) for each in (labels, periods))
     same = np.all(labels == labels[0], axis=0)
     share = [np.mean(labels == index, axis=0) for index in range(len(records))]
     data = {
@@ -230,16 +254,17 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
     }
     if len(places) > 1:
         data["basin_share"] = np.array(share).reshape(len(records), cells, cells)
-    return data, records
+
+    def label(states):
+        return label_damped(p, states, phase, settling, records, running["workers"])[:2]
+
+    return data, Labelled(labels, periods, records, label)
 
 
-def _attractor_data(p, records, phase, plane):
-    """Return the variables of the attractors, from their records and the variables of the plane."""
-    labels = plane["basin_label"]
-    if "basin_share" in plane:
-        shares = plane["basin_share"].mean(axis=(1, 2))
-    else:
-        shares = [np.mean(labels == index) for index in range(len(records))]
+def _attractor_data(p, found, phase):
+    """Return the variables of the attractors, from their records and the labels of the states."""
+    records = found.records
+    shares = [np.mean(found.labels == index) for index in range(len(records))]
     points = np.full((len(records), max(records["period"], default=1), 2), np.nan)
     for row, record in zip(points, records, strict=True):
         row[: record["period"]] = orbit_passages(p, record, phase)

@@ -13,30 +13,33 @@ from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.attractors import free_attractors
 from impact_damper.motions.ensemble import label_states
+from impact_damper.motions.response import steady_motion
 from impact_damper.orbits.basins import basins
 
 CUBIC = Oscillator(0.215)
+DUFFING = Oscillator(0.08, force=0.2)
 PAPER = Damper(0.12, 2.0)
 WINDOW = np.array([3.0, 4.5])
 FREQUENCIES = (1.6, 1.85)
 
 
-def slope(frequency, states):
+def slope(frequency, states, oscillator):
     """Return the free equation of motion of many states at once, for `solve_ivp`."""
     count = len(states)
 
     def rate(t, y):
         x, v = y[:count], y[count:]
-        return np.concatenate([v, np.cos(frequency * t) - CUBIC.damping * v - x**3])
+        force = oscillator.force * np.cos(frequency * t)
+        return np.concatenate([v, force - oscillator.damping * v - x**3])
 
     return rate
 
 
-def run(frequency, states, begin, end):
+def run(frequency, states, begin, end, oscillator=CUBIC):
     """Return states after a time, by DOP853."""
     start = np.asarray(states).T.ravel()
     found = solve_ivp(
-        slope(frequency, states), (begin, end), start, "DOP853", rtol=1e-10, atol=1e-11
+        slope(frequency, states, oscillator), (begin, end), start, "DOP853", rtol=1e-10, atol=1e-11
     )
     return found.y[:, -1].reshape(2, -1).T
 
@@ -154,6 +157,76 @@ def test_a_plane_with_the_damper_its_mirror_image_and_a_part_of_it():
     assert_allclose(sizes[0][2:, :2], sizes[2], rtol=1e-9)
     with pytest.raises(ValueError, match="displacement = .*least and greatest"):
         basins(CUBIC, PAPER, 2.0, displacement=(0.1, -0.1))
+
+
+@pytest.fixture(scope="module")
+def duffing():
+    """Return the basins of the Duffing oscillator in the documentation of pybasin.
+
+    x'' + 0.08 x' + x^3 = 0.2 cos t from states in [-1, 1] x [-0.5, 1] has five attractors.
+    """
+    box = {"displacement": (-1, 1), "velocity": (-0.5, 1), "phase": 0.0}
+    return basins(DUFFING, None, 1.0, **box, cells=150, shock=0.05, within=15)
+
+
+@pytest.mark.thorough
+def test_shares_are_those_of_pybasin(duffing):
+    """Its 10000 random starts give 0.2023, 0.2482, 0.0288, 0.0257 and 0.495, as bSTAB's do."""
+    assert_array_equal(duffing.attractor_period, [1, 3, 2, 2, 1])
+    found = duffing.attractor_share.values
+    known = np.array([0.2023, 0.2482, 0.0288 + 0.0257, 0.495])
+    found = np.array([*found[:2], found[2] + found[3], found[4]])  # mirror images, of one size
+    assert np.all(np.abs(found - known) < 4 * np.sqrt(known * (1 - known) / 1e4))
+
+
+def after(states, cycles, begin=0.0):
+    """Return the states of the Duffing oscillator some cycles after a time, by DOP853."""
+    return run(1.0, states, begin, begin + 2 * np.pi * cycles, DUFFING)
+
+
+@pytest.mark.thorough
+def test_the_minimal_critical_shock_is_that_of_scipy(duffing):
+    """All smaller impulses, to either side, lead back to the small motion."""
+    point = np.array([duffing.attractor_point[0, 0], duffing.attractor_speed[0, 0]])
+    least = float(duffing.attractor_shock[0])
+    assert least == pytest.approx(0.0516, rel=1e-2)
+    sizes = least * np.array([*np.linspace(0.05, 0.95, 30), 1 - 1e-4, 1 + 1e-4])
+    pushed = point + np.outer([*sizes, *-sizes], (0, 1))
+    away = np.linalg.norm(after(pushed, 100) - point, axis=1) > 0.1
+    assert not away[:31].any() and not away[32:63].any() and (away[31] or away[63])
+    assert np.isfinite(duffing.attractor_return[0]) and np.isinf(duffing.attractor_return[2])
+
+
+@pytest.mark.thorough
+def test_convergence_times_are_those_of_scipy(duffing):
+    """The cycles until a motion lies in a proven neighbourhood of its orbit."""
+    attractors = free_attractors(pack(DUFFING, None, 1.0), np.array([1.5, 1.5]), Settling())
+    x, v = (duffing[f"basin_{name}"].values for name in ("displacement", "velocity"))
+    rows, columns = np.random.default_rng(3).integers(0, 150, (2, 40))
+    states = run(1.0, np.stack([x[columns], v[rows]], axis=1), 0.0, np.pi / 2, DUFFING)
+    times = np.full(40, -1)
+    for cycle in range(60):
+        offset = states[:, None] - attractors.centre
+        size = np.linalg.norm(np.einsum("kij,nkj->nki", attractors.shape, offset), axis=2)
+        times = np.where((times < 0) & np.any(size < 1, axis=1), cycle, times)
+        states = after(states, 1, np.pi / 2)
+    assert_array_equal(duffing.basin_time.values[rows, columns], times)
+    share = np.mean((duffing.basin_label == 4) & (duffing.basin_time <= 15))
+    assert duffing.attractor_within[4] == share and 0 < share < duffing.attractor_share[4]
+
+
+@pytest.mark.thorough
+def test_shocks_with_the_damper_lead_back_or_away():
+    """Runs after impulses below the minimal critical shock, and above, where chaos decides."""
+    data = basins(CUBIC, PAPER, 1.7, cells=3, loose=(0.5, 0.0), displacement=1.0, velocity=5.0)
+    least, size = float(data.attractor_shock[0]), float(data.attractor_displacement[0])
+    assert 0 < least < 5
+    quiet, moved = steady_motion(CUBIC, PAPER, 1.7, (0.006, 0.187, 0.002, -2.408)), []
+    for factor in np.outer((0.5, 0.999, 1.001, 1.003, 1.02, 1.05), (1, -1)).ravel():
+        state = quiet["state"] + factor * least * np.array([0, 1, 0, 1])
+        moved.append(float(steady_motion(CUBIC, PAPER, 1.7, state)["maximum_displacement"]))
+    back = np.isclose(moved, size, rtol=1e-5)
+    assert back[:4].all() and not back[4:].all()
 
 
 def test_the_numbers_of_labels_stand_in_the_registry():
