@@ -13,6 +13,7 @@ from impact_damper.model.packed import DAMPING, FREQUENCY, cubic_spring, pack
 from impact_damper.model.parameters import describe
 from impact_damper.motions.simulate import simulate
 from impact_damper.orbits.shooting import find_orbit
+from impact_damper.theory.contact_law import damping_ratio, natural_frequency
 
 register(
     """
@@ -63,9 +64,8 @@ def asymptotic_harmonic(damper, frequency) -> float:
     """
     if damper is None:
         return 1.0
-    natural = damper.contact_stiffness * (1 + 1 / damper.mass_ratio)
-    ratio = damper.contact_damping**2 * (1 + damper.mass_ratio)
-    resolving = 2 * np.sqrt(natural * (1 - ratio)) / frequency
+    ratio = damping_ratio(damper.restitution)
+    resolving = 2 * natural_frequency(damper) * np.sqrt(1 - ratio**2) / frequency
     if damper.restitution == 1:
         return float(resolving)
     return float(max(resolving, damper.contact_stiffness / (damper.dashpot * frequency)))

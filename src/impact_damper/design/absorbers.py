@@ -145,15 +145,6 @@ def linear_machine(machine) -> LinearMachine:
     return LinearMachine(ratio, forcing[0], machine.is_based, forcing[1], machine.natural_frequency)
 
 
-def tuning_of(machine, absorber) -> Tuning:
-    """Return mass ratio, tuning and damping ratio of an absorber on a machine."""
-    own = math.sqrt(absorber.stiffness / absorber.mass)
-    frequency = own / (2 * math.pi * machine.natural_frequency)
-    return Tuning(
-        absorber.mass / machine.mass, frequency, absorber.damping / (2 * absorber.mass * own)
-    )
-
-
 def maxima(linear, tuning, band):
     """Return r and squared displacements at the stationary points in a band and at its ends.
 

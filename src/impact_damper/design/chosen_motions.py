@@ -34,23 +34,18 @@ COSTS = {
 
 
 def response_and_costs(task, decision, progress=None) -> xr.Dataset:
-    """Return the response with the damper, and the costs of the largest motions."""
-    response = damped_response(task, decision, progress)
-    return response.merge(reached_motions(task, decision, response))
-
-
-def damped_response(task, choice, progress=None) -> xr.Dataset:
-    """Return the response with the chosen damper."""
+    """Return the response with the chosen damper, and the costs of the largest motions."""
     # Motions that have not settled after the largest number of cycles are run further, to name
     # them. The search for the gap does not do this, to save time.
     effort = task.effort
     settling = replace(effort.settling, further=FURTHER)
     searched = {"starts": effort.starts, "seed": effort.seed, "settling": settling}
     searched |= {"workers": effort.workers, "progress": progress}
-    damper = task.damper(1e-3 * float(choice["design_gap"]))
+    damper = task.damper(1e-3 * float(decision["design_gap"]))
     motions = frequency_response(task.machine, damper, task.grid, **searched)
     # All steps get the same coordinate `frequency`.
-    return motions.assign_coords(frequency=shown_variable("frequency", task.grid))
+    motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
+    return motions.merge(reached_motions(task, decision, motions))
 
 
 def reached_motions(task, choice, response) -> xr.Dataset:

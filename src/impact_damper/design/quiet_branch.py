@@ -40,32 +40,26 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 def over_gap(task, gap, frequency, orbit, keeping) -> xr.Dataset:
     """Return the branch of a quiet orbit over the gap, and its smallest stable orbit."""
-    if orbit is None:
-        unknown, names = np.empty(0), ("gap_of_orbit", "displacement_by_gap", "modulus_by_gap")
-        values = dict.fromkeys(names, unknown) | {
-            "best_orbit_gap": np.nan,
-            "best_orbit_displacement": np.nan,
-            "best_orbit_beyond": flag("best_orbit_beyond", "no_orbit"),
-        }
-        return labelled(values)
-    oscillator, damper, turning = task.system(1e-3 * gap, frequency)
-    span = tuple(damper.clearance * end for end in GAP_SPAN)
-    family, value, span = family_of(oscillator, damper, turning, "clearance", span)
-    branch = follow_branch(family, orbit, value, span)
-    gaps = 2e3 * task.scales.to_si(np.exp(branch.values), "clearance")
-    sizes = task.millimetres(branch.displacements)
-    moduli = np.array([abs(point.orbit.multipliers[0]) for point in branch.points])
-    stable = np.where(moduli < 1, sizes, np.inf)
-    best = int(np.argmin(stable))
-    beyond = "yes" if gaps[best] > keeping[1] else "no"
-    if np.isinf(stable[best]):
-        beyond = "no_orbit"
+    gaps = sizes = moduli = np.empty(0)
+    if orbit is not None:
+        oscillator, damper, turning = task.system(1e-3 * gap, frequency)
+        span = tuple(damper.clearance * end for end in GAP_SPAN)
+        family, value, span = family_of(oscillator, damper, turning, "clearance", span)
+        branch = follow_branch(family, orbit, value, span)
+        gaps = 2e3 * task.scales.to_si(np.exp(branch.values), "clearance")
+        sizes = task.millimetres(branch.displacements)
+        moduli = np.array([abs(point.orbit.multipliers[0]) for point in branch.points])
+    best, least, beyond = np.nan, np.nan, "no_orbit"
+    if (moduli < 1).any():
+        k = int(np.argmin(np.where(moduli < 1, sizes, np.inf)))
+        best, least = gaps[k], sizes[k]
+        beyond = "yes" if best > keeping[1] else "no"
     values = {
         "gap_of_orbit": gaps,
         "displacement_by_gap": sizes,
         "modulus_by_gap": moduli,
-        "best_orbit_gap": gaps[best] if beyond != "no_orbit" else np.nan,
-        "best_orbit_displacement": sizes[best] if beyond != "no_orbit" else np.nan,
+        "best_orbit_gap": best,
+        "best_orbit_displacement": least,
         "best_orbit_beyond": flag("best_orbit_beyond", beyond),
     }
     return labelled(values)

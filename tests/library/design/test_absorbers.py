@@ -16,10 +16,9 @@ from impact_damper.design.absorbers import (
     linear_machine,
     maxima,
     response,
-    tuning_of,
 )
 from impact_damper.model.machine import Machine, TunedAbsorber
-from impact_damper.theory.tuned_mass_damper import exact_optimum
+from impact_damper.theory.tuned_mass_damper import Tuning, exact_optimum
 
 SPRING = {"mass": 12, "linear_stiffness": 2e5}
 LINEAR = Machine(**SPRING, damping_ratio=0.005, force=40)
@@ -34,6 +33,15 @@ EXCITED = {
 HARD = Machine(**SPRING, cubic_stiffness=4e9, damping_ratio=0.005, force=40)
 FREQUENCIES = [18.0, 20.5, 23.0]
 PERIODS, SAMPLES = 200, 64
+
+
+def tuning_of(machine, absorber) -> Tuning:
+    """Return mass ratio, tuning and damping ratio of an absorber on a machine."""
+    own = math.sqrt(absorber.stiffness / absorber.mass)
+    frequency = own / (2 * math.pi * machine.natural_frequency)
+    return Tuning(
+        absorber.mass / machine.mass, frequency, absorber.damping / (2 * absorber.mass * own)
+    )
 
 
 @pytest.mark.parametrize("mass", [0.12, 0.6, 6])
