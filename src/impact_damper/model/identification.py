@@ -148,7 +148,7 @@ def _fit(residuals, guess, scale):
     def single(p):
         return residuals((p * scale)[:, None])[:, 0]
 
-    found = least_squares(single, guess / scale, slopes, method="lm")
+    found = least_squares(single, guess / scale, slopes, method="lm", max_nfev=50)
     noise = float(np.sqrt(2 * found.cost / (len(found.fun) - len(guess))))
     _, singular, rows = np.linalg.svd(found.jac, full_matrices=False)
     errors = noise * scale * np.linalg.norm(rows / singular[:, None], axis=0)
@@ -188,6 +188,8 @@ def _decay(time, measured):
     end = begin + np.argmax(np.append(small[begin:-begin], True))
     t, signal, step = t[begin:end], signal[begin:end], t[1]
     rate, size = np.polyfit(t, np.log(np.abs(signal)), 1)
+    if rate >= 0:
+        raise ValueError("displacement: must decay, and does not")
     squares = step * np.cumsum(np.exp(2 * (rate * t + size)))
     columns = np.column_stack([np.ones(len(t)), t, squares])
     phase, w, slope = np.linalg.lstsq(columns, np.unwrap(np.angle(signal)), rcond=None)[0]

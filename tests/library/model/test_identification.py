@@ -70,7 +70,7 @@ def test_response(cubic):
 
 
 HEAD = "time_s, displacement_mm\n"
-ROWS = "".join(f"{t}, {np.cos(t)}\n" for t in range(30))
+ROWS = "".join(f"{t}, {np.cos(t) * 1.1**t}\n" for t in range(30))
 WRONG = {
     "time_s, force_N\n" + ROWS: "line 1: must name a column such as displacement_mm; has ['time_s'",
     "time_kg, displacement_mm\n" + ROWS: "line 1, unit of time = '1 kg': must be a number in s",
@@ -79,6 +79,7 @@ WRONG = {
     + ROWS
     + "30, nan\n": "must be time and displacement, finite, of the same length, at least",
     HEAD + ROWS + "29, 1\n": "time: must increase",
+    HEAD + ROWS: "displacement: must decay, and does not",
 }
 
 
