@@ -62,7 +62,9 @@ def accuracy(datasets):
         design = reading.get(datasets, "harmonic_balance", name)
         branches, free = orbits.of_curve(datasets, name)
         lower, upper = reading.band_edges(design)
-        widths.append(largest_difference(upper - lower, suppression_band(datasets, name)))
+        band = suppression_band(datasets, name)
+        ratios = [(upper - lower) / width for width in (band.width, band.least_width)]
+        widths.append(max(abs(ratio - 1) for ratio in ratios))
         estimate = np.abs(reading.quiet_balance(reading.within(design, lower, upper)))
         found = orbits.smallest_quiet(branches, free, estimate.frequency)
         size, first = found["size"].to_numpy(), np.abs(found.amplitude.to_numpy())
@@ -82,11 +84,6 @@ def accuracy(datasets):
 def _factor(one, other):
     """Return the larger of two positive numbers over the smaller."""
     return max(one / other, other / one)
-
-
-def largest_difference(width, band):
-    """Return the largest relative difference of a width to the widths that a `Band` allows."""
-    return max(abs(width / band.width - 1), abs(width / band.least_width - 1))
 
 
 def amplitude_by_mass(datasets):

@@ -141,10 +141,6 @@ def _duration(restitution):
 
 
 def _pull_free_error(restitution):
-    """Return the relative excess of the restitution over e if the wall cannot pull.
-
-    With the damping ratio z and the damped frequency wd the loose mass then leaves the wall at wd t
-    = pi - 2 asin(z), where the force vanishes.
-    """
+    """Return the relative excess of the restitution over e if the wall cannot pull."""
     damping = damping_ratio(restitution)
     return math.exp(2 * math.asin(damping) * damping * _duration(restitution)) - 1

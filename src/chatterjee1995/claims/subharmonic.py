@@ -11,10 +11,7 @@ AS_LARGE = 0.95  # least share of the free amplitude of a subharmonic that count
 
 
 def _remaining(datasets, name):
-    """Return the widths in W over which stable subharmonics exist with a damper, and their sizes.
-
-    The sizes are the largest ratios of max |Z1| to the free subharmonic, NaN without orbits.
-    """
+    """Return widths in W with stable subharmonics, and their largest ratios to free ones."""
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
     edges = reading.band_edges(reading.get(datasets, "harmonic_balance", name))

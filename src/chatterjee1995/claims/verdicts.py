@@ -60,11 +60,7 @@ def claims(datasets) -> pd.DataFrame:
 
 
 def document(frame, picture=None, drawn=None) -> str:
-    """Return the page of the claims in Markdown: a summary, then a section for each claim.
-
-    `picture` returns the Markdown that shows a figure. Figures that are not in `drawn` are left
-    out.
-    """
+    """Return the page of the claims in Markdown, with those figures that are in `drawn`."""
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     rows = frame.to_dict("records")
     for row in rows:

@@ -1,7 +1,4 @@
-"""Error and work of every method and model on a test case (scene), at several settings.
-
-References are runs in 80-bit arithmetic; averages of chaos are compared with a longer Taylor run.
-"""
+"""Error and work of methods and models on a scene; references are runs in 80-bit arithmetic."""
 
 from typing import NamedTuple
 
@@ -50,12 +47,7 @@ CONTACTS_OFF, SURE = 0.1, 2
 
 
 class ComparisonScene(NamedTuple):
-    """A motion on which methods are compared, from its `state` at W T = pi/2.
-
-    `motion` is "steady" (periodic, of one cycle), "transient" or "chaotic". `accuracy` has a
-    "quantity" of `labels.ERRORS`, for chaos of `labels.STATISTICS`, and "within", the error
-    accepted.
-    """
+    """A "steady", "transient" or "chaotic" motion, from its `state` at W T = pi/2."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -99,8 +91,7 @@ def reference_of(scene, stored):
 def accuracy(system, damper, *, name, settings, references, **given):
     """Return a dataset with errors and work of each method on a scene, for each `run`.
 
-    `given` are other attributes of a `ComparisonScene`, `settings` the section `comparison` of the
-    configuration, and `references` the stored references by name.
+    `given` are other attributes of a `ComparisonScene`, `settings` the section `comparison`.
     """
     scene = ComparisonScene(oscillator=system, damper=damper, **given)
     if scene.motion == "chaotic":
@@ -114,10 +105,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield label, tolerance, `Run` and forcing cycles of each integrator at each tolerance.
-
-    Slow integrators run for `slow_periods` cycles, on chaos only with their loosest tolerance.
-    """
+    """Yield label, tolerance, `Run` and cycles; slow integrators run for `slow_periods` cycles."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:
@@ -207,8 +195,7 @@ def _orbits(scene, settings):
 def _times(scene, model, reference):
     """Return the times at which contacts begin by a model, for all cycles of the reference run.
 
-    Each contact in the last cycle of the reference is matched to the nearest one of the model; two
-    with the same match give NaN. With another number of contacts only the length has a meaning.
+    They are matched in the last cycle; with another number of contacts only the length counts.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods

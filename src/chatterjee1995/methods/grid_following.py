@@ -31,10 +31,7 @@ def follow_line(
 
 
 class Grid:
-    """The orbits found so far in the cells (tuples of indices) of a grid of parameters `points`.
-
-    They are followed by `follow_line` along the `axes` in this order.
-    """
+    """Orbits by cell of a grid of parameters `points`, followed along the `axes` in this order."""
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
         self.points, self.correct = points, correct
@@ -44,10 +41,6 @@ class Grid:
         unit = np.eye(len(self.shape), dtype=int)
         self._directions = [turn * unit[axis] for axis in axes for turn in (-1, 1)]
         self.orbits = {}
-
-    def put(self, cell, orbit):
-        """Enter a known orbit in a cell."""
-        self.orbits[cell] = orbit
 
     def spread(self):
         """Follow orbits into neighbouring cells, the closest first, until none is reached."""

@@ -1,8 +1,4 @@
-"""Hill's method: Floquet exponents of a motion from the Fourier series of its linearisation.
-
-Each exponent has copies at distances of 2 i W; those in the middle strip are accurate (Lazarus and
-Thomas, C. R. Mecanique 338, 510, 2010).
-"""
+"""Floquet exponents by Hill's method (Lazarus and Thomas, C. R. Mecanique 338, 510, 2010)."""
 
 from typing import NamedTuple
 
@@ -51,11 +47,7 @@ def exponents(solution) -> Exponents:
 
 
 def _near_zero(stiffness, damping, inertia):
-    """Return the eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0 nearest zero.
-
-    They are the reciprocals of the largest eigenvalues of the inverse, for which only `stiffness`
-    needs to be factorised.
-    """
+    """Return eigenvalues nearest zero of (stiffness + lambda damping + lambda^2 inertia) p = 0."""
     size = len(stiffness)
     factors = lu_factor(stiffness, check_finite=False)
 

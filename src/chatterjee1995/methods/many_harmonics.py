@@ -1,7 +1,4 @@
-"""Harmonic balance with any number of harmonics: its equations, and Newton's method for them.
-
-Beginnings and ends of contacts are located to rounding, so the only error is the truncation.
-"""
+"""Harmonic balance with any number of harmonics, and Newton's method for its equations."""
 
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -154,9 +151,8 @@ class Solution(NamedTuple):
 def solve(balance, start) -> Solution:
     """Solve the equations of a balance by the damped Newton's method.
 
-    A step is halved until the next one, with the same Jacobian, is shorter: the natural
-    monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3). The
-    residual is no measure of progress, because the stiff contact dominates it.
+    Steps are halved by the natural monotonicity test (Deuflhard, Newton Methods for Nonlinear
+    Problems, 2004, section 3.3), because the stiff contact dominates the residual.
     """
     count = len(balance.harmonics)
     now = np.zeros((len(start), count), complex)
@@ -186,11 +182,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return the coefficients of a single-term solution, the first guess for more harmonics.
-
-    With a damper it is the solution of (7) with the smallest |a|, for elastic contact; without one
-    it is the largest solution on the response curve through the peak.
-    """
+    """Return the first guess: the solution of (7) with the least |a|, or the largest free one."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2

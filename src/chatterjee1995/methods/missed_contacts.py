@@ -1,8 +1,4 @@
-"""Contacts near grazing that integrators miss, counted in random passages.
-
-A wall nearer than the largest |Z2| of a passage is touched, a wall farther away is not. Steps
-before a contact do not depend on the wall, so one run without walls serves for all depths.
-"""
+"""Contacts near grazing that integrators miss; a run without walls serves for all depths."""
 
 import math
 

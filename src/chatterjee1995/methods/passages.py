@@ -25,10 +25,7 @@ class Passage(NamedTuple):
 
 @kernel
 def largest_of_flight(p, y, t, end):
-    """Return time and value of the largest |Z2| of a flight over [t, end], and |Z2''| there.
-
-    At an end of the flight 0 takes the place of |Z2''|. y becomes the state at the end.
-    """
+    """Return time and size of the largest |Z2| over [t, end], and |Z2''| there or 0 at an end."""
     work = workspace()
     flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
     c = np.zeros(FLIGHT_ORDER + 1)

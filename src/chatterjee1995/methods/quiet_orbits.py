@@ -19,10 +19,7 @@ CONTACTS = 2
 
 
 class CompliantOrbit(NamedTuple):
-    """A symmetric orbit with two contacts in a forcing cycle: state at W T = pi/2, and max |Z1|.
-
-    The dominant multiplier has an imaginary part that is not negative.
-    """
+    """A symmetric orbit with two contacts in a cycle: state at W T = pi/2, multiplier, max |Z1|."""
 
     parameters: np.ndarray
     state: np.ndarray
@@ -83,16 +80,13 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Return the quiet orbits of a grid, followed from known orbits as far as possible.
-
-    The known `states` are given at the strobe, shape (rows, columns, 4); other cells are NaN.
-    """
+    """Return the quiet orbits of a grid, followed from known `states` at the strobe, or NaN."""
     grid = Grid(parameters, find_quiet_orbit, shortest=SHORTEST, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
         at_strobe = shoot(parameters[cell], states[cell], 1, STROBE)
         orbit, _ = find_quiet_orbit(parameters[cell], at_strobe.at(PHASE))
         if orbit is not None:
-            grid.put(cell, orbit)
+            grid.orbits[cell] = orbit
     grid.spread()
     rows, columns = grid.shape
     ends, events = zip(*(_row_ends(grid, row) for row in range(rows)), strict=True)
@@ -138,8 +132,7 @@ def _row_ends(grid, row):
 def _end(followed):
     """Return where between two cells the orbit ends, as a fraction, and the event at which it ends.
 
-    Towards a fold, det(1 - root) decreases with the square root of the distance. The event is a
-    fold if this law predicts one close to the last orbit.
+    Towards a fold, det(1 - root) decreases with the square root of the distance.
     """
     # Now the orbit of the cell behind is known, so that the prediction is better than in `spread`.
     if followed.arrived:

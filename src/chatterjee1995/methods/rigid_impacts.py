@@ -93,12 +93,7 @@ def without_dashpot(p):
 
 
 class RigidOrbit(NamedTuple):
-    """A symmetric orbit of the rigid model with two impacts in a forcing cycle.
-
-    `state` is the state at W T = pi/2, `speed` |Z2'| and `acceleration` the acceleration of Z1
-    towards the wall before an impact, and `maps` the number of cycles that Newton's method
-    integrated.
-    """
+    """A symmetric orbit with two impacts a cycle; speed and acceleration are before an impact."""
 
     state: np.ndarray
     multiplier: complex

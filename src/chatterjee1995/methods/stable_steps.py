@@ -1,7 +1,4 @@
-"""The largest equal steps with which methods keep the quiet motion, for each stiffness r1.
-
-Linear stability limits h omega_c, with the contact frequency omega_c = sqrt(r1 (1 + 1/rm)).
-"""
+"""The largest equal steps with which methods keep the quiet motion, for each stiffness r1."""
 
 import itertools
 import math
@@ -74,7 +71,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
     for targets in (stiffer, softer):
         cells = _in_steps(own, targets)
         grid = Grid(cells[:, None], correct)
-        grid.put((0,), StrobeOrbit(record["state"].copy(), complex(np.nan)))
+        grid.orbits[0,] = StrobeOrbit(record["state"].copy(), complex(np.nan))
         grid.spread()
         found |= {cells[cell]: orbit for cell, orbit in grid.orbits.items() if cell != (0,)}
     return [found.get(value) for value in stiffnesses]
@@ -107,11 +104,7 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """Return the largest steps with which fixed-step methods keep the quiet motion.
-
-    `scaled_steps` are increasing values of h omega_c. Runs of `periods` forcing cycles with more
-    than `most_steps` steps in a cycle are left out.
-    """
+    """Return the largest stable steps among increasing values `scaled_steps` of h omega_c."""
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
     scaled = scaled[::-1]

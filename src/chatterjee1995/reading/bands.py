@@ -43,9 +43,7 @@ def quiet_motions(response, free):
 def suppression_band(datasets, name):
     """Return the `Band` of a curve without a violent motion, up to the end of the free resonance.
 
-    Its lower edge is the upper end of the branches of stable violent orbits, or the last frequency
-    of the response with a violent motion that did not settle, whichever is higher. The resolution
-    is 0 at an end of a branch, otherwise a step of the response.
+    The resolution is 0 at an end of a branch of orbits, otherwise a step of the response.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

@@ -196,11 +196,7 @@ Configuration = create_model(
 
 
 def configuration(given, trusted=False):
-    """Return the configuration as an object; a ConfigurationError has a line for each problem.
-
-    With `trusted` only types are checked, as in a job, whose Snakemake process reads again what the
-    first process has checked.
-    """
+    """Return the checked configuration; with `trusted`, as in a job, only types are checked."""
     try:
         found = Configuration.model_validate(without_left_out(given), context=trusted)
     except ValidationError as error:
@@ -216,10 +212,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return a configuration without the entries that a second file has set to null.
-
-    Figures draw their remaining entries; a figure without remaining entries is removed too.
-    """
+    """Return a configuration without entries set to null and figures that draw no others."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}

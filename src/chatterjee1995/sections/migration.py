@@ -63,14 +63,10 @@ class Basins(system.MaybeWithDamper):
         return self.system(config) | plane | config.settling.job()
 
 
-class PolicyDamper(system.keys_of(system.DAMPER, needed=system.NEEDED, without=[system.COMMON])):
-    """One of the dampers to compare."""
-
-
 class ReleasePolicies(system.WithOscillator):
     """Policies of migration compared for several dampers, over frequency."""
 
-    dampers: entries(PolicyDamper)
+    dampers: entries(system.keys_of(system.DAMPER, needed=system.NEEDED, without=[system.COMMON]))
     frequencies: several(system.FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)
     trials: count("trials of each policy", **RUNS_RANGE)
     cells: count("cells on each axis of the coarse grid of a basin", least=4, most=4096)

@@ -1,7 +1,4 @@
-"""All stages, kinds of figures and tables, by name.
-
-Every dry run imports this module, so it must not import modules that load slowly.
-"""
+"""All stages, kinds of figures and tables, by name; dry runs import it, so it must load fast."""
 
 from chatterjee1995.sections import balance, clearance, curves, machines, methods, migration
 from chatterjee1995.sections.records import Kind, Stage, Table

@@ -94,22 +94,15 @@ class Oscillators(keys_of(OSCILLATOR, needed=("damping", "linear_frequency"))):
         return given(self, OSCILLATOR)
 
 
-class Entry(Section):
-    """An entry of a section; `counts` are the keys whose product is the number of its runs."""
+class WithOscillator(Section):
+    """An entry with an oscillator; `counts` are the keys whose product is the number of runs."""
+
+    oscillator: text("name of an entry of `oscillators`")
 
     counts: ClassVar = ()
 
     def contradictions(self, path, config):
         yield from too_many(path, self, self.counts)
-
-
-class WithOscillator(Entry):
-    """An entry that names an oscillator."""
-
-    oscillator: text("name of an entry of `oscillators`")
-
-    def contradictions(self, path, config):
-        yield from super().contradictions(path, config)
         if self.oscillator not in config.oscillators:
             reason = one_of(self.oscillator, config.oscillators)
             yield problem((*path, "oscillator"), self.oscillator, reason)

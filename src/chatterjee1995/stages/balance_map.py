@@ -1,8 +1,4 @@
-"""Map of the errors of single-term harmonic balance, compared with the exact motions.
-
-Quiet: are the solution of (7) with the smallest |a| and the quiet orbit stable? High: to which
-motion does the largest stable solution lead? Harmonic balance takes e = 1.
-"""
+"""Map of the errors of single-term harmonic balance, against exact quiet and high motions."""
 
 from dataclasses import replace
 from functools import lru_cache, partial
@@ -10,10 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from chatterjee1995.methods.quiet_orbits import (
-    follow_quiet_orbits,
-    straight_flight_end,
-)
+from chatterjee1995.methods.quiet_orbits import follow_quiet_orbits, straight_flight_end
 from impact_damper.data.datasets import dataset, flag, is_settled, touches_no_wall
 from impact_damper.data.variables import register
 from impact_damper.model.packed import pack
@@ -148,15 +141,8 @@ _resonance = lru_cache(4096)(resonance)
 
 def _start(amplitude, relative_amplitude, phase, frequency):
     """Return Z1, Z1', Z2, Z2' at T = 0 of Z1 = a cos(W T + t1), Z2 = b cos(W T + t1)."""
-    inline, across = np.cos(phase), -frequency * np.sin(phase)
-    return np.array(
-        [
-            amplitude * inline,
-            amplitude * across,
-            relative_amplitude * inline,
-            relative_amplitude * across,
-        ]
-    )
+    turn = np.array([np.cos(phase), -frequency * np.sin(phase)])
+    return np.concatenate([amplitude * turn, relative_amplitude * turn])
 
 
 class _Row(NamedTuple):
@@ -168,10 +154,9 @@ class _Row(NamedTuple):
 
 
 def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers=1, progress=None):
-    """Compare harmonic balance with exact motions over frequency and one parameter of the rows.
+    """Compare harmonic balance with exact motions over W/Wp and one parameter of the rows.
 
-    `frequency_ratios` are W/Wp with the peak frequency Wp of the row, `fixed` the other arguments
-    of `Oscillator` and `Damper`. Without `clearance` each row has the clearance of rule (19).
+    Without `clearance` among the `fixed` values each row has the clearance of rule (19).
     """
     rows = _rows(parameter, values, frequency_ratios, fixed)
     parameters = np.array(

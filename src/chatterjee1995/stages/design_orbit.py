@@ -1,7 +1,4 @@
-"""The exact quiet orbit at the peak frequency Wp of a damper, stable or unstable.
-
-With heavy damping motions settle on it; from there it is followed by Newton's method.
-"""
+"""The exact quiet orbit at the peak frequency Wp, followed from heavy damping."""
 
 from dataclasses import replace
 

@@ -160,10 +160,7 @@ class QuietMotion:
 
 
 def first_harmonic(p, y) -> complex:
-    """Return the complex amplitude c of Re(c exp(i W T)) in Z1, by the trapezoidal rule.
-
-    The kink of Z1 at an impact makes an error below 1e-5 of its effect on c.
-    """
+    """Return the complex amplitude c of Re(c exp(i W T)) in Z1; impacts make errors below 1e-5."""
     start = strobe_time(p)
     times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[FREQUENCY] * SAMPLES)
     states = states_at(p, y, start, times, POLISH_TOLERANCE)

@@ -1,8 +1,4 @@
-"""Rules that say when to switch the damper off, compared by trials of migration.
-
-A trial begins on the resonance motion and repeats holds, times with the damper on, until the state
-of the free motion lies in a neighbourhood of an attractor that all motions in it provably tend to.
-"""
+"""Rules that say when to switch the damper off, compared by trials of migration."""
 
 import math
 from typing import NamedTuple
@@ -70,11 +66,7 @@ class Outcome(NamedTuple):
 def release_policies(
     oscillator, dampers, frequencies, *, trials=200, cells=64, seed=1995, settling, workers=1
 ):
-    """Compare rules of release for several dampers, over frequency.
-
-    At all frequencies both free motions of period 1 must exist. Each rule has `trials` trials.
-    `cells` are the cells on each axis of the coarse grid of a release set.
-    """
+    """Compare rules of release for dampers, over frequencies with both free motions of period 1."""
     shape = len(dampers), len(frequencies), len(POLICIES)
     data = {
         "policy_success": np.empty((*shape, 3)),
@@ -136,10 +128,7 @@ class Trials(NamedTuple):
         return [(SETTLED, 0.0, 0), best, *chosen]
 
     def run(self, rules, trials, seed):
-        """Return the `Outcome` of trials with each rule; equal seeds give equal random numbers.
-
-        The trials of all rules are run together, since lanes are full only if motions are many.
-        """
+        """Return the `Outcome` of trials with each rule, all run together to fill the lanes."""
         generator, limit = np.random.default_rng(seed), float(PAPER_CYCLES)
         owner = self.releases.attractors.owner
         resonance, count = owner[-1], len(rules) * trials

@@ -1,8 +1,4 @@
-"""Migration by many runs of the controller, and motions to which releases of the damper lead.
-
-The damper is switched on during the resonance motion, at a random phase, and the loose mass is then
-at rest at a random place in the gap (section 5 of the paper).
-"""
+"""Migration by many runs of the controller, and releases of the damper (section 5 of the paper)."""
 
 from dataclasses import replace
 from itertools import count
@@ -63,11 +59,7 @@ def migration(
     workers=1,
     progress=None,
 ):
-    """Return runs of the controller, and the motions to which releases lead, as a dataset.
-
-    The displacement is stored for one of the `trials` runs, `example`. `releases` other runs of at
-    most `lifetime` cycles are released once; each settled damped motion is released as often.
-    """
+    """Return runs of the controller, one as an `example`, and motions to which releases lead."""
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
     generators = map(np.random.default_rng, roots[0].spawn(trials))
@@ -137,10 +129,9 @@ def _release(case, state, wait, settling, stop=NEVER):
 
 
 def watch_runs(case, seeds, lifetime, settling, workers, progress):
-    """Run with the damper on from the resonance branch, and release each run once.
+    """Run with the damper on from the resonance branch, release each run once; return both records.
 
-    Return the record of each motion and its RELEASE. The strobe of the release lies between strobe
-    LEAD, before which the run depends on its start, and the capture by an orbit or `lifetime`.
+    The release follows strobe LEAD, and precedes the capture by an orbit or `lifetime`.
     """
     # Phase and place of switching on, strobe of the release, and phase after this strobe.
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
@@ -177,10 +168,7 @@ def _life(p, path, record, tolerance):
 
 
 def release_data(case, motions, entries, settling):
-    """Return the variables of `entries`, releases of the unsettled motion, and of settled ones.
-
-    Releases of a settled motion are spread evenly over its period.
-    """
+    """Return the variables of `entries` and of releases spread evenly over each settled motion."""
     number = len(entries)
     rows = [entries]
     for record in motions:
@@ -244,10 +232,7 @@ def release_scan(
     workers=1,
     progress=None,
 ):
-    """Release the damper from every damped motion, at each frequency, and return a dataset.
-
-    The first damped motion at a frequency is released before it settles, within `lifetime` cycles.
-    """
+    """Release the damper from each damped motion at each frequency, and once before it settles."""
     cases = [release_case(oscillator, damper, frequency, settling) for frequency in frequencies]
     search = {"starts": starts, "radius": radius, "seed": seed, "settling": settling}
     response = frequency_response(

@@ -1,8 +1,4 @@
-"""Errors of the rigid-impact model as functions of contact stiffness r1 and frequency.
-
-The quiet orbits with compliant walls are followed through a grid, the orbits with rigid walls, also
-with corrected ("mended") ones, in frequency.
-"""
+"""Errors of rigid and of corrected ("mended") rigid walls over contact stiffness and frequency."""
 
 from dataclasses import replace
 
@@ -48,11 +44,7 @@ STIFF = 1e4  # r1 above which contacts are short, for the fit of the order of th
 def rigid_limit(
     oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling
 ):
-    """Compare rigid impacts with compliant contact at each frequency and stiffness.
-
-    The quiet motion is searched for at `frequency` with the damper's own r1. An ArithmeticError
-    says that no start leads to it, or that its orbit cannot be followed into the grid.
-    """
+    """Compare rigid walls with compliant ones; ArithmeticError without a quiet motion to follow."""
     frequencies, stiffnesses = np.array(frequencies, float), np.array(stiffnesses, float)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
     compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)
@@ -95,7 +87,7 @@ def _spread(correct, points, cell, own_point, orbit):
     """Follow `orbit` from `own_point` into a cell and then to all cells; return the `Grid`."""
     grid = Grid(points, correct)
     followed = follow_line(correct, own_point, points[cell], orbit)
-    grid.put(cell, _reached(followed, "frequencies"))
+    grid.orbits[cell] = _reached(followed, "frequencies")
     grid.spread()
     return grid
 
@@ -108,10 +100,7 @@ def _reached(followed, key):
 
 
 def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
-    """Return the grids of compliant and of rigid orbits, and the rigid orbit at `frequency`.
-
-    The compliant orbits are followed from `quiet`, the rigid ones from the stiffest of these.
-    """
+    """Return the grids of compliant and of rigid orbits, and the rigid orbit at `frequency`."""
 
     def compliant_at(point, guess):
         each = replace(damper, contact_stiffness=float(np.exp(point[1])))

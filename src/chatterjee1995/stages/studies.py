@@ -59,8 +59,7 @@ def study_chunk(
 ):
     """Return the motions to which random starts lead, in a range of cells of a grid.
 
-    `axes` has increasing values for each of AXES, and `cells` are the numbers of the first cell of
-    the chunk and of the first one after it. The other arguments are as in `frequency_response`.
+    `cells` are the numbers of the first cell of the chunk and of the first one after it.
     """
     axes = {name: np.asarray(axes[name], float) for name in AXES}
     shape, (first, last) = [len(values) for values in axes.values()], cells
@@ -111,11 +110,7 @@ def _condensed(runs):
 
 
 def gather_chunks(paths, path) -> None:
-    """Write the chunks of a study, in their order, into one file with the axes of the grid.
-
-    It also has the clearances with the smallest displacement and by rule (18). A BrokenFileError
-    names a chunk that is incomplete, not the next one, or of another study.
-    """
+    """Write the chunks of a study into one file; a BrokenFileError names one that does not fit."""
     chunks = [load(each) for each in paths]
     head, done = chunks[0], 0
     for chunk, each in zip(chunks, paths, strict=True):

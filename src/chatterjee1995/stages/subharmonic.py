@@ -50,9 +50,7 @@ def subharmonic_suppression(
 ):
     """Find all motions with the damper at frequencies at which the free subharmonic exists.
 
-    The frequencies become as many in the range of the free subharmonic, which is searched for
-    between the first and the last of them. There, half of the starts switch the damper on during
-    this motion. The other arguments are as in `frequency_response`.
+    These take the place of `frequencies`; half of the starts switch the damper on during it.
     """
     if oscillator.is_linear:
         raise ValueError(
@@ -97,9 +95,7 @@ def _switch_half(oscillator, parameters, free, states, seed):
 def switched_on(oscillator, p, state, loose, generator):
     """Return the next states at W T = 0 mod 2 pi after the damper is switched on at random times.
 
-    Until then the primary mass moves on the free subharmonic. Z2 and Z2' are the last columns of
-    `loose` (m, 4); in every second row Z2' is 0, so that the loose mass moves with the primary
-    mass.
+    Z2 and Z2' are the last columns of `loose` (m, 4); in every second row Z2' is 0.
     """
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_map.strobe_time(p)

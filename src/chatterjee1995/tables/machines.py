@@ -19,11 +19,12 @@ def machines(datasets) -> pd.DataFrame:
 def _row(name, data):
     """Return the row of one machine."""
     made, asked = json.loads(data.attrs["machine"]), parameters_of(data)
+    tolerance = 100 * asked["tolerances"].get("gap", 0.0)
     return {
         "machine": name,
         "loose mass [kg]": made["damper_mass"],
         "band [Hz]": " to ".join(f"{end:g}" for end in asked["band"]),
-        "gap, full play [mm]": _gap(data, asked["tolerances"].get("gap", 0.0)),
+        "gap, full play [mm]": f"{float(data['design_gap']):.3g} ± {tolerance:.3g} %",
         "advice": ADVICE[named(data, "decision")],
         "largest displacement without damper [mm]": float(data["largest_bare_displacement"]),
         "promised displacement [mm]": escape_or(data["promised_displacement"]),
@@ -31,11 +32,6 @@ def _row(name, data):
         "largest with the best tuned absorber [mm]": escape_or(data["tuned_displacement"]),
         "largest with this absorber detuned by 10 % [mm]": escape_or(data["detuned_displacement"]),
     }
-
-
-def _gap(data, tolerance):
-    """Return the gap as text, with its tolerance."""
-    return f"{float(data['design_gap']):.3g} ± {100 * tolerance:.3g} %"
 
 
 def escape_or(size):

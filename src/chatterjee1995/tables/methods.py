@@ -21,12 +21,7 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return a row for each method and scene.
-
-    A row holds the setting that meets the required accuracy with the least work or, if none does,
-    the one with the least error. Taylor series of orders that the library does not use are never
-    marked.
-    """
+    """Return for each method and scene the cheapest accurate setting, or else the most accurate."""
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
         asked = parameters_of(data)["accuracy"]

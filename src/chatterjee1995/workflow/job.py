@@ -70,10 +70,7 @@ def counts(first, last, points):
 
 
 class Job:
-    """A job, made from the variable `snakemake` of its script; it ends soon after Snakemake.
-
-    All output goes to the log, and time and memory to the folder `timings`.
-    """
+    """A job, made from the variable `snakemake` of its script; it ends soon after Snakemake."""
 
     def __init__(self, snakemake):
         self.snakemake = snakemake

@@ -33,11 +33,7 @@ def compile_all(processes, orders) -> None:
 
 
 def warm_up_paper(orders=()) -> None:
-    """Call each kernel of the paper's stages and of the integrators that are compared.
-
-    Results of cached and of newly compiled kernels can differ in the last digit. With all kernels
-    compiled here, every job loads them from the cache.
-    """
+    """Call each kernel of the stages, so that all jobs load the same code from the cache."""
     import numpy as np
 
     from chatterjee1995.methods.integrators import integrators

@@ -41,10 +41,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Return length and state of the step to the event within h, and the number of steps tried.
-
-    The step is halved until it ends before the event, which the Illinois method then finds.
-    """
+    """Return length and state of the step to the event within h, and the number of steps tried."""
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])
@@ -78,11 +75,10 @@ def located(p, side, t, h, y, tolerance):
 
 @kernel
 def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
-    """Integrate the state y in place from t to end, with a first step h.
+    """Integrate y in place from t to end, with a first step h; fill `ends` (m, 5) after each step.
 
-    `ends`, shape (m, 5), receives time and state after each step. Return the wall in contact at the
-    end, the next step, and the numbers of accepted steps, -1 if the run failed, and of computed
-    steps.
+    Return the wall in contact, the next step, and the numbers of accepted steps, -1 if the run
+    failed, and of computed steps.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, tries = 0, 0

@@ -41,10 +41,7 @@ def solved(method, p, y, span, side, tolerance, left, **options):
 
 
 def parts(method, p, start, t, end, tolerance, locate, left):
-    """Yield the results of `solve_ivp` for parts of a run, which with `locate` end at contacts.
-
-    With a large tolerance a run can pass the end of a contact and use up all evaluations.
-    """
+    """Yield the results of `solve_ivp` for parts of a run, which with `locate` end at contacts."""
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
     while status == 1:

@@ -33,10 +33,7 @@ PARTS = 8  # parts of a step, in each of which a velocity is assumed to vanish a
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Fill `rows` with steps from y at t to `end`; return their number, the time and the wall then.
-
-    y becomes the state there. Coefficients that do not fit into a row are omitted.
-    """
+    """Fill `rows` with steps of y from t to `end`; return their number, and time and wall then."""
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
@@ -119,11 +116,7 @@ def work_of_steps(counts, orders=ORDERS, tangents=False):
 
 
 def step_work(kind, orders=ORDERS, tangents=False):
-    """Return the floating-point operations of a step, with or without variational equations.
-
-    These polynomials in the order n agree within 1 % with the generated source, except for searches
-    of contacts that a step did not expect.
-    """
+    """Return the operations of a step, within 1 % of those counted in the generated source."""
     n = orders[kind == CONTACT]
     if kind == CONTACT:
         return 1.5 * n**2 + 40 * n + 405 + tangents * (4.5 * n**2 + 73 * n)
