@@ -184,8 +184,9 @@ def _decay(time, measured):
     offset = np.mean(measured)
     signal = hilbert(np.interp(time[0] + t, time, measured) - offset)
     begin = 1 + len(t) // 30  # the ends of an analytic signal are wrong
-    small = np.abs(signal) < 0.1 * np.max(np.abs(signal[begin:]))
-    end = begin + np.argmax(np.append(small[begin:-begin], True))
+    sizes = np.abs(signal[begin:-begin])
+    top = np.argmax(sizes)
+    end = begin + top + np.argmax(np.append(sizes[top:] < 0.1 * sizes[top], True))
     t, signal, step = t[begin:end], signal[begin:end], t[1]
     rate, size = np.polyfit(t, np.log(np.abs(signal)), 1)
     if rate >= 0:
