@@ -71,16 +71,11 @@ def free_attractors(p, window, settling) -> Attractors:
 
 def with_neighbourhoods(p, records) -> Attractors:
     """Return the `Attractors` of orbits, an array of records.MOTION."""
-    orbits = [orbit_passages(p, record, STROBE) for record in records]
+    orbits = [orbit_states(p, record, STROBE)[:, :2] for record in records]
     shapes = [neighbourhood(p, state, len(states)) for states in orbits for state in states]
     owner = np.repeat(np.arange(len(records)), records["period"])
     centres = np.concatenate([np.empty((0, 2)), *orbits])
     return Attractors(records, owner, centres, np.array(shapes).reshape(-1, 2, 2))
-
-
-def orbit_passages(p, record, phase):
-    """Return Z1, Z1' of an orbit at all times with a given forcing phase, shape (period, 2)."""
-    return orbit_states(p, record, phase)[:, :2]
 
 
 def orbit_states(p, record, phase):
@@ -103,7 +98,7 @@ def _distinct(p, motions):
         )
         if not known:
             kept.append(record)
-            seen.append(orbit_passages(p, record, STROBE))
+            seen.append(orbit_states(p, record, STROBE)[:, :2])
     return np.array(kept, motions.dtype)
 
 

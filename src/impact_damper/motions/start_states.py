@@ -126,18 +126,13 @@ def warn_if_narrow(oscillator, frequencies, radius) -> None:
 
 
 def gap_states(count, radius, damper, seed):
-    """Return random states (count, 4), uniform in a disk of Z1, Z1' and in the gap.
-
-    The loose mass is at rest relative to the primary mass.
-    """
-    generator = np.random.default_rng(seed)
-    angle = generator.uniform(0, 2 * np.pi, count)
-    size = radius * np.sqrt(generator.random(count))
-    primary = np.stack([size * np.cos(angle), size * np.sin(angle)], axis=1)
-    if damper is None:
-        return np.hstack([primary, primary])
-    place = damper.clearance * generator.uniform(-1, 1, count)
-    return np.column_stack([primary, place, np.zeros(count)])
+    """Return random states (count, 4) in a disk of Z1, Z1', the loose mass at rest in the gap."""
+    states = radius * random_states(count, 1.0, None, seed)
+    if damper is not None:
+        generator = np.random.default_rng(np.append(seed, count))
+        states[:, 2] = damper.clearance * generator.uniform(-1, 1, count)
+        states[:, 3] = 0.0
+    return states
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:

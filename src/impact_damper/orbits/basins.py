@@ -15,7 +15,7 @@ from impact_damper.motions.attractors import (
     find_attractors,
     free_attractors,
     label_damped,
-    orbit_passages,
+    orbit_states,
     with_neighbourhoods,
 )
 from impact_damper.motions.ensemble import label_states
@@ -267,7 +267,7 @@ def _attractor_data(p, found, phase):
     shares = [np.mean(found.labels == index) for index in range(len(records))]
     points = np.full((len(records), max(records["period"], default=1), 2), np.nan)
     for row, record in zip(points, records, strict=True):
-        row[: record["period"]] = orbit_passages(p, record, phase)
+        row[: record["period"]] = orbit_states(p, record, phase)[:, :2]
     return {
         "attractor": np.arange(len(records)),
         "attractor_period": records["period"],

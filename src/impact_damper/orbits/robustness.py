@@ -32,39 +32,33 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
     """Return the variables of the robustness of attractors; shocks are changes of Z1'."""
     rows = []
     for index, record in enumerate(found.records):
-        own = found.labels == index
-        states = orbit_states(p, record, phase)
-
-        def after(shocks, states=states, index=index):
-            """Return which shocks lead away, and the cycles until this is known."""
-            pushed = np.repeat(states, len(shocks), axis=0)
-            pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
-            labels, periods = found.label(pushed)
-            shape = len(states), len(shocks)
-            leaves = np.any(labels.reshape(shape) != index, axis=0)
-            return leaves, np.max(periods.reshape(shape), axis=0)
-
-        returned = np.nan
+        own, states, returned = found.labels == index, orbit_states(p, record, phase), np.nan
         if shock is not None:
-            leaves, periods = after(np.array([-shock, shock]))
-            returned = np.inf if leaves.any() else np.max(periods)
-        critical = min(_critical(sign, after, widest) for sign in (-1, 1))
-        times = found.periods[own]
-        rows.append(
-            (np.median(times), np.mean(own & (found.periods <= within)), critical, returned)
-        )
+            leaves, periods = _after(found, index, states, np.array([-shock, shock]))
+            returned = np.inf if leaves.any() else periods.max()
+        critical = min(_critical(found, index, states, most) for most in (-widest, widest))
+        share = np.mean(own & (found.periods <= within))
+        rows.append((np.median(found.periods[own]), share, critical, returned))
     names = ("attractor_time", "attractor_within", "attractor_shock", "attractor_return")
     return dict(zip(names, np.reshape(rows, (-1, 4)).T, strict=True))
 
 
-def _critical(sign, after, widest):
-    """Return the smallest shock of a sign after which a motion leaves an attractor, or infinity."""
-    low, high = 0.0, widest
+def _after(found, index, states, shocks):
+    """Return which shocks lead away from an attractor with these states, and cycles until known."""
+    pushed = np.repeat(states, len(shocks), axis=0)
+    pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
+    labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))
+    return np.any(labels != index, axis=0), np.max(periods, axis=0)
+
+
+def _critical(found, index, states, most):
+    """Return the size of the smallest shock up to `most` that leads away, or infinity."""
+    low, high = 0.0, most
     for parts in SHOCKS:
         shocks = np.linspace(low, high, parts + 1)
-        leaves = after(sign * shocks[1:])[0]
+        leaves, _ = _after(found, index, states, shocks[1:])
         if not leaves.any():
             return np.inf
         k = int(np.argmax(leaves))
         low, high = shocks[k], shocks[k + 1]
-    return high
+    return abs(high)
