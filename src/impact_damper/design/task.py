@@ -132,19 +132,9 @@ class Effort:
 class Task:
     """A task of `design_damper` or `evaluate_damper`, checked before anything is computed.
 
-    Attributes
-    ----------
-    absorber : TunedAbsorber or None
-        A tuned absorber to compare with.
-    gap : float or None
-        Gap of a damper that exists, m; None if it is to be found.
-    contact : float or HertzContact
-        Stiffness, N/m, or the contact from which it is computed.
-    mount : dict or None
-        Arguments of `machine.mounting`, from which gravity (along the gap, m/s^2) and friction of
-        the loose mass (N) follow.
-    contact_stiffness : float
-        N/m.
+    `gap` (m) is of a damper that exists, or None if it is to be found. `contact` is the stiffness
+    (N/m) or the contact from which `contact_stiffness` follows, and `mount` has arguments of
+    `machine.mounting`, from which `gravity` along the gap (m/s^2) and `friction` (N) follow.
     """
 
     machine: Machine

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from impact_damper.model.bounds import check_frequency
-from impact_damper.model.parameters import check_closed_form, check_damper
+from impact_damper.model.parameters import check_closed_form
 from impact_damper.model.text import plain
 from impact_damper.theory.free_oscillator import free_solutions
 from impact_damper.theory.roots import polynomial_roots, smooth_roots
@@ -40,8 +40,7 @@ def rigid_solutions(oscillator, damper, frequency) -> Solutions:
     Where a > d0 walls would have to pull; (7) has no such solution. For a forcing amplitude f other
     than 1, d0/f, k3 f^2 and a/f replace d0, k3 and a.
     """
-    check_elastic(damper)
-    check_closed_form(oscillator, damper)
+    check_elastic(oscillator, damper)
     frequency = check_frequency(frequency)
     force = oscillator.forcing_amplitude(frequency)
     if force == 0:
@@ -70,7 +69,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
     `smooth_roots` finds all roots of the entire function cos^6(p) G(p) up to rounding.
     """
-    check_closed_form(oscillator, damper)
+    check_elastic(oscillator, damper)
     balance = _Balance(oscillator, damper, check_frequency(frequency))
     lower, upper = balance.angle_range()
     if not lower < upper:
@@ -95,7 +94,6 @@ class _Balance:
     """
 
     def __init__(self, oscillator, damper, frequency):
-        check_elastic(damper)
         self.clearance = damper.clearance
         self.detuning = oscillator.linear_frequency**2 - frequency**2
         self.drag = oscillator.damping * frequency
@@ -188,9 +186,9 @@ def _excess(angle):
     return 4.5 * excess + 6 * np.sin(ninth) ** 3 + 2 * np.sin(third) ** 3
 
 
-def check_elastic(damper):
-    """Raise TypeError if `damper` is not a Damper, ValueError if its contact is not elastic."""
-    check_damper(damper)
+def check_elastic(oscillator, damper):
+    """Raise as `check_closed_form` does, and ValueError if the contact is not elastic."""
+    check_closed_form(oscillator, damper)
     if damper.restitution != 1:
         raise ValueError(
             f"restitution = {plain(damper.restitution)}: must be 1, "
