@@ -122,6 +122,9 @@ CALLS = {
 }
 
 
+NUMERICAL = ("periods_run", "run_length", "basin_time", "attractor_time", "liouville_error")
+
+
 @pytest.mark.parametrize("name", CALLS)
 def test_results_do_not_depend_on_the_scales(name, other_length):
     """A variable that is registered with a wrong physical quantity, or with none, would change."""
@@ -139,7 +142,7 @@ def test_results_do_not_depend_on_the_scales(name, other_length):
         if VARIABLES[each].kind == "mixed" or values.dtype.kind not in "fi":
             continue
         # These come from iterations with tolerances in the machine's scales, so they may differ.
-        numerical = each in ("periods_run", "run_length", "liouville_error") or "multiplier" in each
+        numerical = each in NUMERICAL or "multiplier" in each
         if not numerical and "phase" not in each:
             np.testing.assert_allclose(other[each], values, rtol=2e-5, atol=2e-7, err_msg=each)
             compared += 1
