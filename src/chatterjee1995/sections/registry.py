@@ -4,27 +4,13 @@ from chatterjee1995.sections import balance, clearance, curves, machines, method
 from chatterjee1995.sections.records import Kind, Stage, Table
 
 SCHEMATIC = Kind("schematic", "design", "schematics", (), most=1)
-CLAIMS = (
-    Table(
-        "claims",
-        "claims",
-        "chatterjee1995.claims.verdicts",
-        (
-            "harmonic_balance",
-            "design_orbit",
-            "branches",
-            "response",
-            "motion",
-            "collisions",
-            "optimum",
-            "subharmonic",
-            "migration",
-            "release_scan",
-            "release_policies",
-        ),
-        pictures=True,
-    ),
-)
+# Stages whose datasets the claims read.
+CLAIMED = (
+    "harmonic_balance design_orbit branches response motion collisions optimum subharmonic "
+    "migration release_scan release_policies"
+).split()
+VERDICTS = "chatterjee1995.claims.verdicts"
+CLAIMS = (Table("claims", "claims", VERDICTS, tuple(CLAIMED), pictures=True),)
 SUBJECTS = (curves, balance, clearance, migration, methods, machines)
 # Chapters of the report with their titles. One job draws the figures and makes the tables of one.
 CHAPTERS = {

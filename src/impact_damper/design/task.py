@@ -33,16 +33,7 @@ from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds,
 
 # Values that may deviate from their nominal ones; the last three belong to the machine. NOMINAL:
 # their factors without a deviation. TOLERANCES: largest relative deviations by default.
-VARIED = (
-    "gap",
-    "restitution",
-    "contact_stiffness",
-    "gravity",
-    "friction",
-    "stiffness",
-    "damping",
-    "force",
-)
+VARIED = tuple("gap restitution contact_stiffness gravity friction stiffness damping force".split())
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 # Ends of a range or of a confidence interval.
