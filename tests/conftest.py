@@ -1,4 +1,4 @@
-"""Fixtures for tests in several rooms: known periodic orbits, and integrators by heyoka.py."""
+"""Fixtures for tests in several rooms: known periodic orbits."""
 
 import gc
 
@@ -40,12 +40,3 @@ def impacting_orbit(request):
 def design_orbit():
     """Return the quiet orbit of the damper of figure 5 (a) at W = 2."""
     return polished_orbit("design")
-
-
-@pytest.fixture(scope="session")
-def heyoka_reference():
-    """Return an integrator by heyoka.py; skip without heyoka.py."""
-    pytest.importorskip("heyoka")
-    from references.taylor_events import Reference
-
-    return Reference()

@@ -66,16 +66,6 @@ def test_ends_of_a_doubled_branch_are_doublings_of_the_other(twice):
         assert np.min(np.abs(np.subtract(doublings, end.value))) < 1e-8
 
 
-def test_both_sides_of_a_branch_beside_a_grazing_meet(asymmetric):
-    event, point = asymmetric
-    assert event.point.orbit.least_speed < 1e-4
-    span = point.value - 1e-3, point.value + 1e-3
-    branch = follow_branch(family, point.orbit, point.value, span)
-    assert "symmetry_breaking" in branch.ends and branch.lost == 0
-    end = branch.points[0 if branch.ends[0] == "symmetry_breaking" else -1]
-    assert_allclose(end.value, event.point.value, rtol=0, atol=1e-9)
-
-
 def test_80_bit_motion_repeats_from_an_orbit_beside_a_grazing(asymmetric):
     if extended.obstacle():
         pytest.skip(extended.obstacle())

@@ -6,7 +6,7 @@ from helpers.known_orbits import PAPER, STARTS, polished_orbit
 from numpy.testing import assert_allclose
 from references import extended
 
-from impact_damper.model.packed import DAMPING, DASHPOT, INVERSE_MASS_RATIO, pack
+from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.orbits.orbit import TURN
 from impact_damper.orbits.shooting import find_orbit
@@ -16,17 +16,6 @@ from impact_damper.orbits.shooting import find_orbit
 def orbit(request):
     known_orbit = polished_orbit(request.param)
     return find_orbit(known_orbit.parameters, known_orbit.state)
-
-
-def test_liouville(orbit):
-    """The product of the multipliers is known from the damping and the time in contact."""
-    h, inverse_mass, dashpot = orbit.p[[DAMPING, INVERSE_MASS_RATIO, DASHPOT]]
-    touching = np.sum(orbit.contacts[:, 2] - orbit.contacts[:, 1])
-    expected = np.exp(
-        -h * TURN * orbit.periods / orbit.p[0] - dashpot * (1 + inverse_mass) * touching
-    )
-    assert_allclose(np.prod(orbit.multipliers[: orbit.active]).real, expected, rtol=1e-9)
-    assert orbit.liouville_error < 1e-11
 
 
 def test_multipliers_by_80_bit_arithmetic(orbit):

@@ -1,7 +1,6 @@
 """Errors and work of methods on scenes (test cases), and the tolerance of production runs."""
 
 import json
-import math
 from pathlib import Path
 
 import numpy as np
@@ -9,14 +8,12 @@ import pytest
 from helpers import configurations
 
 from chatterjee1995.methods import accuracy, averages
-from chatterjee1995.methods.integrator import read_off
 from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
 from chatterjee1995.methods.integrators.taylor import taylor
 from chatterjee1995.methods.labels import MODELS, TOLERANCE_KEYS, method_in_words
 from chatterjee1995.tables.methods import cheapest, models
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Damper, Oscillator, pick
-from impact_damper.motions import traces
 from impact_damper.motions.strobe_map import strobe_time
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -61,19 +58,6 @@ def of(data, method):
 @pytest.fixture(scope="module")
 def inelastic():
     return errors_of("inelastic", FEW)
-
-
-def test_contacts_and_peaks_from_samples_agree_with_those_of_the_series():
-    for name in ("resonance", "design"):
-        given = accuracy.ComparisonScene(*system_of(name), **rest_of(name))
-        begin, period = strobe_time(given.p), 2 * math.pi / given.frequency
-        run = taylor(given.p, np.array(given.state), begin, 2, 1e-13)
-        times = begin + period * np.arange(801) / 400
-        states = traces.states_at(given.p, given.state, begin, times, 1e-13)
-        read = read_off(given.p, 0.0, times, states)
-        assert len(read.contact_times) == len(run.contact_times)
-        assert np.allclose(read.contact_times, run.contact_times, atol=1e-4)
-        assert read.displacement == pytest.approx(run.displacement, rel=1e-7)
 
 
 def test_the_taylor_series_agrees_with_the_80_bit_reference(inelastic):
