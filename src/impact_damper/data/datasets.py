@@ -123,10 +123,10 @@ def _kind(name, data):
     kind = VARIABLES[name].kind
     if kind != "followed":
         return kind
+    parameter = parameters_of(data).get("parameter")
     # the coordinate of a sweep is its parameter
     swept = "clearance" if "clearance" in data.coords else "frequency"
-    _, kind, _ = facts_of(parameters_of(data).get("parameter", swept))
-    return kind
+    return facts_of(parameter)[1] if parameter else swept
 
 
 def _name_unit(variable, kind):

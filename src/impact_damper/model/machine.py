@@ -49,11 +49,6 @@ class MachineDamper:
     def __post_init__(self):
         convert(self)
 
-    @property
-    def clearance_each_side(self) -> float:
-        """Half of the gap, between the centred loose mass and either wall, m."""
-        return self.gap / 2
-
     def check_for(self, machine):
         """Raise ValueError, with the range allowed, if the damper does not fit a machine.
 
@@ -61,8 +56,7 @@ class MachineDamper:
         fraction m2/(m1 + m2) of the machine's static force, which accelerates the loose mass m2.
         """
         scales = machine.scales
-        clearances = scales.range_to_si(bounds.CLEARANCE_RANGE, "clearance")
-        gaps = {end: 2 * value for end, value in clearances.items()}
+        gaps = scales.range_to_si(bounds.CLEARANCE_RANGE, "gap")
         check_si("mass", self.mass, "mass", **scales.range_to_si(bounds.MASS_RATIO_RANGE, "mass"))
         check_si("gap", self.gap, "clearance", **gaps)
         limits = scales.range_to_si(bounds.STIFFNESS_RANGE, "stiffness")
@@ -76,7 +70,7 @@ class MachineDamper:
         """Return the dimensionless damper, in the scales of its machine."""
         return Damper(
             mass_ratio=scales.from_si(self.mass, "mass"),
-            clearance=scales.from_si(self.clearance_each_side, "clearance"),
+            clearance=scales.from_si(self.gap, "gap"),
             restitution=self.restitution,
             contact_stiffness=scales.from_si(self.contact_stiffness, "stiffness"),
             gravity=scales.from_si(self.gravity, "acceleration"),

@@ -182,11 +182,7 @@ class Damper:
         bounds.MASS_RATIO_RANGE, "mass", "rm", "loose mass over primary mass", machine="mass"
     )
     clearance: float = parameter(
-        bounds.CLEARANCE_RANGE,
-        "clearance",
-        "d0",
-        "half of the gap of the loose mass",
-        machine="clearance_each_side",
+        bounds.CLEARANCE_RANGE, "gap", "d0", "half of the gap of the loose mass", machine="gap"
     )
     restitution: float = parameter(
         bounds.RESTITUTION_RANGE, "number", "e", "1 for elastic contact", default=1.0

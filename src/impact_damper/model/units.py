@@ -41,6 +41,7 @@ QUANTITIES = {
     "mass": Quantity("kg", mass=1),
     "displacement": Quantity("m", length=1, shown="mm", factor=1e3),
     "clearance": Quantity("m", length=1, shown="mm", factor=1e3),
+    "gap": Quantity("m", length=1, shown="mm", factor=1e3),
     "time": Quantity("s", time=1),
     "frequency": Quantity("Hz", time=-1),
     "rate": Quantity("1/s", time=-1),
@@ -187,11 +188,16 @@ class Scales(NamedTuple):
     si: bool = False
 
     def unit(self, kind) -> float:
-        """Return the SI value of the dimensionless 1 of a key of QUANTITIES; W is 2 pi times Hz."""
+        """Return the SI value of the dimensionless 1 of a key of QUANTITIES.
+
+        W is 2 pi times Hz, and a gap twice the dimensionless clearance.
+        """
         if not self.si:
             return 1.0
         each = QUANTITIES[kind]
         value = self.length**each.length * self.time**each.time * self.mass**each.mass
+        if kind == "gap":
+            return 2 * value
         return value / (2 * math.pi) if kind in ("frequency", "sweep_rate") else value
 
     def to_si(self, value, kind):

@@ -123,7 +123,7 @@ def orbit_branches(
         Least and greatest value of the parameter.
     parameter : str
         frequency, damping, cubic, force, unbalance, mass_ratio, clearance, restitution or
-        contact_stiffness; for a machine cubic_stiffness, mass and clearance_each_side in place of
+        contact_stiffness; for a machine cubic_stiffness, mass and gap in place of
         cubic, mass_ratio and clearance.
     period : int
         Period of the orbit near a state, in forcing cycles.

@@ -80,6 +80,7 @@ def followed_label(data):
     words = {
         ("frequency", units): "Forcing frequency",
         ("mass_ratio", "kg"): "Mass of the damper",
+        ("clearance", "mm"): "Gap",
     }.get((name, units), name.replace("_", " ").capitalize())
     symbol = style.tex("Omega" if name == "frequency" else SYMBOLS[name])
     return f"{words}, ${symbol}$" if units == "1" else f"{words} ({units})"

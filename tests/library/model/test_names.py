@@ -34,6 +34,15 @@ def test_a_misspelt_parameter_of_a_branch_is_answered():
         idm.orbit_branches(MACHINE, None, 20.0, (0, 0), parameter="frequnecy", span=(18, 22))
 
 
+def test_the_gap_of_a_machine_is_its_full_play_along_a_branch():
+    damper = MACHINE.damper(mass=0.6, gap=5e-3, restitution=0.7, contact_stiffness=2e7)
+    state = idm.steady_motion(MACHINE, damper, 20.5, (0, 0, 0, 0.3)).state.values
+    given = {"parameter": "gap", "span": ("4 mm", "6 mm")}
+    found = idm.orbit_branches(MACHINE, damper, 20.5, state, **given).followed_value
+    assert (float(found.min()), float(found.max())) == pytest.approx((4, 6))
+    assert "each side" not in found.long_name
+
+
 def test_the_version_is_stated_alike_everywhere():
     assert f'version = "{idm.__version__}"' in (ROOT / "pyproject.toml").read_text()
     assert f"version: {idm.__version__}" in (ROOT / "CITATION.cff").read_text()
