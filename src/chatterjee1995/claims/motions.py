@@ -10,7 +10,7 @@ from chatterjee1995.reading import orbits
 from chatterjee1995.reading.bands import high_motions
 from chatterjee1995.reading.datasets import BY_MASS, ELASTIC, INELASTIC, Missing
 from impact_damper.data.sweeps import runs_of_true
-from impact_damper.theory.contact_law import damping_ratio
+from impact_damper.model.exit_rules import damping_ratio
 
 LOW = 0.3  # example of a low restitution in claim 15
 

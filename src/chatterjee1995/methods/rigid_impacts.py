@@ -13,6 +13,7 @@ from impact_damper.kernel.equation import acceleration
 from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, workspace
 from impact_damper.kernel.tangents import step_with_tangents
+from impact_damper.model.exit_rules import damping_ratio
 from impact_damper.model.packed import (
     CLEARANCE,
     DAMPING,
@@ -23,7 +24,6 @@ from impact_damper.model.packed import (
 )
 from impact_damper.motions.records import extremum
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE, strobe_time
-from impact_damper.theory.contact_law import damping_ratio, natural_frequency
 
 # Impacts in a cycle at which the integration stops; with e < 1 infinitely many can follow.
 MOST_IMPACTS = 200
@@ -118,7 +118,7 @@ def mended_orbit(oscillator, damper, frequency, orbit, reach):
     """Return orbit and status as `rigid_orbit`, with walls corrected to imitate compliant ones."""
     e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
     reduced = damper.mass_ratio / (1 + damper.mass_ratio)
-    z, natural = damping_ratio(e), natural_frequency(damper)
+    z, natural = damping_ratio(e), damper.contact_frequency
     duration = np.pi / (natural * np.sqrt(1 - z * z))
     shift = v * duration * e / (1 + e)
     after = before + h * (1 + e) * reduced * v

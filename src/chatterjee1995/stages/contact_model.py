@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from chatterjee1995.methods.contact_law import contact, pull_time
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.data.variables import register
 from impact_damper.kernel.equation import acceleration
@@ -16,7 +17,6 @@ from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.motions import ensemble, strobe_map, traces
 from impact_damper.motions.simulate import random_states
-from impact_damper.theory.contact_law import contact, natural_frequency, pull_time
 
 register(
     """
@@ -145,4 +145,4 @@ def loads_of(oscillator, damper, frequency, state, periods):
     side, start, end, approach, _ = log.T
     load = side * [acceleration(p, y, t) for y, t in zip(states[:-1], start, strict=True)]
     whole = np.isfinite(end) & (start > begin)
-    return (load / (natural_frequency(damper) * np.abs(approach)))[whole]
+    return (load / (damper.contact_frequency * np.abs(approach)))[whole]

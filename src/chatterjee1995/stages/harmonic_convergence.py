@@ -9,11 +9,11 @@ from chatterjee1995.methods.many_harmonics import Balance, refine, single_term, 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import register
 from impact_damper.kernel.equation import forcing_amplitude
+from impact_damper.model.exit_rules import damping_ratio
 from impact_damper.model.packed import DAMPING, FREQUENCY, cubic_spring, pack
 from impact_damper.model.parameters import describe
 from impact_damper.motions.simulate import simulate
 from impact_damper.orbits.shooting import find_orbit
-from impact_damper.theory.contact_law import damping_ratio, natural_frequency
 
 register(
     """
@@ -65,7 +65,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
     if damper is None:
         return 1.0
     ratio = damping_ratio(damper.restitution)
-    resolving = 2 * natural_frequency(damper) * np.sqrt(1 - ratio**2) / frequency
+    resolving = 2 * damper.contact_frequency * np.sqrt(1 - ratio**2) / frequency
     if damper.restitution == 1:
         return float(resolving)
     return float(max(resolving, damper.contact_stiffness / (damper.dashpot * frequency)))

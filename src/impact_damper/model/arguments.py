@@ -211,8 +211,7 @@ def read_state(model, state) -> np.ndarray:
 def _warn_of_compression(relative, model):
     """Warn that a contact is compressed by more than the clearance, and how fast it expands."""
     damper, told = model.damper, model.scales.told
-    rate = math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
-    speed = rate * (abs(relative) - damper.clearance)
+    speed = damper.contact_frequency * (abs(relative) - damper.clearance)
     warn(
         f"{told('state[2]', relative, 'displacement')}: the loose mass is beyond its wall, which "
         f"is at {told('clearance', damper.clearance, 'clearance')}; the compressed contact throws "

@@ -223,6 +223,11 @@ class Damper:
         return damping_ratio(self.restitution, self.exit_rule) / math.sqrt(1 + self.mass_ratio)
 
     @property
+    def contact_frequency(self) -> float:
+        """Natural frequency wn = sqrt(r1 (1 + 1/rm)); an elastic contact lasts pi/wn."""
+        return math.sqrt(self.contact_stiffness * (1 + 1 / self.mass_ratio))
+
+    @property
     def dashpot(self) -> float:
         """Dashpot coefficient 2 zeta_c sqrt(r1 rm) of equation (22)."""
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)

@@ -10,8 +10,8 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from impact_damper.model.bounds import check_number
+from impact_damper.model.exit_rules import damping_ratio
 from impact_damper.model.parameters import check_closed_form
-from impact_damper.theory.contact_law import damping_ratio, natural_frequency
 
 # Number of impulses q that are compared before the minimum of max |x| is refined.
 GRID = 65
@@ -135,7 +135,7 @@ def flight_of(oscillator, damper, frequency) -> Flight:
     return Flight(
         damper.mass_ratio,
         damper.restitution,
-        frequency / natural_frequency(damper),
+        frequency / damper.contact_frequency,
         oscillator.damping / frequency,
         oscillator.linear_frequency / frequency,
     )

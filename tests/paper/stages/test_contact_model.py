@@ -11,7 +11,6 @@ from chatterjee1995.tables.contact import contact_model as model_table
 from impact_damper.data.datasets import flag
 from impact_damper.model.settling import Settling
 from impact_damper.motions.simulate import simulate
-from impact_damper.theory.contact_law import natural_frequency
 
 
 def test_verdicts_follow_from_the_restitution():
@@ -35,7 +34,7 @@ def test_logged_contacts_are_those_of_the_simulation():
     begin = motion.contact_begin.values
     x, v = (np.interp(begin, motion.time, motion[name]) for name in ("displacement", "velocity"))
     pull = motion.contact_wall * (np.cos(2 * begin) - PAPER.damping * v - x**3)
-    load = pull / (natural_frequency(INELASTIC) * np.abs(motion.approach_velocity))
+    load = pull / (INELASTIC.contact_frequency * np.abs(motion.approach_velocity))
     assert_allclose(loads_of(PAPER, INELASTIC, 2.0, scene.state, 3), load, atol=1e-4)
 
 

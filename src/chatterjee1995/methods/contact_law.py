@@ -58,11 +58,6 @@ class _Wave(NamedTuple):
         return brentq(self, top, bottom, xtol=1e-15, rtol=1e-14)
 
 
-def natural_frequency(damper) -> float:
-    """Return wn = sqrt(r1 (1 + 1/rm)) of a `Damper`; an elastic contact lasts pi/wn."""
-    return math.sqrt(damper.contact_stiffness * (1 + 1 / damper.mass_ratio))
-
-
 def _waves(restitution, load):
     """Return penetration u and wall force F of a contact as functions of s = wn t."""
     z = damping_ratio(restitution)

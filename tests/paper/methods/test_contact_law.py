@@ -7,7 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import quad, solve_ivp
 
-from impact_damper.theory.contact_law import contact, damping_ratio, pull_time
+from chatterjee1995.methods.contact_law import contact, pull_time
+from impact_damper.model.exit_rules import damping_ratio
 
 CASES = [(e, g) for e in (0.1, 0.3, 0.75, 0.95, 1.0) for g in (-5, -0.3, 0, 0.02, 0.3, 2)]
 LONG = 20.0
