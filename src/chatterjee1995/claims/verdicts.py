@@ -60,7 +60,7 @@ def claims(datasets) -> pd.DataFrame:
 
 
 def document(frame, picture=None, drawn=None) -> str:
-    """Return the page of the claims in Markdown, with those figures that are in `drawn`."""
+    """Return the page of the claims in Markdown; `picture` shows a figure that is in `drawn`."""
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     rows = frame.to_dict("records")
     for row in rows:
