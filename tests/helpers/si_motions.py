@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 
 class SiMotion:
@@ -14,8 +15,9 @@ class SiMotion:
         self.clearance = damper.gap / 2 if damper else math.inf
         self.dashpot = 0.0
         if damper:
+            # Walls never pull, so e = exp(-(pi - 2 a) tan a) with the damping ratio sin a.
             logarithm = math.log(damper.restitution)
-            ratio = -logarithm / math.hypot(math.pi, logarithm)
+            ratio = math.sin(brentq(lambda a: (math.pi - 2 * a) * math.tan(a) + logarithm, 0, 1.5))
             mass = damper.mass * machine.mass / (damper.mass + machine.mass)
             self.dashpot = 2 * ratio * math.sqrt(damper.contact_stiffness * mass)
 
@@ -24,7 +26,7 @@ class SiMotion:
         if not wall:
             return 0.0
         depth = wall * y[2] - self.clearance
-        return self.damper.contact_stiffness * depth + self.dashpot * wall * y[3]
+        return max(0.0, self.damper.contact_stiffness * depth + self.dashpot * wall * y[3])
 
     def slope(self, t, y, wall):
         """Return the time derivative of the vector y: the state, and the loss in contacts."""
@@ -33,7 +35,7 @@ class SiMotion:
         spring = machine.linear_stiffness * y[0] + machine.cubic_stiffness * y[0] ** 3
         a = (force - spring - loss - wall * push) / machine.mass
         loose = wall * push / self.damper.mass if wall else 0.0
-        return [y[1], a, y[3], a - loose, self.dashpot * y[3] ** 2 if wall else 0.0]
+        return [y[1], a, y[3], a - loose, self.dashpot * y[3] ** 2 if push else 0.0]
 
     def run(self, state, begin, end, *, longest=5e-3, in_contact=2e-4):
         """Yield each flight and each contact as (wall, solution).
@@ -44,7 +46,10 @@ class SiMotion:
         """
 
         def reached(t, y, wall):
-            return abs(y[2]) - self.clearance
+            if not wall:
+                return abs(y[2]) - self.clearance
+            depth = wall * y[2] - self.clearance
+            return self.damper.contact_stiffness * depth + self.dashpot * wall * y[3]
 
         def turned(t, y, wall):
             return y[1]

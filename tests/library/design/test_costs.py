@@ -20,8 +20,7 @@ HERTZ = idm.HertzContact("2 cm", "210 GPa", 0.3, "400 MPa")
 
 def damper_of(machine, **others):
     given = {"mass": 0.6, "gap": 0.008, "restitution": 0.7, "contact_stiffness": 2e7}
-    given |= {"exit_rule": "zero_penetration"} | others  # as `SiMotion`
-    return machine.damper(**given)
+    return machine.damper(**given | others)
 
 
 def packed(machine, damper, frequency):

@@ -25,7 +25,7 @@ def found():
 def releases(machine, damper, hertz, count):
     """Return the times, s, of releases with other seeds than those of the design."""
     scales, frequency = machine.scales, machine.scales.from_si(hertz, "frequency")
-    made = machine.oscillator(hertz), damper.scaled(scales), frequency
+    made = machine.oscillator(), damper.scaled(scales), frequency
     case, stop = release_case(*made, Settling()), np.zeros(1, bool)
     return [release_time(case, 7 + k, 500, Settling(), stop) / hertz for k in range(count)]
 
