@@ -4,9 +4,9 @@ import numpy as np
 import pandas as pd
 
 from chatterjee1995.reading import datasets as reading
+from chatterjee1995.stages.design_rules import RULES, rule_ratios
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import damper_of, decode, oscillator_of, parameters_of
-from impact_damper.theory.optimum_clearance import RULES, rule_ratios
 
 WITHIN = (1, 10)  # errors in per cent within which predicted optima are counted
 # The value of rm W^2 d0 that each rule gives, or the model from which it follows.

@@ -1,4 +1,4 @@
-"""The optimum ratio rm W^2 d0/f, 1 by rule (18), by harmonic balance and by closed-form rules."""
+"""The optimum clearance by harmonic balance: a sweep of (7), and where its amplitude is zero."""
 
 from dataclasses import replace
 
@@ -8,22 +8,9 @@ from scipy.optimize import brentq
 from impact_damper.data.datasets import flag
 from impact_damper.theory import single_harmonic as balance
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
-from impact_damper.theory.straight_flight import (
-    Flight,
-    elastic_ratios,
-    flight_of,
-    least_displacement_ratio,
-    least_harmonic_ratio,
-)
 
-# rm W^2 d0 at which the first harmonic of Z2, 8 d0/pi^2 in a straight flight between rigid walls,
-# equals f/(rm W^2), with which the primary mass is at rest, as rule (18) requires.
-FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # A solution of (7) counts as a = 0 if |a| is below ZERO_AMPLITUDE times the clearance.
 ZERO_AMPLITUDE = 1e-6
-# Quantities of Z1 that an optimum clearance minimises, and rules for it, see `rule_ratios`.
-CRITERIA = ("displacement", "first_harmonic")
-RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def _analytical(oscillator, damper, frequency):
@@ -60,21 +47,3 @@ def analytical_table(oscillator, dampers, frequency):
         "analytical_status": np.array([flag("analytical_status", each) for each in status]),
         "analytical_optimum": best,
     }
-
-
-def rule_ratios(oscillator, damper, frequency):
-    """Return the optimum rm W^2 d0 for each of CRITERIA (rows) by each of RULES (columns).
-
-    The rules: (18) of the paper; the first harmonic of a straight flight; a straight flight between
-    rigid walls; its first order in the duration of a contact and in the damping; a flight with
-    damping, stiffness and inelastic contact.
-    """
-    flight = flight_of(oscillator, damper, frequency)
-    straight = Flight(damper.mass_ratio, damper.restitution)
-    elastic = elastic_ratios(flight)
-    return np.array(
-        [
-            [1.0, FIRST_HARMONIC_RATIO, least(straight), elastic[i], least(flight)]
-            for i, least in enumerate((least_displacement_ratio, least_harmonic_ratio))
-        ]
-    )

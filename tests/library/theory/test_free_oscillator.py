@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 from references.equation import KNOWN, SPRINGS
 from scipy.optimize import minimize_scalar
 
+from chatterjee1995.stages.design_rules import rule_ratios
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.theory.design_rule import peak_frequency, rule_clearance
@@ -17,7 +18,6 @@ from impact_damper.theory.free_oscillator import (
     resonance,
 )
 from impact_damper.theory.harmonic_balance import harmonic_balance
-from impact_damper.theory.optimum_clearance import rule_ratios
 from impact_damper.theory.single_harmonic import (
     impacting_solutions,
     resting_solutions,
