@@ -32,6 +32,8 @@ POINTS, NEWTON = np.linspace(-1, 1, 33), 5
 SLOPE = np.vstack([chebyshev.chebder(np.eye(len(NODES))), np.zeros(len(NODES))])
 # The fastest oscillation of the motion turns by at most this angle (radian) in a panel.
 LONGEST_ANGLE = 2.0
+# Contacts whose panels are in memory at once.
+PIECE = 100_000
 # States in a forcing cycle from which the largest displacement is estimated.
 SAMPLES = 32
 
@@ -66,10 +68,13 @@ def contact_forces(p, state, span, course, tolerance):
     Forces are divided by the primary mass. The motion is run again with the same steps, so that a
     chaotic motion has the same contacts.
     """
-    panels = _divided(p, state, span, course, tolerance, flights=False)
-    pushes = wall_force(p, *penetration(p, panels.states, panels.wall[:, None]))
-    forces = np.zeros(len(panels.log))
-    np.maximum.at(forces, panels.contact, peaks(pushes))
+    states, log = course
+    forces = np.zeros(len(log))
+    for first in range(0, len(log), PIECE):
+        part = states, log[first : first + PIECE]
+        panels = _divided(p, state, span, part, tolerance, flights=False)
+        pushes = wall_force(p, *penetration(p, panels.states, panels.wall[:, None]))
+        np.maximum.at(forces[first:], panels.contact, peaks(pushes))
     return forces
 
 

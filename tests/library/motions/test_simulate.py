@@ -13,6 +13,7 @@ from scipy.optimize import minimize_scalar
 
 import impact_damper as idm
 from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.motions import panels
 from impact_damper.motions.response import steady_orbit
 from impact_damper.motions.simulate import COMPONENTS, random_states, simulate
 
@@ -103,6 +104,16 @@ def test_the_force_of_an_impact_is_in_closed_form(restitution, rule):
     impulse = quad(lambda t: push @ state(t), 0, end, epsabs=1e-13)[0]
     loose = [(-0.4 + 1.3), state(end)[1] - float(motion.departure_velocity[0])]
     assert_allclose(-impulse, 0.2 * (loose[0] - loose[1]), rtol=1e-8)
+
+
+def test_forces_of_long_motions_do_not_depend_on_pieces(monkeypatch):
+    """In chaos a run with other steps would have other contacts."""
+    chaos = {"state": (1.0, 0.5, -0.3, 2.0), "periods": 150, "samples": 10}
+    whole = idm.simulate(PAPER, DESIGN, 1.6, **chaos)
+    monkeypatch.setattr(panels, "PIECE", 7)
+    pieces = idm.simulate(PAPER, DESIGN, 1.6, **chaos)
+    assert whole.sizes["contact"] > 100 and whole.contact_force.min() > 0
+    assert_allclose(pieces.contact_force, whole.contact_force, rtol=1e-9)
 
 
 def test_contacts_of_a_machine_in_newton_and_none_without_a_damper():
