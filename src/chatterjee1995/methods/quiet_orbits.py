@@ -1,7 +1,7 @@
 """The quiet orbit, stable or unstable, on a grid of parameters.
 
 It is a fixed point of the map over half a cycle followed by a change of sign, whose derivative is
-called the root.
+called the root. Rules for the clearance with the smallest quiet orbit stand at the end.
 """
 
 from typing import NamedTuple
@@ -13,6 +13,13 @@ from impact_damper.motions.records import SYMMETRIC, measured
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish
 from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import newton, shoot
+from impact_damper.theory.straight_flight import (
+    Flight,
+    elastic_ratios,
+    flight_of,
+    least_displacement_ratio,
+    least_harmonic_ratio,
+)
 
 # Number of contacts of the orbits in a forcing cycle.
 CONTACTS = 2
@@ -144,3 +151,29 @@ def _end(followed):
         if ahead < NEAR * SHORTEST:
             return fraction + ahead, "fold"
     return fraction, followed.status
+
+
+# rm W^2 d0 at which the first harmonic of Z2, 8 d0/pi^2 in a straight flight between rigid walls,
+# equals f/(rm W^2), with which the primary mass is at rest, as rule (18) requires.
+FIRST_HARMONIC_RATIO = np.pi**2 / 8
+# Quantities of Z1 that an optimum clearance minimises, and rules for it, see `rule_ratios`.
+CRITERIA = ("displacement", "first_harmonic")
+RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
+
+
+def rule_ratios(oscillator, damper, frequency):
+    """Return the optimum rm W^2 d0 for each of CRITERIA (rows) by each of RULES (columns).
+
+    The rules: (18) of the paper; the first harmonic of a straight flight; a straight flight between
+    rigid walls; its first order in the duration of a contact and in the damping; a flight with
+    damping, stiffness and inelastic contact.
+    """
+    flight = flight_of(oscillator, damper, frequency)
+    straight = Flight(damper.mass_ratio, damper.restitution)
+    elastic = elastic_ratios(flight)
+    return np.array(
+        [
+            [1.0, FIRST_HARMONIC_RATIO, least(straight), elastic[i], least(flight)]
+            for i, least in enumerate((least_displacement_ratio, least_harmonic_ratio))
+        ]
+    )

@@ -10,20 +10,14 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from tqdm import tqdm
 
-from chatterjee1995.methods.quiet_orbits import compliant_orbit
+from chatterjee1995.methods.quiet_orbits import CRITERIA, RULES, compliant_orbit, rule_ratios
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.variables import register
 from impact_damper.model.packed import CLEARANCE, FREQUENCY, pack
 from impact_damper.model.parameters import Damper, describe
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, strobe_time
 from impact_damper.motions.traces import states_at
-from impact_damper.theory.straight_flight import (
-    Flight,
-    elastic_ratios,
-    flight_of,
-    least_displacement_ratio,
-    least_harmonic_ratio,
-)
+from impact_damper.theory.straight_flight import flight_of
 
 register(
     """
@@ -43,12 +37,6 @@ rule_excess | mass_ratio restitution contact_stiffness frequency rule | | | rela
     """
 )
 
-# rm W^2 d0 at which the first harmonic of Z2, 8 d0/pi^2 in a straight flight between rigid walls,
-# equals f/(rm W^2), with which the primary mass is at rest, as rule (18) requires.
-FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# Quantities of Z1 that an optimum clearance minimises, and rules for it, see `rule_ratios`.
-CRITERIA = ("displacement", "first_harmonic")
-RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
 SAMPLES = 1024  # values of Z1 in a cycle for the integral of the first harmonic
 SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
@@ -98,24 +86,6 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
         "rule_ratio": rules,
         "rule_excess": np.where(np.isfinite(reached), reached / found[0][0] - 1, np.nan),
     }
-
-
-def rule_ratios(oscillator, damper, frequency):
-    """Return the optimum rm W^2 d0 for each of CRITERIA (rows) by each of RULES (columns).
-
-    The rules: (18) of the paper; the first harmonic of a straight flight; a straight flight between
-    rigid walls; its first order in the duration of a contact and in the damping; a flight with
-    damping, stiffness and inelastic contact.
-    """
-    flight = flight_of(oscillator, damper, frequency)
-    straight = Flight(damper.mass_ratio, damper.restitution)
-    elastic = elastic_ratios(flight)
-    return np.array(
-        [
-            [1.0, FIRST_HARMONIC_RATIO, least(straight), elastic[i], least(flight)]
-            for i, least in enumerate((least_displacement_ratio, least_harmonic_ratio))
-        ]
-    )
 
 
 class QuietMotion:

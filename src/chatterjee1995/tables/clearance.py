@@ -3,8 +3,8 @@
 import numpy as np
 import pandas as pd
 
+from chatterjee1995.methods.quiet_orbits import RULES, rule_ratios
 from chatterjee1995.reading import datasets as reading
-from chatterjee1995.stages.design_rules import RULES, rule_ratios
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import damper_of, decode, oscillator_of, parameters_of
 

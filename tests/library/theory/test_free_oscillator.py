@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from references.equation import KNOWN, SPRINGS
 from scipy.optimize import minimize_scalar
 
-from chatterjee1995.stages.design_rules import rule_ratios
+from chatterjee1995.methods.quiet_orbits import rule_ratios
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.theory.design_rule import peak_frequency, rule_clearance
