@@ -13,22 +13,15 @@ class Stage(NamedTuple):
     # Method of an entry: from the whole configuration the keywords of `function`, in forms that
     # `workflow.job.made` reads.
     job: Callable
-    # Function that computes the dataset, as "module:function".
-    function: str
-    # What a run prints for a job.
-    message: str
-    # Keyword of the function -> stages whose datasets of the same entry it gets.
-    reads: dict = {}
-    # Keyword of the function -> JSON file of the project that it gets.
-    files: dict = {}
-    # Whether one job computes all entries, because its start takes longer than its work.
-    together: bool = False
+    function: str  # computes the dataset, as "module:function"
+    message: str  # printed for a job
+    reads: dict = {}  # keyword of the function -> stages whose datasets of the same entry it gets
+    files: dict = {}  # keyword of the function -> JSON file of the project that it gets
+    together: bool = False  # one job computes all entries: its start takes longer than its work
     # 2 for jobs for which other jobs wait, 1 for the longest jobs, which should not start last.
     priority: int = 0
-    # Whether `snakemake` without a target computes it.
-    paper: bool = True
-    # Whether each entry has a page.
-    page: bool = False
+    paper: bool = True  # computed by `snakemake` without a target
+    page: bool = False  # each entry has a page
 
 
 def stage(function, message, **options):
@@ -47,10 +40,8 @@ class Shown:
 
     name: str
     chapter: str
-    # Name of the module in the room `tables` or `figures`, or its full name.
-    module: str
-    # For a figure of `curves`: an entry must have the first of these stages.
-    stages: tuple[str, ...]
+    module: str  # name in the room `tables` or `figures`, or full name
+    stages: tuple[str, ...]  # for a figure of `curves` an entry must have the first of them
 
     room: ClassVar[str]
 
@@ -65,8 +56,7 @@ class Table(Shown):
     """A table, made by the function with its name."""
 
     room = "tables"
-    # Whether its Markdown shows figures, so that it needs their names.
-    pictures: bool = False
+    pictures: bool = False  # its Markdown shows figures and needs their names
 
 
 @dataclass(frozen=True)
@@ -74,8 +64,7 @@ class Kind(Shown):
     """A kind of figure, drawn by the function `draw_<name>`."""
 
     room = "figures"
-    # Largest number of entries in a figure.
-    most: int = 6
+    most: int = 6  # largest number of entries in a figure
     # Whether entries of `curves` must have a damper, or must have none. If they have one, a figure
     # with `branches` also draws those of the same oscillators without a damper.
     damper: bool = True
