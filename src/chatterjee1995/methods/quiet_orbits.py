@@ -15,7 +15,6 @@ from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import newton, shoot
 from impact_damper.theory.straight_flight import (
     Flight,
-    elastic_ratios,
     flight_of,
     least_displacement_ratio,
     least_harmonic_ratio,
@@ -156,9 +155,24 @@ def _end(followed):
 # rm W^2 d0 at which the first harmonic of Z2, 8 d0/pi^2 in a straight flight between rigid walls,
 # equals f/(rm W^2), with which the primary mass is at rest, as rule (18) requires.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
+# Impulse q and phase of the turning point for equal |x| there and at the impact, with elastic rigid
+# walls, without damping and stiffness: q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
+IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 # Quantities of Z1 that an optimum clearance minimises, and rules for it, see `rule_ratios`.
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
+
+
+def elastic_ratios(flight) -> tuple[float, float]:
+    """Return both optima of rm W^2 d0 for elastic contact, to first order in k and g, for l = 0."""
+    if flight.restitution != 1:
+        return np.nan, np.nan
+    contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
+    bend = (2 * IMPULSE - TURN * (np.pi - TURN)) / np.pi * damping
+    kink = 1 + ((1 - 2 / np.pi) * contact + bend) / (2 - 2 * TURN / np.pi)
+    displacement = whole * IMPULSE * (kink - contact) - flight.mass_ratio
+    harmonic = whole * (1 - contact) * np.pi**2 / 8 - flight.mass_ratio
+    return displacement, harmonic
 
 
 def rule_ratios(oscillator, damper, frequency):

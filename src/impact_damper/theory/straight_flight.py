@@ -15,9 +15,6 @@ from impact_damper.model.parameters import check_closed_form
 
 # Number of impulses q that are compared before the minimum of max |x| is refined.
 GRID = 65
-# Impulse q and phase of the turning point for equal |x| there and at the impact, with elastic rigid
-# walls, without damping and stiffness: q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
-IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 NEWTON_STEPS = 3
 # If the two characteristic roots coincide (critical damping), each is moved by APART, so that their
 # divided differences are defined.
@@ -171,15 +168,3 @@ def least_harmonic_ratio(flight) -> float:
     shift = flight.forced_lag + flight.setback
     angle = np.arctan2(2 * loss * np.cos(shift), factor - 2 * loss * np.sin(shift)) / 2
     return float(flight.ratio(np.sin(angle) / loss))
-
-
-def elastic_ratios(flight) -> tuple[float, float]:
-    """Return both optima of rm W^2 d0 for elastic contact, to first order in k and g, for l = 0."""
-    if flight.restitution != 1:
-        return np.nan, np.nan
-    contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
-    bend = (2 * IMPULSE - TURN * (np.pi - TURN)) / np.pi * damping
-    kink = 1 + ((1 - 2 / np.pi) * contact + bend) / (2 - 2 * TURN / np.pi)
-    displacement = whole * IMPULSE * (kink - contact) - flight.mass_ratio
-    harmonic = whole * (1 - contact) * np.pi**2 / 8 - flight.mass_ratio
-    return displacement, harmonic
