@@ -11,8 +11,7 @@ from impact_damper.plot.maps import contours, marked, mesh
 # Rules for the end of a contact, and titles of their panels.
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
 LEVELS = 0.01, 0.05  # errors with a contour line
-# The load axis is linear below this value and logarithmic above.
-LINEAR = 1e-3
+LINEAR = 1e-3  # the load axis is linear below this value and logarithmic above
 # Looks of the contacts of motions, in the order of the coordinate `size` of the dataset.
 MOTIONS = (
     {"color": style.BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},

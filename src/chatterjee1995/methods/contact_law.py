@@ -14,11 +14,7 @@ from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
-    """End of a contact at s = `duration`, and the realised restitution `departure`.
-
-    The outcome is "released", "no_release", or "falls_back" if the load drives the loose mass back
-    before u = 0.
-    """
+    """End of a contact, "released", "no_release" or "falls_back": s, and realised restitution."""
 
     outcome: str
     duration: float
@@ -53,9 +49,7 @@ class _Wave(NamedTuple):
     def first_fall(self):
         """Return s at the first downward zero or infinity; the first minimum is the lowest."""
         top, bottom = self.first_extrema()
-        if self(bottom) > 0:
-            return math.inf
-        return brentq(self, top, bottom, xtol=1e-15, rtol=1e-14)
+        return math.inf if self(bottom) > 0 else brentq(self, top, bottom, xtol=1e-15, rtol=1e-14)
 
 
 def _waves(restitution, load):

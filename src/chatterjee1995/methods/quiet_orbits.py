@@ -20,8 +20,7 @@ from impact_damper.theory.straight_flight import (
     least_harmonic_ratio,
 )
 
-# Number of contacts of the orbits in a forcing cycle.
-CONTACTS = 2
+CONTACTS = 2  # number of contacts of the orbits in a forcing cycle
 
 
 class CompliantOrbit(NamedTuple):
@@ -47,10 +46,8 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
 
 # Phase W T of the states. Contacts lie between about -0.2 and pi/2, and half a cycle later.
 PHASE = 0.75 * np.pi
-# Largest distance of the state of an orbit from the guess.
-REACH = 0.05
-# Shortest step between cells, divided by their distance.
-SHORTEST = 2.0**-12
+REACH = 0.05  # largest distance of the state of an orbit from the guess
+SHORTEST = 2.0**-12  # shortest step between cells, divided by their distance
 # A row ends at a fold if extrapolation predicts one within NEAR shortest steps of its last orbit.
 NEAR = 4
 

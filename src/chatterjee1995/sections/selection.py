@@ -6,8 +6,7 @@ from chatterjee1995.sections.registry import KINDS, PAPER, STAGES, TABLES, secti
 from impact_damper.model.parameters import SYMBOLS
 from impact_damper.model.text import number
 
-# If a list has more values than this, the text gives only the smallest and the largest.
-MANY = 3
+MANY = 3  # if a list has more values than this, the text gives only the smallest and the largest
 # Key of an entry that holds several values of a parameter -> name of the parameter.
 SWEPT = {
     "mass_ratios": "mass_ratio",

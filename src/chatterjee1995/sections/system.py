@@ -36,8 +36,7 @@ CLEARANCE_OR_RULE = number_or_word(
 )
 # The contact stiffness is a key of the whole configuration, common to all dampers.
 COMMON = "contact_stiffness"
-# Parameters that a damper must have.
-NEEDED = ("mass_ratio", "clearance", "restitution")
+NEEDED = ("mass_ratio", "clearance", "restitution")  # parameters that a damper must have
 
 
 def keys_of(names, *, needed=(), without=()):

@@ -7,7 +7,6 @@ import pandas as pd
 
 from impact_damper.data.datasets import named, parameters_of
 
-# Advice for each decision.
 ADVICE = {"build": "build it", "do_not_build": "do not build it"}
 
 
