@@ -1,0 +1,126 @@
+"""Dampers as they are built: their promises hold in a simulator that shares no code with ours."""
+
+import ctypes
+import functools
+import math
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from helpers.design_tasks import task
+from scipy.optimize import brentq
+from scipy.stats import binom
+
+import impact_damper as idm
+from impact_damper.design.confirm import find_gap
+from impact_damper.motions.start_states import random_starts
+
+PROGRAM = Path(__file__).parents[2] / "references" / "built.c"
+needs_compiler = pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler `cc`")
+PUMP = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.01, force=40)
+BOARD = idm.Machine(
+    mass=12,
+    linear_stiffness=2e5,
+    cubic_stiffness=5e8,
+    damping_ratio=0.01,
+    base_displacement="0.2 mm",
+)
+BUILT = {
+    "vertical": (PUMP, {"inclination": "90 deg", "friction_coefficient": 0.2, "normal_force": 2}),
+    "inclined": (PUMP, {"inclination": "30 deg", "friction_coefficient": 0.05}),
+    "on a base": (BOARD, {}),
+}
+# New starts of each design, forcing cycles of a run, and cycles before it is measured.
+NEW, CYCLES, LEAD = 400, 500, 300
+
+
+@functools.cache
+def program():
+    with tempfile.TemporaryDirectory(prefix="impact-damper-") as folder:
+        library = Path(folder) / "built.so"
+        command = ["cc", "-O2", "-std=c11", "-shared", "-fPIC", "-o", library, PROGRAM, "-lm"]
+        subprocess.run(command, check=True)
+        found = ctypes.CDLL(str(library)).largest
+    row = np.ctypeslib.ndpointer(float, flags="C")
+    found.argtypes, found.restype = [row, row, *[ctypes.c_double] * 5], ctypes.c_double
+    return found
+
+
+def dashpot(restitution):
+    """Return the damping ratio z for e = exp(-(pi - 2 a) tan a), z = sin a."""
+    logarithm = math.log(restitution)
+    return math.sin(brentq(lambda a: (math.pi - 2 * a) * math.tan(a) + logarithm, 0, 1.5))
+
+
+def by_program(machine, damper, hertz, state, cycles, lead, steps=200):
+    """Return the largest displacement, m, from a state in SI units at W T = 0 on."""
+    angular = 2 * math.pi * hertz
+    reduced = machine.mass * damper.mass / (machine.mass + damper.mass)
+    natural = math.sqrt(damper.contact_stiffness / reduced)
+    given = [
+        machine.mass,
+        2 * machine.damping_ratio * math.sqrt(machine.linear_stiffness * machine.mass),
+        machine.linear_stiffness,
+        machine.cubic_stiffness,
+        machine.force or 0.0,
+        (machine.base_displacement or 0.0) * angular**2,
+        damper.mass,
+        damper.gap / 2,
+        damper.contact_stiffness,
+        2 * dashpot(damper.restitution) * natural * reduced,
+        damper.gravity,
+        damper.friction,
+        angular,
+    ]
+    times = 0.0, lead / hertz, cycles / hertz, 1 / (steps * hertz), 30 / (steps * natural)
+    return program()(np.array(given), np.array(state, float), *times)
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", BUILT)
+def test_both_programs_compute_the_same_motion(name):
+    machine, mount = BUILT[name]
+    damper = machine.damper(
+        mass=0.6, gap="8 mm", restitution=0.6, contact_stiffness=1e6, mount=mount
+    )
+    state = (1e-3, 0.1, 1e-3, 0.3)
+    found = idm.simulate(machine, damper, 20.5, state, start=0.0, periods=4, samples=4000)
+    expected = by_program(machine, damper, 20.5, state, 4, 0, 4000)
+    assert float(np.abs(found.displacement).max()) == pytest.approx(1e3 * expected, rel=1e-6)
+    assert found.sizes["contact"] > 2
+
+
+@pytest.mark.thorough
+@needs_compiler
+@pytest.mark.parametrize("name", BUILT)
+def test_new_starts_keep_the_promise(name):
+    """At the worst frequency, at the nominal gap and at the deviating one that is worst."""
+    machine, mount = BUILT[name]
+    made = task(
+        machine=machine,
+        mass=1.2,
+        restitution=0.6,
+        contact=1e6,
+        mount=mount,
+        band=(20.3, 20.7),
+        tolerances={"gap": 0.05},
+        frequencies=5,
+        candidates=8,
+        starts=93,
+    )
+    found = find_gap(made)
+    gap, promised = 1e-3 * found["design_gap"].item(), found["promised_displacement"].item()
+    worst, sets = found["promised_frequency"].item(), found["promise_factor"].values
+    assert promised < 0.5 * made.bare.max()
+    exceeded = 0
+    for k, factors in enumerate((sets[0], sets[int(found["promised_set"])])):
+        system = made.system(gap, worst, tuple(factors))
+        states, _ = random_starts(*system, NEW // 2, [33, k], made.effort.settling)
+        states *= [made.scales.to_si(1.0, kind) for kind in ("displacement", "velocity")] * 2
+        damper = made.damper(gap, tuple(factors))
+        runs = (by_program(machine, damper, worst, each, CYCLES, LEAD) for each in states)
+        exceeded += sum(1e3 * size > promised for size in runs)
+    assert exceeded <= binom.ppf(0.999, NEW, 0.05)
