@@ -4,9 +4,10 @@ import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import FuncFormatter
 
+from chatterjee1995.figures.rigid_limit import contours
 from impact_damper.data.datasets import decode
 from impact_damper.plot import style
-from impact_damper.plot.maps import contours, marked, mesh
+from impact_damper.plot.maps import marked, mesh
 
 # Rules for the end of a contact, and titles of their panels.
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}

@@ -5,10 +5,18 @@ from matplotlib.colors import LogNorm
 
 from impact_damper.data.datasets import parameters_of
 from impact_damper.plot import style
-from impact_damper.plot.maps import contours, mesh
+from impact_damper.plot.maps import mesh
 
 SMALLEST = 1e-4  # lower end of the colour scale
 OWN = style.line("$r_1$ of the damper", style.BLACK, linewidth=0.6, linestyle=(0, (6, 3)))
+
+
+def contours(axes, x, y, error, levels):
+    """Draw a contour line for each level of an error, with an entry in the legend."""
+    for level, line in zip(levels, ("solid", "dotted"), strict=True):
+        if np.nanmin(error) < level < np.nanmax(error):
+            axes.contour(x, y, error, [level], colors=style.BLACK, linewidths=0.8, linestyles=line)
+        axes.plot([], [], color=style.BLACK, linestyle=line, label=f"error of {100 * level:g} %")
 
 
 @style.context()

@@ -52,7 +52,7 @@ def subharmonic_suppression(
 
     These take the place of `frequencies`; half of the starts switch the damper on during it.
     """
-    if oscillator.is_linear:
+    if oscillator.cubic == 0:
         raise ValueError(
             "cubic = 0: must not be 0 (without the damper a linear spring has no subharmonic)"
         )

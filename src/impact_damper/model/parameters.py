@@ -125,11 +125,6 @@ class Oscillator:
         return ", ".join(found)
 
     @property
-    def is_linear(self) -> bool:
-        """Whether the spring is linear."""
-        return not self._terms
-
-    @property
     def softens(self) -> bool:
         """Whether the spring pushes outward at large |Z1|, so that a motion may escape."""
         highest = max(self._terms, key=NONLINEAR.get, default="cubic")

@@ -45,7 +45,6 @@ QUANTITIES = {
     "time": Quantity("s", time=1),
     "frequency": Quantity("Hz", time=-1),
     "rate": Quantity("1/s", time=-1),
-    "sweep_rate": Quantity("Hz/s", time=-2),
     "velocity": Quantity("m/s", length=1, time=-1),
     "acceleration": Quantity("m/s^2", length=1, time=-2),
     "force": Quantity("N", length=1, time=-2, mass=1),
@@ -55,7 +54,6 @@ QUANTITIES = {
     "unbalance": Quantity("kg m", length=1, mass=1),
     "pressure": Quantity("Pa", length=-1, time=-2, mass=1),
     "impulse": Quantity("N s", length=1, time=-1, mass=1),
-    "energy": Quantity("J", length=2, time=-2, mass=1),
     "power": Quantity("W", length=2, time=-3, mass=1),
 }
 # Text holds a number and units with powers: pint would evaluate any expression, however long.
@@ -128,7 +126,7 @@ def _factor(text, unit):
         factor = (one / target).to_root_units()
     except (pint.PintError, AttributeError, ValueError, TypeError):
         return None
-    turns = 2 * math.pi if unit in ("Hz", "Hz/s") and "radian" in str(one.units) else 1.0
+    turns = 2 * math.pi if unit == "Hz" and "radian" in str(one.units) else 1.0
     return factor.magnitude / turns if factor.dimensionless else None
 
 
@@ -198,7 +196,7 @@ class Scales(NamedTuple):
         value = self.length**each.length * self.time**each.time * self.mass**each.mass
         if kind == "gap":
             return 2 * value
-        return value / (2 * math.pi) if kind in ("frequency", "sweep_rate") else value
+        return value / (2 * math.pi) if kind == "frequency" else value
 
     def to_si(self, value, kind):
         """Return the SI value of a dimensionless number or array."""

@@ -39,14 +39,6 @@ def hatch(axes, x, y, where, **look):
     axes.add_patch(PathPatch(path, facecolor="none", rasterized=True, **look))
 
 
-def contours(axes, x, y, error, levels):
-    """Draw a contour line for each level of an error, with an entry in the legend."""
-    for level, line in zip(levels, ("solid", "dotted"), strict=True):
-        if np.nanmin(error) < level < np.nanmax(error):
-            axes.contour(x, y, error, [level], colors=style.BLACK, linewidths=0.8, linestyles=line)
-        axes.plot([], [], color=style.BLACK, linestyle=line, label=f"error of {100 * level:g} %")
-
-
 def edges_of(centres):
     """Return the edges of at least two cells, midway between their centres, shape (n + 1,)."""
     middles = (centres[1:] + centres[:-1]) / 2
