@@ -57,7 +57,12 @@ TABLES = {
         ("impact_rate_by_frequency", "impacts", "per second", 1),
         ("impact_power_by_frequency", "mean power lost in impacts, which becomes heat", "W", 1),
         ("pressure_by_frequency", "largest pressure after Hertz", "MPa", 1e-6),
-        ("acceleration_by_frequency", "largest acceleration of the machine", "m/s²", 1),
+        (
+            "acceleration_by_frequency",
+            "largest acceleration of the machine, with impacts",
+            "m/s²",
+            1,
+        ),
         ("absolute_displacement_by_frequency", "largest absolute displacement", "mm", 1),
     ),
 }
