@@ -70,13 +70,8 @@ def _draw_orders(axes, rigid_limit):
     for level, order in ((0.6, 0.5), (0.06, 1)):
         guide = level * (stiffness / stiffness[0]) ** -order
         axes.plot(stiffness, guide, color=style.GREY, linewidth=0.6, linestyle=":")
-        axes.annotate(
-            rf"$r_1^{{-{order:g}}}$",
-            (stiffness[-1], guide[-1]),
-            color=style.GREY,
-            ha="left",
-            va="center",
-        )
+        place, look = (stiffness[-1], guide[-1]), {"color": style.GREY, "ha": "left"}
+        axes.annotate(rf"$r_1^{{-{order:g}}}$", place, va="center", **look)
     axes.axvline(parameters_of(data)["contact_stiffness"], **OWN)
     axes.set(
         xscale="log",

@@ -59,19 +59,11 @@ def missed_contacts(
         "expected_unseen": _expected(drawn, depths, steps, 2 * math.pi / p[FREQUENCY]),
         "fixed_steps": steps,
     }
-    made = describe(oscillator) | {
-        "frequency": frequency,
-        "passages": passages,
-        "radius": radius,
-        "seed": seed,
-        "reference_tolerance": TOLERANCE,
-    }
-    coordinates = {
-        "integrator": list(integrators("missed_contacts")),
-        "method_tolerance": tolerances,
-        "depth": depths,
-        "contact_outcome": list(OUTCOMES),
-    }
+    made = describe(oscillator) | {"frequency": frequency, "passages": passages, "radius": radius}
+    made |= {"seed": seed, "reference_tolerance": TOLERANCE}
+    names = list(integrators("missed_contacts"))
+    coordinates = {"integrator": names, "method_tolerance": tolerances, "depth": depths}
+    coordinates["contact_outcome"] = list(OUTCOMES)
     return dataset(data, coordinates, made, "Contacts missed near grazing")
 
 

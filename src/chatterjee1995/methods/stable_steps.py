@@ -120,12 +120,9 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
         "contact_frequency": contact,
     }
     made = describe(oscillator, damper) | {"frequency": frequency, "periods": periods}
-    coordinates = {
-        "fixed_method": [method.name for method in methods],
-        "contact_stiffness": stiffnesses,
-        "scaled_step": scaled,
-        "accuracy": list(ACCURACIES),
-    }
+    names = [method.name for method in methods]
+    coordinates = {"fixed_method": names, "contact_stiffness": stiffnesses}
+    coordinates |= {"scaled_step": scaled, "accuracy": list(ACCURACIES)}
     return dataset(data, coordinates, made, "Largest steps that keep the quiet motion")
 
 

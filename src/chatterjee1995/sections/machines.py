@@ -24,12 +24,8 @@ class Machine(machine_file.MachineEntry):
         damper, ball = self.damper.values(), self.contact.values()
         stiffness = damper.pop("contact_stiffness", None)
         mount = {key: damper.pop(key) for key in MOUNT if key in damper}
-        effort = {
-            "frequencies": self.band.points,
-            "candidates": self.candidates,
-            "starts": self.starts,
-            "seed": config.seed,
-        }
+        effort = {"frequencies": self.band.points, "candidates": self.candidates}
+        effort |= {"starts": self.starts, "seed": config.seed} | config.settling.job()
         return (
             {"system": {"Machine": self.machine.values()}}
             | damper
@@ -41,7 +37,7 @@ class Machine(machine_file.MachineEntry):
                 "displacement_limit": self.displacement_limit,
                 "tolerances": self.tolerances.values(),
                 "absorber": self.absorber.values() or None,
-                "effort": {"Effort": effort | config.settling.job()},
+                "effort": {"Effort": effort},
             }
         )
 

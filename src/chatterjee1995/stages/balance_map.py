@@ -190,11 +190,9 @@ def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers
         "high_run_outcome": high_runs["outcome"],
         "high_verdict": _high_verdict(balance, high_kind, high_runs["maximum_displacement"]),
     }
-    coordinates = {
-        "map_value": np.asarray(values, float),
-        "frequency_ratio": np.asarray(frequency_ratios, float),
-        "edge": ["lower", "upper"],
-    }
+    coordinates = {"map_value": np.asarray(values, float)}
+    coordinates |= {"frequency_ratio": np.asarray(frequency_ratios, float)}
+    coordinates |= {"edge": ["lower", "upper"]}
     made = fixed | {"parameter": parameter} | vars(settling)
     return dataset(data, coordinates, made, "Harmonic balance against the true motions")
 

@@ -24,13 +24,8 @@ def collisions(
         met = np.isfinite(waits)
         shares[row] = np.mean(waits == 0), np.mean(met), np.max(waits[met], initial=0.0)
     data = dict(zip(("beyond_wall", "colliding", "longest_wait"), shares.T, strict=True))
-    made = describe(oscillator, damper) | {
-        "frequency": float(frequency),
-        "starts": starts,
-        "radius": radius,
-        "seed": seed,
-        "periods": periods,
-    }
+    made = describe(oscillator, damper) | {"frequency": float(frequency), "starts": starts}
+    made |= {"radius": radius, "seed": seed, "periods": periods}
     return dataset(data, {"ball": ["literal", "within_gap"]}, made, "First collisions")
 
 

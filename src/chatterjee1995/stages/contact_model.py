@@ -76,13 +76,8 @@ def contact_model(
     made = describe(oscillator, damper, settling)
     made |= {"starts": starts, "periods": periods, "seed": seed, "frequencies": list(frequencies)}
     del made["restitution"]
-    coordinates = {
-        "exit_rule": list(EXIT_RULES),
-        "load": loads,
-        "restitution": restitutions,
-        "used": used,
-        "size": list(SIZES),
-    }
+    coordinates = {"exit_rule": list(EXIT_RULES), "load": loads, "restitution": restitutions}
+    coordinates |= {"used": used, "size": list(SIZES)}
     return dataset(data, coordinates, made, "The contact model over restitution and load")
 
 

@@ -183,12 +183,9 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
         data["series_error"] = errors(solutions, multipliers, exact)
     data |= decay_table(harmonics, data, damper, p, exact)
     made = describe(oscillator, damper) | {"frequency": float(frequency)}
-    return dataset(
-        data,
-        {"highest_harmonic": harmonics, "error_measure": list(MEASURES)},
-        made,
-        "Harmonic balance with many harmonics against the exact orbit",
-    )
+    coordinates = {"highest_harmonic": harmonics, "error_measure": list(MEASURES)}
+    title = "Harmonic balance with many harmonics against the exact orbit"
+    return dataset(data, coordinates, made, title)
 
 
 def cold_status(warm, first) -> int:

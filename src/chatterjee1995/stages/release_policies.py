@@ -93,13 +93,8 @@ def release_policies(
     for name in ("mass_ratio", "clearance", "restitution"):
         data[f"case_{name}"] = [getattr(damper, name) for damper in dampers]
     made = describe(oscillator, settling) | {"trials": trials, "seed": seed}
-    coordinates = {
-        "case": np.arange(len(dampers)),
-        "frequency": frequencies,
-        "policy": POLICIES,
-        "quantile": QUANTILES,
-        "bound": BOUNDS,
-    }
+    coordinates = {"case": np.arange(len(dampers)), "frequency": frequencies}
+    coordinates |= {"policy": POLICIES, "quantile": QUANTILES, "bound": BOUNDS}
     return dataset(data, coordinates, made | {"cells": cells}, "Policies of migration")
 
 

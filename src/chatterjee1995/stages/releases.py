@@ -84,16 +84,9 @@ def migration(
     data |= release_data(case, known, entries, settling)
     coordinates = {"time": times, "bound": BOUNDS}
     coordinates |= {"damped_motion": KINDS, "free_motion": DESTINATIONS}
-    made = describe(oscillator, damper, settling) | {
-        "frequency": frequency,
-        "longest_hold": longest_hold,
-        "periods": periods,
-        "largest_switchings": switchings,
-        "trials": trials,
-        "releases": releases,
-        "lifetime": lifetime,
-        "seed": seed,
-    }
+    made = describe(oscillator, damper, settling) | {"frequency": frequency}
+    made |= {"longest_hold": longest_hold, "periods": periods, "largest_switchings": switchings}
+    made |= {"trials": trials, "releases": releases, "lifetime": lifetime, "seed": seed}
     return dataset(data, coordinates, made, "Migration control")
 
 
@@ -251,11 +244,8 @@ def release_scan(
     data = {name: (("frequency", *VARIABLES[name].dims), values) for name, values in data.items()}
     made = describe(oscillator, damper, settling) | describe_search(starts, radius, seed)
     made |= {"releases": releases, "lifetime": lifetime}
-    coordinates = {
-        "frequency": response["frequency"].values,
-        "free_motion": DESTINATIONS,
-        "bound": BOUNDS,
-    }
+    coordinates = {"frequency": response["frequency"].values}
+    coordinates |= {"free_motion": DESTINATIONS, "bound": BOUNDS}
     return dataset(data, coordinates, made, "Free motions to which releases of the damper lead")
 
 

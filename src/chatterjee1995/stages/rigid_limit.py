@@ -61,11 +61,8 @@ def rigid_limit(
     }
     made = describe(oscillator, damper, settling)
     made |= {"frequency": float(frequency), "starts": starts, "seed": seed}
-    coordinates = {
-        "frequency": frequencies,
-        "stiffness": stiffnesses,
-        "threshold": list(THRESHOLDS),
-    }
+    coordinates = {"frequency": frequencies, "stiffness": stiffnesses}
+    coordinates["threshold"] = list(THRESHOLDS)
     return dataset(data, coordinates, made, "Rigid impacts against compliant contact")
 
 

@@ -104,18 +104,15 @@ def release_policies(datasets) -> pd.DataFrame:
         for place in np.ndindex(*(data.sizes[dim] for dim in dims)):
             one = data.isel(dict(zip(dims, place, strict=True)))
             rm, d0, e = (float(one[f"case_{name}"]) for name in DAMPER)
+            median, most = (one.policy_cycles.sel(quantile=share) for share in (0.5, 0.95))
             rows.append(
                 {
                     "damper": f"rm = {rm:g}, d0 = {d0:g}, e = {e:g}",
                     "forcing frequency Ω": float(one.frequency),
                     "policy (K in cycles, phase ΩT in radian)": _rule(one),
                     "share within 350 cycles (95 % interval)": _with_interval(one.policy_success),
-                    "median time [cycles] (95 % interval)": _with_interval(
-                        one.policy_cycles.sel(quantile=0.5)
-                    ),
-                    "95 % arrive within [cycles]": float(
-                        one.policy_cycles.sel(quantile=0.95, bound="share")
-                    ),
+                    "median time [cycles] (95 % interval)": _with_interval(median),
+                    "95 % arrive within [cycles]": float(most.sel(bound="share")),
                     "median time with damper [cycles]": float(one.policy_damper),
                     "median number of impacts": float(one.policy_impacts),
                     "mean number of releases": float(one.policy_releases),
