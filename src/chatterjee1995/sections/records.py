@@ -41,7 +41,7 @@ class Shown:
     name: str
     chapter: str
     module: str  # name in the room `tables` or `figures`, or full name
-    stages: tuple[str, ...]  # for a figure of `curves` an entry must have the first of them
+    stages: tuple[str, ...]  # those it reads; a drawn entry of `curves` must have the first
 
     room: ClassVar[str]
 

@@ -59,8 +59,8 @@ STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 def asymptotic_harmonic(damper, frequency) -> float:
     """Return the harmonic number N above which the predicted powers can hold; 1 without a damper.
 
-    The period of harmonic N is at most the duration of a contact (appendix B). With a dashpot the
-    jump of its force, c Z2', also outweighs the jump of the slope, r1 Z2', if N is above r1/(c W).
+    The period of harmonic N is at most the duration of a contact (appendix B). With a dashpot N
+    is at least r1/(c W), above which the jump of its force, c Z2', outweighs the slope's, r1 Z2'.
     """
     if damper is None:
         return 1.0

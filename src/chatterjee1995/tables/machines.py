@@ -11,7 +11,7 @@ ADVICE = {"build": "build it", "do_not_build": "do not build it"}
 
 
 def machines(datasets) -> pd.DataFrame:
-    """Return for each machine the gap, displacements, the promise, and the tuned absorber."""
+    """Return each machine's gap, and displacements with damper, absorber and neither."""
     return pd.DataFrame([_row(name, data) for name, data in datasets.get("machines", {}).items()])
 
 

@@ -139,7 +139,7 @@ def _content(files):
 
 
 def _report_file_errors():
-    """Report errors about files in one line, also on the terminal, since a full disk has no log."""
+    """Report errors of files in one line, also on the terminal, as a full disk keeps no log."""
     terminal, show = sys.stderr, sys.excepthook
 
     def report(kind, error, trace):

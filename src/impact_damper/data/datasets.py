@@ -98,7 +98,7 @@ def in_si(data, machine, damper=None) -> xr.Dataset:
 
 
 def from_si(data, scales) -> xr.Dataset:
-    """Return a dataset in the units of a user converted to these scales."""
+    """Return a dataset of a machine made dimensionless by its scales."""
     return _converted(data, lambda values, unit: values / unit, scales) if scales.si else data
 
 

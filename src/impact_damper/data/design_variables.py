@@ -2,8 +2,8 @@
 
 from impact_damper.data.variables import register
 
-# Gaps around the chosen one keep the promised displacement up to the factor KEEPS. A damper that
-# takes less than the share WORTH off the largest displacement is not worth building.
+# Gaps around the chosen one keep the promise with up to KEEPS times its displacement. A damper that
+# lowers the largest displacement by a share below WORTH is not worth building.
 KEEPS, WORTH = 1.1, 0.25
 
 register(

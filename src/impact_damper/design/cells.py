@@ -1,8 +1,8 @@
 """Motions from random starts at cells, and the displacement that bounds a share of all starts.
 
-A cell is a gap, a forcing frequency and factors of the values that may deviate. A motion on an
-orbit counts with the largest displacement of the orbit. Motions that do not settle count with the
-record of their regime, which grows as they are run longer: docs/explanation/promise.md.
+A cell is a gap, a forcing frequency and factors of the values that may deviate. The displacement
+of a motion on an orbit is the largest of the orbit; of one that does not settle, the record
+(largest so far) of its regime, which grows as it runs on: docs/explanation/promise.md.
 """
 
 from dataclasses import dataclass, fields
@@ -28,17 +28,17 @@ DRAWN, FOLLOWED, TOGETHER = 4, 8, 8
 # Motions that do not settle belong to one regime if their records, in order of size, differ by a
 # factor of at most APART from one to the next.
 APART = 1.3
-# A regime counts with the displacement that it exceeds once in HORIZON cycles, extrapolated from
-# the TAIL largest peaks of BLOCK cycles. All its motions together are run for POOLED cycles at
-# least and for MOST_POOLED at most.
+# A regime's displacement is exceeded once in HORIZON cycles, by extrapolation from the TAIL largest
+# peaks, each of BLOCK cycles. All its motions together are run for POOLED cycles at least and for
+# MOST_POOLED at most.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
 POOLED, MOST_POOLED = 25_000, 200_000
-# A record over fewer cycles may grow by MISSING for each doubling up to POOLED.
+# A record over fewer than POOLED cycles may grow by MISSING with each doubling.
 MISSING = 0.03
 # If the records of the four quarters of a run differ by at most STEADY, the regime is a torus.
 # A motion that approaches an orbit may exceed it by as much as SLACK.
 STEADY, SLACK = 0.002, 0.001
-# Cycles in which a motion that is followed must settle to be found on an orbit.
+# A followed motion is on an orbit if it settles within CHECKED cycles.
 CHECKED = 100
 
 
@@ -105,7 +105,7 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime) -> tuple:
-        """Return the displacement with which a regime counts, whether it is known, and tested."""
+        """Return the displacement of a regime, whether it is known, and whether it was tested."""
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
         pooled = BLOCK * np.isfinite(peaks).sum()
@@ -123,14 +123,14 @@ class Motions:
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
     def numbers(self, k) -> tuple:
-        """Return the displacement with which each start of cell k counts, and if it is known."""
+        """Return the displacement of each start of cell k, and whether it is known."""
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
             sizes[regime], known[regime], _ = self.measured(k, regime)
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return displacement and place of the start of a rank in each cell, and if it is known."""
+        """Return displacement and index of the start of a rank in each cell, and if it is known."""
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)
@@ -144,7 +144,7 @@ class Motions:
         return any(known and not tested for _, known, tested in results)
 
     def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
-        """Return the bounds of all cells, after the largest one is known, if it is above `least`.
+        """Follow motions until a largest bound above `least` is known; return all bounds.
 
         Cells `left_out` are not followed.
         """
@@ -162,8 +162,7 @@ class Motions:
     def follow(self, k, regime) -> None:
         """Run the motions of a regime of cell k as long again, or at first for half of POOLED.
 
-        What was measured before they were followed is forgotten, because transients may have
-        lasted.
+        What was measured before they were followed is forgotten, as it may include transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):

@@ -15,11 +15,11 @@ from impact_damper.design.task import NOMINAL, SIDES, VARIED, Task, labelled
 # A promised displacement is confirmed once it is at most CONFIRMED times the value of any other gap
 # in the search. At most ROUNDS gaps are tried.
 CONFIRMED, ROUNDS = 1.1, 4
-# A promised displacement above SURPRISE times the one of the search is also looked for nearby.
+# If a promised displacement exceeds SURPRISE times that of the search, nearby gaps are run.
 SURPRISE = 1.1
-# Gaps around the chosen one keep the promised displacement up to this factor.
+# Nearby gaps keep the promise with up to this multiple of its displacement.
 KEEPS = 1.1
-# A damper that takes less than this share off the largest displacement is not worth building.
+# A damper that lowers the largest displacement by less than this share is not worth building.
 WORTH = 0.25
 
 
@@ -31,14 +31,14 @@ class Tried(NamedTuple):
 
     @property
     def harmful(self) -> np.ndarray:
-        """Nominal factors, and the worst ones of the values other than the gap."""
+        """Nominal factors, and the worst set with the nominal gap."""
         worst = self.promise.sets[self.promise.worst[0]].copy()
         worst[0] = 1
         return np.unique([NOMINAL, worst], axis=0)
 
     @property
     def by_gap(self) -> float:
-        """Promised displacement if at most the gap deviates, mm."""
+        """Promised displacement if only the gap deviates, mm."""
         only = (self.promise.sets[:, 1:] == 1).all(axis=1)
         return float(self.promise.by_set()[only].max())
 
@@ -79,7 +79,7 @@ def confirm(task, gap, turn, sets, progress=None) -> Tried:
 
 
 def learn(task, tried, turn, curve, progress=None) -> None:
-    """Put what a promise shows into the curve, and look nearby if it is worse than expected."""
+    """Put the sizes of a promise into the curve; run nearby gaps if it is above expectation."""
     gap, promise = tried.gap, tried.promise
     sizes, factors = promise.by_set(), promise.sets[:, 0]
     expected = curve.within(*np.array(task.gap_ends(gap))[:, None])[0]

@@ -16,7 +16,7 @@ from impact_damper.model.arguments import read_system
 from impact_damper.model.bounds import names_arguments, shown
 from impact_damper.model.machine import Machine, describe_si
 
-# Errors that numerical methods raise; an addition that fails with one of them is named.
+# Numerical errors, which end an addition (see `answer`) but not the design.
 NUMERICAL = (ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError)
 
 

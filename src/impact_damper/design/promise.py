@@ -17,9 +17,9 @@ CORNERS = 8
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
 # Sets of factors after the first one begin with half of the grid, or FEWEST frequencies.
 FEWEST = 9
-# Motions are rare in a cell if its bound is larger than RARE times the displacement that twice the
-# share allowed of its starts exceeds. Such a cell is run again with MORE times as many starts, SOME
-# cells at once, until one keeps its bound up to KEPT.
+# A cell has rare motions if its bound is above RARE times the displacement that twice the allowed
+# share of its starts exceeds. SOME such cells at once are run with MORE times as many starts, until
+# the new bound of one is above KEPT times the old.
 RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
@@ -34,8 +34,8 @@ class Promise:
     bounds : array, shape (cells,)
         Displacement, mm, below which the machine stays from at least `task.share` of the starts.
     peak_known, grows : bool
-        Whether the peak over the frequency is known to PEAK, and whether the record of motions
-        that do not settle exceeded its extrapolation.
+        Whether the peak over the frequency is known within PEAK, and whether motions that do not
+        settle exceeded their extrapolation.
 
     If the worst of the true quantiles of the cells exceeded the largest bound, the bound of this
     one cell would be below its own quantile, which has a probability of at most 5 %. Many cells
@@ -72,7 +72,7 @@ class Promise:
         return [Cell(self.gap, f, tuple(self.sets[k])) for k, f in cells]
 
     def _repeat_rare(self) -> None:
-        """Run cells in which rare motions decide with more starts.
+        """Run cells that have rare motions again, with more starts.
 
         Together both bounds of a cell are wrong with a probability of at most DOUBT.
         """
@@ -176,7 +176,7 @@ def factor_sets(task, gap) -> np.ndarray:
 
 
 def other_sets(task, gap) -> np.ndarray:
-    """Return the factors of all other values in `factor_sets`, with the gap as it is."""
+    """Return the `factor_sets` of all other values, with the nominal gap."""
     rows = factor_sets(task, gap)
     rows[:, 0] = 1
     return np.unique(rows, axis=0)

@@ -111,9 +111,9 @@ class Curve:
         return max(good, key=lambda each: each.high / each.low)
 
     def keeping(self, gap, size) -> tuple:
-        """Return the ends of the gaps around `gap` with at most a size, and the sizes beyond.
+        """Return the ends of the range around `gap` with at most `size`, and the sizes beyond.
 
-        The gaps within the tolerance belong to them.
+        It includes the tolerance of the gap.
         """
         ends, beyond = [], []
         for end, step in zip(self.task.gap_ends(gap), (-1, 1), strict=True):
@@ -125,7 +125,7 @@ class Curve:
         return ends, beyond
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return factors for the worst gap within the tolerance, if it is not an end or `gap`."""
+        """Return factor sets with the worst gap tolerated, none if an end or `gap` is as bad."""
         low, high = self.task.gap_ends(gap)
         inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
         known = np.array([low, gap, high])
@@ -175,9 +175,9 @@ def middle_gap(first, last) -> float:
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
     """Return displacements (mm) at gaps (mm), and their frequency and set of factors.
 
-    A displacement is the largest one over frequencies and sets, each without the starts that are
-    half of the share allowed to exceed it. Motions that have not settled count with RECORD times
-    their largest displacement so far.
+    A displacement is the largest over frequencies and sets; in each, half of the starts that may
+    exceed it, the largest, are left out. The displacement of a motion that has not settled is
+    RECORD times the largest so far.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]

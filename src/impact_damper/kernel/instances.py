@@ -40,8 +40,8 @@ CONTACT_ORDER = 23
 #                 without the force of the wall (G), of the slope of the spring's nonlinear force
 #                 (U, for tangents); and coefficients that are the same in all steps: the forcing
 #                 without its factor cosine or sine (E), h/k (H) and D/k (D)
-# A tangent has its STATE, a number KEPT while the loose mass sticks, and then the TANGENT_SERIES of
-# its Z1 (DX) and penetration (DQ).
+# A tangent has its STATE, the Z2 that it keeps if the loose mass sticks (KEPT), and the
+# TANGENT_SERIES of Z1 (DX) and penetration (DQ).
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
@@ -136,7 +136,7 @@ class Writer:
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return the expression for a tangent's entry in the k-th row after `row` or the first."""
+        """Return the expression for a tangent's entry k rows after `row`, or after the first."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
@@ -188,7 +188,7 @@ class Writer:
     def series(self, phase, across=False):
         """Return a kernel that fills the series of a step: X and G, and in contact Q.
 
-        The one with `across` has the acceleration that acts on the loose mass alone (`across`).
+        With `across` it includes the acceleration of the loose mass alone (module `across`).
         """
         lines = [
             f"cosine = {self.at('COSINE')}",

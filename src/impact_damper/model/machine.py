@@ -362,8 +362,8 @@ def mounting(
     """Return gravity along the gap (m/s^2) and friction (N) of a loose mass (kg), keyed by name.
 
     `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
-    default 0; `normal_force` (N) is between the loose mass and its floor, by default the weight
-    across the gap. Gravity or friction may be given in place of the values that they follow from.
+    default 0; `normal_force` (N) presses the loose mass on its floor, by default the weight
+    normal to the gap. Gravity or friction may be given in place of the values they follow from.
     ValueError if two values exclude each other.
     """
     mass = check_si("mass", mass, "mass", above=0)

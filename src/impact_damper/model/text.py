@@ -1,4 +1,4 @@
-"""Numbers as text for people: the one place that rounds, and that words a missing number.
+"""Numbers as text for people: only here are they rounded, and missing ones named.
 
 This module imports no NumPy, because Snakemake reads it at every dry run.
 """

@@ -207,7 +207,7 @@ def find_rotation(points):
     The number (revolutions, from 0 to 1/2) is the average advance of the angle around the average
     of the complex points, stretched to the same spread in all directions: on a slender curve the
     angle advances mainly at the ends. The error is the largest difference between the numbers of
-    three parts of the orbit. Sorted by phase, the points of a closed curve go around once.
+    three parts of the orbit. On a closed curve points sorted by phase go around once.
     """
     if len(points) < FEWEST:
         return None

@@ -50,7 +50,7 @@ def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
 def newton(orbit, reach=None) -> Orbit:
     """Return the orbit with the smallest residual among the iterates of Newton's method.
 
-    With `reach` it stops at the first converged orbit, or further than this from the guess.
+    With `reach` it ends with the first converged orbit, or at this distance from the guess.
     """
     states, best, maps = orbit.states, orbit, 1
     for _ in range(ITERATIONS):

@@ -35,7 +35,7 @@ ESCAPED = style.markers("escapes", style.GREY, "^", markersize=5, clip_on=False)
 
 @style.context()
 def draw_answer(data):
-    """Return the displacement over the frequency, and over the gap."""
+    """Return a figure of displacements over frequency and gap."""
     drawn = style.figure("double", 2.9)
     left, right = drawn.subplots(1, 2)
     frequency_panel(left, data)
@@ -45,7 +45,7 @@ def draw_answer(data):
 
 
 def frequency_panel(axes, data):
-    """Draw displacements against the forcing frequency, and the motions behind them."""
+    """Draw displacements against the forcing frequency, and the single motions."""
     frequency = data["promise_frequency"].values
     plot_sizes(axes, frequency, data["promise_bare_displacement"].values, **BARE)
     if "competitor_displacement" in data:
@@ -115,7 +115,7 @@ def gap_panel(axes, data):
 
 @style.context()
 def draw_forces(data):
-    """Return the displacement over the band against the excitation, beside none and an absorber."""
+    """Return a figure of displacement against excitation: with damper, absorber and neither."""
     if not {"force_map_displacement", "competitor_displacement"} <= set(data):
         return None
     drawn = style.figure("double", 2.8)
@@ -143,7 +143,7 @@ def draw_forces(data):
 
 @style.context()
 def draw_transients(data):
-    """Return the largest displacement in each cycle of two sweeps and of the unforced decay."""
+    """Return a figure of the displacement per cycle of two sweeps and the unforced decay."""
     if "sweep_envelope" not in data:
         return None
     drawn = style.figure("double", 2.8)
@@ -179,7 +179,7 @@ def _shade_outside_band(axes, data):
 
 @style.context({"axes.labelsize": 8.0, "lines.markersize": 2.6})
 def draw_machines(*, machines):
-    """Return displacements over frequency and gap of each machine, from a list of datasets."""
+    """Return a figure of displacements over frequency and gap, with a row for each machine."""
     drawn = style.figure("double", 1.0 + 1.75 * len(machines))
     panels = drawn.subplots(len(machines), 2, squeeze=False)
     for (left, right), data, letter in zip(panels, machines, ascii_lowercase, strict=False):

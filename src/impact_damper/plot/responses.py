@@ -32,7 +32,7 @@ SIZES = {
 def response(data, axes=None):
     """Draw displacement against forcing frequency.
 
-    Stable orbits with a damper are drawn if no motions with a damper are.
+    Stable orbits with a damper are drawn unless such motions are given.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw orbits without a damper, or with one those of period 1 and, if `stable`, stable ones."""
+    """Draw free orbits; with a damper, unstable ones of period 1 and, if `stable`, stable ones."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return

@@ -122,7 +122,7 @@ class Merson(FixedStep):
         times, states, status, work = [np.array([begin])], [start[None]], "ended", 0
         ends, period = np.empty((MOST_ENDS, 5)), 2 * math.pi / p[FREQUENCY]
         y, side, h = start.copy(), side_of(p, start), FIRST * period
-        # Each cycle is integrated from the same time, whose rounding errors then do not grow.
+        # Each cycle starts at the time `begin`, so rounding errors of the time do not grow.
         for k in range(periods):
             side, h, steps, tries = advance_merson(
                 p, y, side, begin, begin + period, h, tolerance, locate, ends

@@ -33,7 +33,7 @@ PARTS = 8  # parts of a step, in each of which a velocity is assumed to vanish a
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Fill `rows` with steps of y from t to `end`; return their number, and time and wall then."""
+    """Fill `rows` with steps of y from t to `end`; return their number, the last time and wall."""
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
@@ -56,7 +56,7 @@ def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order
 
 
 def steps_of(orders):
-    """Return addresses of both step kernels and of the shared series, and the workspace size."""
+    """Return addresses of both step kernels and of `constant_series`, and the workspace size."""
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.constant_series
     return np.array([*(compiled(each).address for each in called), module.SIZE])

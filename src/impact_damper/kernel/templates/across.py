@@ -1,8 +1,8 @@
 """Template (see `step`): acceleration across, Z2'' - Z1'' without the force of a wall, and returns.
 
 It is DRAW - BASE A cos(W T): the component of gravity along the gap, and the acceleration of a
-moving base, which acts on both masses where Z1 is measured from the base. SWAY is its integral over
-the step, taken twice from 0. Both are 0 for a damper without gravity on a base at rest.
+moving base, which acts on both masses where Z1 is measured from the base. SWAY is its double
+integral from the step's beginning. Both are 0 for a damper without gravity on a base at rest.
 """
 
 import math
@@ -78,10 +78,10 @@ def find_return(a):
     """Find the contact within [0, T] of lanes whose loose mass begins behind the wall's surface.
 
     There the wall pushes again once f = q + LAG q' rises to zero at a depth q > 0; otherwise a
-    contact begins at q = 0 as usual. MODE, WALL, T and the rows END_ become those of
-    `find_contact`; MODE is MET_DEEP if the contact begins at a depth.
+    contact begins at q = 0 as usual. MODE, WALL, T and the rows END_ are set as by
+    `find_contact`, but MODE to MET_DEEP for a contact at a depth.
 
-    If the speed s out of the wall is certain to exceed LAG times a bound on |q''|, f falls.
+    If the speed -q' out of the wall certainly exceeds LAG times a bound on |q''|, f falls.
     """
     flight_bound(a)
     flight_jerk(a)

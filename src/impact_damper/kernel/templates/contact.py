@@ -44,8 +44,8 @@ def distance_ahead(a, i, t):
 def expect_contact(a):
     """Move T from LENGTH to the expected time of a contact, in lanes that expect a contact.
 
-    Three terms of the series decide whether a lane expects one, and half of all terms when, so that
-    the processor need not wait for the last coefficients.
+    Three terms of the series decide whether one is expected, and half of all terms give the time,
+    so the processor need not wait for the last coefficients.
     """
     expected = 0
     for i in range(LANES):

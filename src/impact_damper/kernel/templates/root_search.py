@@ -78,9 +78,9 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
     is FAR while no such time is known; then at most one root lies between LOW and the end of the
     step. A move that would leave the bracket is replaced by bisection.
 
-    `first` is an estimate of the move to the root, such as a Newton step, and `bend` belongs to the
-    terms that it neglects. `rate` is a lower limit of the rate that `is_last_move` gets, and `fine`
-    the rounding error of the event function.
+    `first` is an estimate of the move to the root, such as a Newton step, and `bend` the part of
+    f'' that it neglects, divided by f'. `rate` is a lower limit of the rate that `is_last_move`
+    gets, and `fine` the rounding error of f.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t

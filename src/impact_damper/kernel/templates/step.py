@@ -33,8 +33,8 @@ SAFETY = 0.05
 # A flight is shortened only if its last terms exceed `largest_tail` by the factor EXCESS. Its
 # length is a prediction, and without this margin many flights would be computed twice.
 EXCESS = 4.0
-# Longest step of a loose mass that a wall no longer pushes, before it has left the wall, in units
-# of LAG, the time in which the force of the wall would fall to 1/e.
+# Longest flight that begins behind the surface of the unloaded wall (`is_outside`), in units of
+# LAG, the time in which a free wall returns to 1/e of its penetration.
 OUTSIDE = 2.0
 # A flight that cannot advance ends in a contact if its distance from the wall is below this share
 # of the clearance.
@@ -152,7 +152,7 @@ def flight_step(a):
     find_sway(a)
     for i in range(LANES):
         t = a[T + i]
-        # Within rounding of a wall the bounds on the distance leave a step that does not advance.
+        # Within rounding errors of a wall the bounds on the distance can give a step of length 0.
         near = 1.0 if a[Y2 + i] > 0.0 else -1.0
         stuck = a[TIME + i] + t == a[TIME + i] and t < a[LONGEST + i] and near * a[Y3 + i] > 0.0
         stuck = stuck and near * a[Y2 + i] > (1.0 - NEAREST) * a[CLEARANCE + i]
@@ -220,8 +220,8 @@ def dashpot_jump(a, d, direction):
     """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
 
     The dashpot's force sets in (direction -1) or ends (direction +1). Only this force jumps, so the
-    jump is proportional to the tangent's Z2, and the matrix has determinant 1. Where the force of
-    the wall begins or ends at a depth it is 0 there, and nothing jumps.
+    jump is proportional to the tangent's Z2, and the matrix has determinant 1. A force of the
+    wall that begins or ends at a depth is 0 there and does not jump.
     """
     for i in range(TANGENTS):
         j = i % LANES

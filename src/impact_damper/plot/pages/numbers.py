@@ -13,7 +13,7 @@ from impact_damper.plot.machine_figures import ENDLESS
 
 # The decay time of an unforced vibration is the time until it has fallen to this fraction.
 DECAY = 0.1
-# An end of the gaps that is this close to the end of the tolerance is called its end.
+# A range of gaps that ends this close beyond the tolerance is said to end with it.
 NEAR = 0.01
 # Additions and quantities as the page calls them.
 ADDITIONS = {
@@ -34,8 +34,8 @@ QUANTITIES = {
     "damping": "damping",
     "force": "excitation",
 }
-# Rows of tables: names of variables or keys, descriptions, units, factors of the units, and the
-# quantity that deviates.
+# Rows of tables: name of a variable or key, description, unit, factor of the unit, and key of the
+# tolerance.
 TABLES = {
     # A loose mass that hits a wall less often in a cycle is ballast.
     "HARDLY": 0.2,
