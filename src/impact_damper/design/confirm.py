@@ -174,8 +174,8 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 def rivals(task) -> xr.Dataset:
     """Return the largest displacement with a tuned absorber of the same mass, and with it detuned.
 
-    The last number is with the absorber of the task. It is NaN without one, and the others if the
-    machine has no linear stiffness to which an absorber can be tuned.
+    The last number is for the task's absorber, NaN without one. The others are NaN if the machine
+    has no linear stiffness to which an absorber can be tuned.
     """
     band = task.absorber_band
     found = absorber_responses(

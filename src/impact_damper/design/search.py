@@ -22,9 +22,9 @@ RECORD = 1.2
 # Neighbouring displacements with a larger ratio are a jump. Intervals between gaps, as logarithms,
 # are split down to SMOOTH, or FINE at a jump.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
-# Ranges of gaps whose value is at most CANDIDATE times the best are candidates. The gap is chosen
-# from the widest range among those within ALIKE of the best, in the middle of its gaps within LEVEL
-# of its least value.
+# Ranges of gaps whose value is at most CANDIDATE times the best are candidates. The widest
+# range within ALIKE times the best is chosen, and in it the middle of the gaps within LEVEL times
+# its least value.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
 # Significant digits of a gap: usual number, and largest number.

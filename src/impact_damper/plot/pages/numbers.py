@@ -160,7 +160,7 @@ def _worst_values(data):
 
 
 def _condition(data, tolerated):
-    """Return what breaks the promise first: the nearest end of the gaps, or another excitation."""
+    """Return what first breaks the promise: the nearest end of its gaps, or another excitation."""
     gap, promised = float(data["design_gap"]), float(data["promised_displacement"])
     found = []
     kinds = decode(data["keeping_end"]).values
