@@ -18,7 +18,6 @@ NATURAL = math.sqrt(2e5 / 12) / (2 * math.pi)
     [
         ({"band": (25, 30)}, r"band = 25 Hz to 30 Hz: .* resonance of the machine, at 20.55 Hz"),
         ({"band": (21, 20)}, r"band = 21 Hz to 20 Hz: must ascend"),
-        ({"band": (20,)}, r"band = .*: must be least and greatest frequency"),
         ({"band": np.linspace(20, 21, 9)}, r"`frequencies` of the effort"),
         ({"tolerances": {"gap": "0.2 N"}}, r"tolerances\['gap'\] = '0.2 N': must be a number"),
         ({"tolerances": {"force": "80 N"}}, r"tolerances\['force'\] = 2: .* at most 0.9"),
@@ -27,10 +26,7 @@ NATURAL = math.sqrt(2e5 / 12) / (2 * math.pi)
             r"displacement_limit = 1.5 m: .* at most 0.02.* m \(the",
         ),
         ({"gap": 2}, r"gap = 2 m: .* at most 0.04.* m \(full play; .* does not touch"),
-        ({"mass": 0}, r"mass = 0 kg: must be at least"),
         ({"mass": "13 kg"}, r"mass = '13 kg': .* at most 12 kg \(mass of the machine"),
-        ({"mass": "1 m"}, r"mass = '1 m': must be a number in kg"),
-        ({"tolerances": {"gap": 1.2}}, r"tolerances\['gap'\] = 1.2: .* at most 0.9"),
         ({"tolerances": {"gap": "120 %"}}, r"tolerances\['gap'\] = '120 %': .* at most 0.9"),
         ({"tolerances": {"play": 0.1}}, r"tolerances = 'play': must be of gap"),
         (
@@ -39,9 +35,6 @@ NATURAL = math.sqrt(2e5 / 12) / (2 * math.pi)
         ),
         ({"starts": 58}, r"starts = 58: must be from 59 .*share of 0.95 at 95 % confidence"),
         ({"starts": 73, "share": 0.99}, r"starts = 73: must be from 299"),
-        ({"frequencies": 2}, r"frequencies = 2: must be from 3"),
-        ({"candidates": 3}, r"candidates = 3: must be from 4"),
-        ({"displacement_limit": 0}, r"displacement_limit = 0 m: must be greater than 0 m"),
         ({"machine": idm.Machine(**SPRING, force=0)}, r"without excitation nothing is to"),
     ],
 )
