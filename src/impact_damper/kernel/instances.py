@@ -27,6 +27,7 @@ from impact_damper.kernel.templates import (
     step,
 )
 from impact_damper.model import packed
+from impact_damper.model.parameters import NONLINEAR
 
 # Orders of the Taylor series. With these the integration is cheapest at medium errors.
 FLIGHT_ORDER = 18
@@ -49,10 +50,13 @@ SCRATCH = (
     "DEPTH DEPTH_SLOPE DEPTH_CURVE DEPTH_JERK BOUND CHANGE TAIL FINE SCALE WALL MODE LOW HIGH "
     "NATURAL END_Z1 END_Z1_SLOPE END_DEPTH END_DEPTH_SLOPE "
     "DRAW BASE_COSINE BASE_SINE ACROSS MOST SWAYS SWAY SWAY_SLOPE SWAY_CURVE SWAY_JERK JERK_BOUND "
-    "APART PUSH ROUGH SLIDE BEND STICKS STUCK HELD_Z2 LIMIT TURN "
-    "FREE_DAMPING FREE_STIFFNESS FREE_CUBIC FREE_CONTACT FREE_DASHPOT"
+    "APART PUSH ROUGH SLIDE BEND STICKS STUCK HELD_Z2 LIMIT TURN"
 ).split()
-SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH
+# Parameters that are replaced while the loose mass sticks (`friction.hold`), with rows for their
+# values.
+HELD = ["DAMPING", "STIFFNESS", *map(str.upper, NONLINEAR), "CONTACT_STIFFNESS", "DASHPOT"]
+FREE = [f"FREE_{name}" for name in HELD]
+SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH + FREE
 SERIES = "X Q G U E H D".split()
 TANGENT_SERIES = "DX DQ".split()
 # Largest number of sums that one kernel computes.
@@ -96,6 +100,8 @@ def _source(writer):
         "KEPT": len(STATE) * writer.tangents,
     }
     constants |= {name: writer.rows[name] * writer.lanes for name in [*SINGLE, *SERIES]}
+    for name, held in (("HELD_ROWS", HELD), ("FREE_ROWS", FREE)):
+        constants[name] = tuple(writer.rows[each] * writer.lanes for each in held)
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
     templates = forcing, root_search, across, friction, contact, separation, step
     return "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])

@@ -16,6 +16,8 @@ from impact_damper.kernel.equation import spring
 LANES: int
 CONTACT_ORDER: int
 FLIGHT_ORDER: int
+HELD_ROWS: tuple
+FREE_ROWS: tuple
 TANGENTS: int
 KEPT: int
 
@@ -58,34 +60,29 @@ def wall_force(a, i):
 
 @kernel_only
 def hold(a):
-    """Replace parameters of lanes that stick by those of both masses moving together."""
+    """Replace parameters of lanes that stick by those of both masses moving together.
+
+    Damping and spring act on both masses, so their parameters are scaled; the last two of HELD_ROWS
+    are those of the wall, whose force is constant.
+    """
+    for k in range(len(HELD_ROWS)):
+        row, free = HELD_ROWS[k], FREE_ROWS[k]
+        for i in range(LANES):
+            inverse = a[INVERSE_MASS_RATIO + i]
+            share = inverse / (1.0 + inverse) if k < len(HELD_ROWS) - 2 else 0.0
+            a[free + i] = a[row + i]
+            a[row + i] *= share if a[STUCK + i] > 0.0 else 1.0
     for i in range(LANES):
-        inverse = a[INVERSE_MASS_RATIO + i]
-        share = inverse / (1.0 + inverse)
-        stuck = a[STUCK + i] > 0.0
-        a[FREE_DAMPING + i] = a[DAMPING + i]
-        a[FREE_STIFFNESS + i] = a[STIFFNESS + i]
-        a[FREE_CUBIC + i] = a[CUBIC + i]
-        a[FREE_CONTACT + i] = a[CONTACT_STIFFNESS + i]
-        a[FREE_DASHPOT + i] = a[DASHPOT + i]
         a[HELD_Z2 + i] = a[Y2 + i]
-        a[DAMPING + i] *= share if stuck else 1.0
-        a[STIFFNESS + i] *= share if stuck else 1.0
-        a[CUBIC + i] *= share if stuck else 1.0
-        a[CONTACT_STIFFNESS + i] *= 0.0 if stuck else 1.0
-        a[DASHPOT + i] *= 0.0 if stuck else 1.0
     load_rates(a)
 
 
 @kernel_only
 def let_go(a):
     """Restore the parameters that `hold` has replaced."""
-    for i in range(LANES):
-        a[DAMPING + i] = a[FREE_DAMPING + i]
-        a[STIFFNESS + i] = a[FREE_STIFFNESS + i]
-        a[CUBIC + i] = a[FREE_CUBIC + i]
-        a[CONTACT_STIFFNESS + i] = a[FREE_CONTACT + i]
-        a[DASHPOT + i] = a[FREE_DASHPOT + i]
+    for k in range(len(HELD_ROWS)):
+        for i in range(LANES):
+            a[HELD_ROWS[k] + i] = a[FREE_ROWS[k] + i]
     load_rates(a)
 
 
@@ -200,7 +197,7 @@ def step_to_turn(a, i, touching):
 @kernel_only
 def wall_force_held(a, i):
     """Return the constant force of the wall on a loose mass that sticks at a depth."""
-    return a[FREE_CONTACT + i] * (a[Y2 + i] - a[SIDE + i] * a[CLEARANCE + i])
+    return a[FREE_CONTACT_STIFFNESS + i] * (a[Y2 + i] - a[SIDE + i] * a[CLEARANCE + i])
 
 
 @kernel_only
