@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import flag
+from impact_damper.data.design_variables import KEEPS, WORTH
 from impact_damper.data.shares import bounding_rank, starts_needed
 from impact_damper.design.absorbers import absorber_responses
 from impact_damper.design.promise import Promise, factor_sets
@@ -17,10 +18,6 @@ from impact_damper.design.task import NOMINAL, SIDES, VARIED, Task, labelled
 CONFIRMED, ROUNDS = 1.1, 4
 # If a promised displacement exceeds SURPRISE times that of the search, nearby gaps are run.
 SURPRISE = 1.1
-# Nearby gaps keep the promise with up to this multiple of its displacement.
-KEEPS = 1.1
-# A damper that lowers the largest displacement by less than this share is not worth building.
-WORTH = 0.25
 
 
 class Tried(NamedTuple):
