@@ -17,8 +17,6 @@ from impact_damper.motions import panels
 from impact_damper.motions.response import steady_orbit
 from impact_damper.motions.simulate import COMPONENTS, random_states, simulate
 
-ON_ORBIT = (0.00572, 0.187394, 0.001944, -2.407912)
-
 
 def test_samples_and_contacts_of_a_simulation():
     data = simulate(PAPER, DESIGN, 2.0, (0, 0, 0, 1), periods=6.5, samples=100)
