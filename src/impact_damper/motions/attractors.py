@@ -1,7 +1,7 @@
-"""Attractors and what leads to them: neighbourhoods, labels of states, and the release set.
+"""Attractors, their neighbourhoods, labels of states, and the release set of migration control.
 
-A motion that enters the neighbourhood of a free orbit, an ellipse around a strobe state, provably
-tends to the orbit (docs/explanation/neighbourhoods.md), so its integration stops.
+A neighbourhood is an ellipse around the state of a free orbit at the strobe. A motion that enters
+it provably tends to the orbit (docs/explanation/neighbourhoods.md), so the integration stops there.
 """
 
 import math
@@ -19,15 +19,15 @@ from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_time
 
-# The proof: steps in a forcing cycle, largest contraction |R| r(P)/r0, and bisections of r0.
+# Proof of a neighbourhood of radius r0: steps in a forcing cycle, largest ratio of the radius after
+# a period to r0, and bisections of r0.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
-# Two free orbits are the same if their states at a strobe differ by less than ALIKE; two settled
-# motions with contacts and the same period if max |Z1| differs relatively by less than SAME.
+# Largest difference between equal free orbits at a strobe; and, relative, between equal max |Z1|.
 ALIKE, SAME = 1e-6, 1e-5
-# Half width of the region that is searched for stable and unstable orbits, divided by the largest
-# displacement and speed of the free motions; and number of starts on each axis of its grid.
+# Search for orbits: half width of the region, divided by the largest displacement and speed of the
+# free motions; number of grid points on each axis.
 REACH, SEARCHED = 3.0, 24
-# Labels of motions that have not settled to an orbit with contacts, keyed by their outcome.
+# Label of a motion by its outcome, for all outcomes except SETTLED.
 LABELS = {
     records.UNRESOLVED: BASIN_LABEL["unresolved"],
     records.DIVERGED: BASIN_LABEL["escaped"],
@@ -37,16 +37,16 @@ LABELS = {
     records.DRIFTING: BASIN_LABEL["no_contact"],
     records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
 }
-# The release set: phases in a forcing cycle, even; half width of the grid divided by max |Z1| of
-# the resonance motion; fine cells in a coarse cell along an axis, a power of 2.
+# Release set: number of phases in a forcing cycle, even; half width of the grid divided by max |Z1|
+# of the resonance motion; fine cells along the edge of a coarse cell, a power of 2.
 PHASES, WIDTH, REFINED = 16, 1.6, 4
 
 
 class Attractors(NamedTuple):
     """Attracting orbits of the free oscillator, by ascending max |Z1|, and their m neighbourhoods.
 
-    A state z at a strobe lies in a neighbourhood if |shape (z - centre)| < 1; `owner` is the index
-    of the orbit, and `shape` (m, 2, 2) infinite without a proof.
+    A state z at a strobe lies in a neighbourhood if |shape (z - centre)| < 1. `owner` holds the
+    index of its orbit. `shape` (m, 2, 2) is infinite where the proof fails.
     """
 
     records: np.ndarray
@@ -56,14 +56,14 @@ class Attractors(NamedTuple):
 
 
 def find_attractors(p, states, settling) -> Attractors:
-    """Return the attracting free orbits that motions from states Z1, Z1' at a strobe lead to."""
+    """Return the attracting free orbits to which motions lead from states Z1, Z1' at a strobe."""
     starts = np.tile(np.asarray(states, float).reshape(-1, 2), 2)
     motions = ensemble.settle(np.tile(p, (len(starts), 1)), starts, settling, from_strobe=True)
     return with_neighbourhoods(p, _distinct(p, motions[is_settled(motions)]))
 
 
 def free_attractors(p, window, settling) -> Attractors:
-    """Return the attractors to which a grid of states leads; `window` are its half widths."""
+    """Return the attractors to which a grid of states leads; `window` holds its half widths."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return find_attractors(p, states, settling)
@@ -103,7 +103,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 of an orbit (n,) and the matrices F(t) (n, 2, 2), STEPS times in each cycle."""
+    """Return Z1 (n,) and the transition matrices (n, 2, 2) of an orbit, STEPS in each cycle."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]
@@ -115,7 +115,7 @@ def linear_flow(p, state, periods):
 
 
 def neighbourhood(p, state, periods):
-    """Return the matrix S of the neighbourhood |S d| < 1 of a state, infinite without a proof."""
+    """Return the matrix S of a state's neighbourhood |S d| < 1, infinite if the proof fails."""
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
     if not np.max(np.abs(values)) < 1:
@@ -137,10 +137,10 @@ def neighbourhood(p, state, periods):
 
 
 def _radius(coefficients, step, contraction):
-    """Return the largest r0 for which `contraction` r(P) < FACTOR r0.
+    """Return the largest radius r0 for which `contraction` r(P) < FACTOR r0 after the period P.
 
-    r grows, so in a step r' = a r^2 + b r^3 is at most its value at the end. One iteration of r =
-    r(begin) + step (a r^2 + b r^3) from a value `ahead` above its root gives an upper bound.
+    The radius follows r' = a r^2 + b r^3 and grows. In a step r' is largest at the end. `ahead`
+    is a bound on r at the end, and r(begin) + step (a r^2 + b r^3) with r = `ahead` a closer one.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -157,10 +157,10 @@ def _radius(coefficients, step, contraction):
 
 
 def label_damped(p, states, phase, settling, known=(), workers=1, progress=None):
-    """Return labels of states (n, 4) at a phase with the damper on, cycles run, and the attractors.
+    """Run states (n, 4) from a phase with the damper; return labels, cycles run and attractors.
 
-    A label is the index of an attractor or a flag of `basin_label`. The first attractors are those
-    `known`; others follow by ascending max |Z1|.
+    A label is the index of an attractor or a flag of `basin_label`. The attractors begin with the
+    `known` ones; new ones follow by ascending max |Z1|.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     if begin > strobe_time(p):
@@ -190,9 +190,9 @@ def label_damped(p, states, phase, settling, known=(), workers=1, progress=None)
 class ReleaseSet(NamedTuple):
     """The states of the free oscillator at one frequency that lead to the goal of migration.
 
-    `goal` is the index of the smaller free motion of period 1 among the attractors. `depth` (phase,
-    Z1', Z1) is the distance from the boundary of the set, positive inside, in units of Z1 with Z1'
-    divided by W, and `half` the half widths of the grid in Z1 and Z1'.
+    The goal is the smaller free motion of period 1; `goal` is its index among the attractors.
+    `depth` (phase, Z1', Z1) is the distance of a state (Z1, Z1'/W) from the boundary of the set,
+    positive inside. `half` holds the half widths of the grid in Z1 and Z1'.
     """
 
     p: np.ndarray
@@ -205,8 +205,8 @@ class ReleaseSet(NamedTuple):
 def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> ReleaseSet:
     """Compute the release set at one frequency on a grid at each of PHASES phases.
 
-    A mirrored state half a cycle later leads to the mirrored motion, and the goal is its own mirror
-    image, so only half of the phases are computed.
+    The goal is its own mirror image. So the set half a cycle later is the mirror image of the set,
+    and only half of the phases are computed.
     """
     p = pack(oscillator, None, frequency)
     known = free_motions(oscillator, frequency, settling)
@@ -235,7 +235,7 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return which of (n, n) fine cells lie in a set; only cells at its boundary are refined."""
+    """Return the mask (n, n) of the fine cells in a set; only cells at its boundary are refined."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
         # The cells at the boundary: those with a different neighbour, and their neighbours.

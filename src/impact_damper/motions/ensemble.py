@@ -1,4 +1,4 @@
-"""Run many motions on several threads: until they settle, or enter a known basin."""
+"""Run many motions on several threads, until they settle or enter a known neighbourhood."""
 
 import math
 from concurrent.futures import ThreadPoolExecutor
@@ -27,16 +27,16 @@ from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.motions.undecided import name_undecided
 from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
-# Motions settled and states labelled in one call of a kernel, for whose end Ctrl-C waits.
+# Number of motions, and of states to label, in one call of a kernel. Ctrl-C waits for its end.
 CHUNK, LABELLED = 128, 4096
-# Labels of states that lead to no known orbit, as in the registered flags of `basin_label`.
+# Labels of states that lead to no known orbit: escaped, unresolved (flags of `basin_label`).
 GONE, UNKNOWN = -2, -1
 
 
 def run_chunks(work, count, workers, progress, stop, size=CHUNK):
     """Call `work(slice)` for slices of length `size` that cover range(count), on `workers` threads.
 
-    An error or Ctrl-C sets `stop[0]` and does not wait for the slices that are being computed.
+    After an error or Ctrl-C the function sets `stop[0]` and does not wait for running slices.
     """
     check_count("workers", workers, most=4096)
     slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
@@ -65,8 +65,9 @@ def settle(
 ):
     """Run motions from states (m, 4) until each has settled; return an array of `records.MOTION`.
 
-    `parameters` has a packed row for each. `start` is the time T of all states, in the forcing
-    cycle before the first strobe. If another thread sets `stop[0]`, the records are incomplete.
+    `parameters` has a row of packed parameters for each motion. `start` is the time T of all
+    states, in the forcing cycle before the first strobe; with `from_strobe` it is this strobe. If
+    another thread sets `stop[0]`, the records are incomplete.
     """
     settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)
@@ -90,7 +91,7 @@ def settle(
 
 @kernel
 def settle_many(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Fill the records `out`, by `watch`, of motions from states at the times `start`."""
+    """Run motions from states at the times `start`; `watch` fills their records `out`."""
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
     seen = np.zeros(size, SEEN)
@@ -123,7 +124,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Enter motion i, if it exists, at index m of the pool of motions that are stepped together."""
+    """Enter motion i, if there is one, at index m of the pool of motions stepped together."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])
@@ -133,7 +134,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Enter motion i, if it exists, at index m of the pool of motions that are stepped together."""
+    """Enter a free motion from state i, if there is one, at index m of the pool, as `take` does."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
@@ -142,10 +143,10 @@ def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes
 
 
 def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
-    """Return the free orbit that each state leads to, and the number of cycles until it was known.
+    """Return the label of each free state, and the number of forcing cycles until it was known.
 
-    `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`. A label is an index in
-    `attractors.records`, or GONE, or UNKNOWN after `limit` cycles.
+    `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`. A label is the index of an orbit in
+    `attractors.records`, GONE after an escape, or UNKNOWN after `limit` cycles.
     """
     states = np.ascontiguousarray(states, float)
     strobe = 0.5 * math.pi
@@ -197,7 +198,7 @@ def label_many(p, begin, tolerance, limit, neighbourhoods, states, labels, perio
 
 @kernel_only
 def which(x, v, owner, centre, shape):
-    """Return the orbit in whose neighbourhood a state at a strobe lies, or UNKNOWN."""
+    """Return the index of the orbit in whose neighbourhood a strobe state lies, or UNKNOWN."""
     for k in range(len(owner)):
         dx, dv = x - centre[k, 0], v - centre[k, 1]
         first = shape[k, 0, 0] * dx + shape[k, 0, 1] * dv

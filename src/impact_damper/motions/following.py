@@ -1,6 +1,6 @@
 """Follow an orbit from one value of a parameter to another, by prediction and correction.
 
-Following stops at folds, unlike `orbits.continuation`.
+Following stops at folds of the branch; `orbits.continuation` passes them.
 """
 
 import math
@@ -15,15 +15,15 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which a step grows after success.
 GROWTH = 1.5
-# Largest corrections of a predicted state and of the first state; larger ones could lead to
-# another orbit.
+# Largest correction of a predicted state, and of the first state. A larger correction could lead
+# to another orbit.
 REACH, NUDGE = 0.03, 1e-3
-# Accuracy, in units of the parameter, of the end of a branch of stable orbits.
+# Shortest step of the parameter, thus the accuracy of the end of a branch.
 RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two orbits on the way to a value, and the status of the last correction."""
+    """The last two orbits and their parameter values, and the status of the last correction."""
 
     values: tuple[float, float]
     orbits: tuple
@@ -60,12 +60,12 @@ def follow(
     extrapolating=True,
     behind=None,
 ) -> Followed:
-    """Follow an orbit from one value of a parameter to another, or as far as it goes.
+    """Follow an orbit from one value of a parameter to another, or as far as possible.
 
-    `correct` takes a value and a predicted state (4,), and returns an orbit, or None if it fails,
-    and a status. The first step leads to `target`. A step grows by `growth` after success, and is
-    halved if the correction fails, or if Z1, Z1' or Z2 changes by `reach` or more, since it may
-    have led to another orbit. `behind` is the orbit at 2 start - target, if known.
+    `correct` takes a value and a predicted state (4,). It returns an orbit, None on failure, and a
+    status. The first step leads to `target`. After success a step is multiplied by `growth`. It is
+    halved if the correction fails, or if Z1, Z1' or Z2 changes by `reach` or more: the new orbit
+    may lie on another branch. `behind` is the orbit at 2 start - target, if there is one.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -90,18 +90,18 @@ def follow(
 
 @kernel
 def extrapolate(state, before, ratio):
-    """Add to a state, in place, `ratio` times its difference from the state `before`."""
+    """Add `ratio` times the difference of a state from the state `before` to it, in place."""
     state += (state - before) * ratio
 
 
 def follow_stable(p, state, periods, parameter, target) -> tuple:
-    """Follow a stable orbit while the parameter of an index changes to a target value, if possible.
+    """Follow a stable orbit while the packed parameter of an index changes to a target value.
 
     Following stops where the orbit becomes unstable or repeats after fewer cycles. Return the
-    packed parameters, with exactly the target if it was reached, and the last `StrobeOrbit`, whose
-    multiplier is NaN if there is no orbit near the given state.
+    packed parameters and the last `StrobeOrbit`. The parameter is exactly the target if following
+    has reached it. The multiplier is NaN if there is no orbit near the given state.
     """
-    # Records hold periods as two-byte integers; for these numba would compile the kernels again.
+    # A period in a record is a two-byte integer, for which numba would compile the kernels again.
     periods = int(periods)
     p, first = p.copy(), np.array(state, float)
     _, _, multiplier = polish(p, first, periods, NUDGE, POLISH_TOLERANCE)
@@ -125,6 +125,6 @@ def follow_stable(p, state, periods, parameter, target) -> tuple:
 
 
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
-    """Return the record of an orbit that `follow_stable` follows to a value, None if it ends."""
+    """Follow an orbit to a value; return its record there, or None if following stops before."""
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

@@ -1,7 +1,7 @@
 """Legs of a run of migration control: the motions between two switchings of the damper.
 
-A leg begins when the damper is switched, at any phase of the forcing, with Z1 and Z1' continuous.
-The state is never moved onto an orbit, so a run is one continuous motion.
+A leg begins when the damper is switched, at any forcing phase. Z1 and Z1' are continuous there. The
+state is never moved onto an orbit, so Z1 and Z1' are continuous over the whole run.
 """
 
 import math
@@ -19,20 +19,20 @@ from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, ne
 
 # Forcing cycles in one call of a compiled function. Ctrl-C waits for the end of a call.
 STROBES_AT_ONCE = 50_000
-# Rules of release, the first number of `rule` in `hold`.
+# Kinds of rules by which `hold` releases a motion, that is, switches the damper off.
 SETTLED, HOLD, PHASE, STATE = range(4)
 
 
 class Stopped(Exception):
-    """Raised in a thread whose run another thread has ended."""
+    """Raised in a thread after another thread has stopped its run."""
 
 
 def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
     """Run a motion until it is near a stable orbit, at most `limit` strobes beyond the first one.
 
-    The state y (4,), `ahead` forcing cycles before the strobe number `strobe`, is replaced by the
-    last state. Return the path (m, 5), strobe number and state at the beginning and at each strobe,
-    and the `records.MOTION`, measured if the motion settled.
+    The motion begins at y (4,), `ahead` forcing cycles before the strobe number `strobe`; the last
+    state replaces y. Return the path and a `records.MOTION`, measured if the motion has settled. A
+    row of the path (m, 5) is strobe number and state, at the beginning and at each strobe.
     """
     records, path = np.zeros(1, MOTION), np.empty((limit + 2, 5))
     out = records[0]
@@ -58,7 +58,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Do the part of `run` from strobe `first` to the one before `last`; return side and `near`."""
+    """Do the part of `run` from strobe `first` to `last` - 1; return the last `side` and `near`."""
     work = workspace()
     none = np.empty((0, 4))
     for k in range(first, last):
@@ -82,16 +82,16 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
-    """Do `wait_and_switch` from the strobe number `strobe`, and return the result of `run`."""
+    """Call `wait_and_switch` at the strobe number `strobe`, then `run`; return its result."""
     wait_and_switch(before, after, y, wait, place, tolerance)
     return run(after, y, 1.0 - wait % 1.0, strobe + math.floor(wait) + 1.0, tolerance, limit, stop)
 
 
 def wait_and_switch(before, after, y, wait, place, tolerance):
-    """Run from a strobe for `wait` forcing cycles, and switch the damper; return the time.
+    """Run from a strobe for `wait` forcing cycles, then switch the damper; return the time T.
 
-    When it is switched on, the loose mass is at rest relative to the primary mass, with Z2 at
-    `place` times the clearance.
+    `before` and `after` are the packed parameters on both sides of the switching. When the damper
+    is switched on, the loose mass has Z2 = `place` times the clearance and Z2' = 0.
     """
     t = strobe_time(before)
     end = t + wait * 2.0 * math.pi / before[FREQUENCY]
@@ -104,9 +104,10 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 
 
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
-    """Wait, switch the damper on, and off in the set `releases` or after `longest` cycles.
+    """Wait, switch the damper on, hold it, and switch it off; return a path as `run` does.
 
-    Return rows as `run` does; y is replaced by the free state after the switching off.
+    The damper is switched off in the release set `releases` or after `longest` cycles. The free
+    state at this time replaces y and is the last row.
     """
     begin = wait_and_switch(off, on, y, wait, place, tolerance)
     path = np.full((longest + 2, 5), np.nan)
@@ -125,7 +126,7 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
 
 @kernel
 def depth_of(depth, half, phase, x, v):
-    """Return the `depth` of a `ReleaseSet` at a state (x, v), minus infinity off the grid."""
+    """Return the `depth` of a `ReleaseSet` at a state (x, v), or minus infinity off the grid."""
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf
     cells = depth.shape[1]
@@ -139,10 +140,10 @@ def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, wo
     """Run a motion from the time `begin` with the damper on, until a rule releases it.
 
     `rule` is a kind, a number n of forcing cycles, and the index of a phase. HOLD releases after n
-    cycles, PHASE at the first such phase after n cycles, SETTLED at the fraction `draw` of a period
-    after the states at the strobes repeat, STATE once the state lies in the release set, or after n
-    cycles. Rows of `path` (m, 5) receive forcing cycles since `begin` and the state at the strobes.
-    Return the time, whether the rule released within `limit` cycles, and the number of contacts.
+    cycles; PHASE at the given phase, n cycles or more after `begin`; SETTLED the fraction `draw` of
+    a period after the strobe states begin to repeat; STATE in the release set, at the latest after
+    n cycles. A row of `path` (m, 5) is forcing cycles since `begin` and the state, at each strobe.
+    Return the time, whether the rule has released within `limit` cycles, and the contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

@@ -17,12 +17,12 @@ from impact_damper.motions.records import NEVER
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.free_oscillator import main_solutions
 
-# Forcing cycles before and after a run in `course`, and its values of Z1 in a forcing cycle.
+# Forcing cycles that `course` adds before and after a run, and its samples in a forcing cycle.
 MARGIN, SAMPLES = 10, 40
-# Two free motions are the same if their max |Z1| differs by less than ALIKE.
+# Largest difference between max |Z1| of equal free motions.
 ALIKE = 1e-6
-# The damper is switched on and off once, and at `end_time` the free motion has settled. Times are
-# in forcing cycles from the first strobe. released_*: the motion with the damper.
+# Log entry of one switching, on and off. Times are in forcing cycles from the first strobe. The
+# free motion has settled at `end_time`. released_*: period and max |Z1| before the switching off.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
     + [("released_period", "i2"), ("released_displacement", "f8"), ("destination", "i1")]
@@ -30,10 +30,10 @@ SWITCHING = np.dtype(
 
 
 class ReleaseCase(NamedTuple):
-    """Packed parameters with and without the damper, and the free motions at one frequency.
+    """Packed parameters with the damper on and off, and the free motions at one frequency.
 
-    `state` is the resonance motion at a strobe; `known` are max |Z1| of non-resonance and
-    resonance.
+    `state` is the state of the resonance motion at a strobe. `known` holds max |Z1| of the
+    non-resonance motion and of the resonance motion.
     """
 
     on: np.ndarray
@@ -64,25 +64,25 @@ def migrate(
     frequency : float
         Forcing frequency W, or Hz for a machine; both free motions of period 1 must exist there.
     release : {"settled", "state"}
-        When to switch the damper off: at a random phase after the motion has settled, as in the
-        paper, or as soon as the state of the primary mass leads to the small motion.
+        "settled": the damper is switched off at a random phase after the motion has settled, as in
+        the paper. "state": as soon as the state of the primary mass leads to the small motion.
     seed : int or numpy.random.SeedSequence
-        Seed of the switching phases and of the places of the loose mass.
+        Seed of the random switching phases and places of the loose mass.
     longest_hold : int
-        Forcing cycles after which the damper is switched off in any case.
+        Forcing cycles with the damper on, after which it is switched off in any case.
     periods : int
-        Forcing cycles after which the damper is not switched on any more.
+        Forcing cycles from the beginning, after which the damper is no more switched on.
     switchings : int
-        Largest number of switchings.
+        Largest number of switchings, on and off counted as one.
     settling : Settling, optional
-        Its `tolerance` and, for the free oscillator, its `limit` are used.
+        The `tolerance` is used, and the `limit` for motions without the damper.
 
     Returns
     -------
     xarray.Dataset
-        For each `time` T the displacement of the primary mass; for each `switching` the times T at
-        which the damper is switched on and off and at which the free motion has settled, the motion
-        before the release and the free motion after it; and totals of the run, in forcing cycles.
+        For each `time` T: the displacement of the primary mass. For each `switching`: the times T
+        when the damper is switched on, when it is switched off, and when the free motion has
+        settled; the motion before and after switching off. Totals of the run, in forcing cycles.
 
     Raises
     ------
@@ -128,7 +128,8 @@ def migrate(
 def _free_motion(oscillator, frequency, start, which, settling):
     """Return the record of a free motion of period 1 at a frequency, or None.
 
-    It is followed from the frequency `start`, from the harmonic-balance solution number `which`.
+    It is found by a run from harmonic-balance solution `which` at the frequency `start`, and then
+    followed from this frequency.
     """
     p = pack(oscillator, None, start)
     free = main_solutions(oscillator, start)
@@ -143,9 +144,9 @@ def _free_motion(oscillator, frequency, start, which, settling):
 def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     """Return the `ReleaseCase` of a damper; ValueError without both free motions of period 1.
 
-    With a hardening spring the resonance motion ends at a higher frequency and the non-resonance
-    motion at a lower one, so they are followed upward and downward; with a softening spring the
-    other way round.
+    With a hardening spring the resonance motion is followed upward from a lower frequency, and the
+    non-resonance motion downward from a higher one, each towards its fold. With a softening spring
+    the directions are exchanged.
     """
     on, off = pack(oscillator, damper, frequency), pack(oscillator, None, frequency)
     above = min(1.1 * frequency, bounds.FREQUENCY_RANGE["most"])
@@ -166,9 +167,9 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return flags (`DAMPED_MOTION`) of motions by period and max |Z1|, arrays.
+    """Return the flags (`DAMPED_MOTION`) of motions, given arrays of their periods and max |Z1|.
 
-    Quiet motions of period 1 have less than half the max |Z1| of the free resonance motion.
+    A motion of period 1 is quiet if max |Z1| is less than half that of the free resonance motion.
     """
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
@@ -188,12 +189,12 @@ def destination(known, record):
 
 
 def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
-    """Return path and log of one run of the controller.
+    """Return the path and the log (`SWITCHING`) of one run of migration control.
 
     A row of `draws` holds the phase at which the damper is switched on, as a fraction of the
-    period, the place of the loose mass in the gap, as a fraction of the gap, and the phase at which
-    the damper is switched off. `releases` is a `ReleaseSet` for release by state, or None. The path
-    (m, 5) has forcing cycles from the first strobe and the state at each strobe and switching.
+    period; the place of the loose mass, as a fraction of the gap; the phase at which the damper is
+    switched off. `releases` is a `ReleaseSet` for release by state, otherwise None. A row of the
+    path (m, 5) is forcing cycles from the first strobe and the state, at a strobe or a switching.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit
@@ -232,7 +233,7 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
 def course(case, path, log, tolerance):
     """Return times T and Z1 along a run, with MARGIN forcing cycles before and after the run.
 
-    Each part begins with a state of the path, because errors grow in chaotic parts.
+    Every part begins at a state of the path again, because errors grow along a chaotic motion.
     """
     period = 2 * np.pi / case.on[FREQUENCY]
     path = np.vstack([np.append(-MARGIN, case.state), path])
@@ -261,7 +262,7 @@ def switching_data(logs, case):
 
 
 def run_totals(logs):
-    """Return a dict of dataset variables of whole runs, in cycles from the first `on_time`."""
+    """Return a dict of dataset variables of whole runs; a run begins at its first `on_time`."""
     first = logs["on_time"][..., 0]
     reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
     yes, no = (flag("trial_outcome", name) for name in ("reached", "not_reached"))

@@ -1,8 +1,8 @@
-"""Motions in panels: their states at Chebyshev nodes, integrals, largest values and contact forces.
+"""Motions in panels: integrals, largest values and contact forces.
 
-Time is divided at the beginnings and ends of contacts, and further into panels, in which a motion
-is represented by its states at the Chebyshev nodes, to about twelve digits (L. N. Trefethen,
-Spectral Methods in MATLAB, 2000, chapters 6 and 12).
+Time is divided at the beginnings and ends of contacts. Each part is divided into panels. The states
+at the Chebyshev nodes of a panel represent the motion in it to about twelve digits (L. N.
+Trefethen, Spectral Methods in MATLAB, 2000, chapters 6 and 12).
 """
 
 from typing import NamedTuple
@@ -22,17 +22,17 @@ from impact_damper.model.packed import (
 from impact_damper.motions.traces import states_at, trace
 
 # Nodes of a panel, scaled to [-1, 1]; matrix that maps values at the nodes to coefficients of
-# Chebyshev polynomials; weights of the rule of Clenshaw and Curtis.
+# Chebyshev polynomials; weights of Clenshaw-Curtis quadrature.
 NODES = -np.cos(np.pi * np.arange(14) / 13)
 COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
 WEIGHTS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))] @ COEFFICIENTS
-# Points of a panel, the best of which begins NEWTON steps of Newton's method to an extreme; and
-# matrix that maps coefficients of a polynomial to those of its derivative.
+# Search for the largest value: points of a panel, steps of Newton's method from the best point, and
+# matrix that maps coefficients of a polynomial to coefficients of its derivative.
 POINTS, NEWTON = np.linspace(-1, 1, 33), 5
 SLOPE = np.vstack([chebyshev.chebder(np.eye(len(NODES))), np.zeros(len(NODES))])
-# The fastest oscillation of the motion turns by at most this angle (radian) in a panel.
+# Largest length of a panel, in radians of the fastest oscillation.
 LONGEST_ANGLE = 2.0
-# Contacts whose panels are in memory at once.
+# Number of contacts whose panels are in memory at once.
 PIECE = 100_000
 # States in a forcing cycle from which the largest displacement is estimated.
 SAMPLES = 32
@@ -41,10 +41,10 @@ SAMPLES = 32
 class Panels(NamedTuple):
     """A motion in n panels.
 
-    `log` has a row for each contact: wall, times of its beginning and end, relative velocity at
-    both. `lengths`, shape (n,), and `times`, shape (n, nodes), are dimensionless; `states` are
-    those at the nodes, NaN after an escape. `contact`, shape (n,), is the row of the log or -1 in
-    flight, and `wall` is -1, 1, or 0 in flight.
+    A row of `log` is a contact: wall, beginning, end, and the relative velocities at both times.
+    `lengths` (n,) and `times` (n, nodes) are in units of T. `states` (n, nodes, 4) are NaN after an
+    escape. `contact` (n,) is the row of the contact in the log, or -1 in flight. `wall` (n,) is -1
+    or 1, or 0 in flight.
     """
 
     log: np.ndarray
@@ -63,9 +63,9 @@ def sampled(p, state, begin, end, tolerance) -> Panels:
 
 
 def contact_forces(p, state, span, course, tolerance):
-    """Return the largest force of each contact of a motion, whose `course` is known from `trace`.
+    """Return the largest force in each contact of a motion, divided by the primary mass.
 
-    Forces are divided by the primary mass. The motion is run again with the same steps, so that a
+    `course` is the result of `trace`. The motion is run again with the same steps. So even a
     chaotic motion has the same contacts.
     """
     states, log = course
@@ -79,7 +79,7 @@ def contact_forces(p, state, span, course, tolerance):
 
 
 def _divided(p, state, span, course, tolerance, flights):
-    """Return the panels of a motion in a span of time, with or without its flights."""
+    """Return the panels of a motion in a span of time; `flights` includes those in flight."""
     (begin, end), (states, log) = span, course
     # The edges are alternately beginnings and ends of contacts, so every second interval is a
     # flight.
@@ -143,7 +143,7 @@ def base_displacement(p, times):
 
 
 def penetration(p, states, wall):
-    """Return penetration and its time derivative of states (..., 4) at a wall, or 0."""
+    """Return penetration and penetration rate of states (..., 4) at a wall, 0 in flight."""
     return np.where(wall, wall * states[..., 2] - p[CLEARANCE], 0.0), wall * states[..., 3]
 
 

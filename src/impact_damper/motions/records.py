@@ -20,17 +20,17 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
 from impact_damper.motions.traces import record_beginning
 
-# A harmonic below PHASELESS times the harmonic of Z1 is a rounding error, so it has no phase.
+# Largest ratio of two harmonics at which the smaller one is a rounding error without a phase.
 PHASELESS = 1e-9
-# Half a cycle later the state of a symmetric motion has changed its sign, up to this difference.
+# Largest asymmetry of a motion that is symmetric.
 SYMMETRIC = 1e-6
 # Number of samples in a forcing cycle, from which harmonics are computed.
 SAMPLES = 64
-# Pieces of a step, in each of which a polynomial is assumed to have at most one turning point.
+# Pieces of a step. A polynomial is assumed to have at most one turning point in a piece.
 PIECES = 8
-# Windows of an envelope in one call of the kernel, for whose end Ctrl-C waits.
+# Number of windows of an envelope in one call of the kernel. Ctrl-C waits for its end.
 AT_ONCE = 1024
-# Argument `stop` of runs that no other thread stops.
+# Argument `stop` of a run that no other thread stops.
 NEVER = np.zeros(1, bool)
 
 # Outcomes of a motion that is run until it settles.
@@ -45,11 +45,12 @@ NEVER = np.zeros(1, bool)
     QUASI_PERIODIC,
     DRIFTING,
 ) = range(9)
-# `measure` fills the fields from `maximum_displacement` on, `watch.watch` the other fields.
+# The record of a motion. `measure` fills the fields from `maximum_displacement` on; `watch.watch`
+# fills the other fields. Field and meaning of the less obvious ones:
 # period       period of the orbit in forcing cycles, 0 without an orbit
 # periods_run  forcing cycles until the outcome was known
 # residual     largest difference between the state and the state a period later
-# state        last state at the strobe, of a settled motion the state on the orbit
+# state        state on the orbit of a settled motion, otherwise last state, at the strobe
 # reach        largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
 WATCHED = "residual lyapunov_exponent lyapunov_error first_frequency second_frequency"
 MEASURED = "maximum_displacement contacts asymmetry"
@@ -66,8 +67,8 @@ MOTION = np.dtype(
 def extremum(c, order, length, start):
     """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
 
-    In most calls length^2/8 times a bound on the second derivative shows that `start` or an end is
-    largest. Otherwise Newton's method locates the turning point in each of PIECES pieces.
+    Between the ends it exceeds them by at most length^2/8 times the largest second derivative. In
+    most calls this bound suffices. Otherwise Newton's method finds the turning point in each piece.
     """
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)
@@ -82,7 +83,7 @@ def extremum(c, order, length, start):
         t = length * piece / PIECES
         value, slope = polynomial(c, order, t)
         best = max(best, abs(value))
-        # The modulus increases at the beginning of the piece and decreases at its end.
+        # In this case the modulus increases at the beginning of the piece and decreases at its end.
         if slope * fall < 0.0 and value * slope < 0.0:
             turn = turning_time(c, order, t - length / PIECES, t, fall, slope)
             best = max(best, abs(polynomial(c, order, turn)[0]))
@@ -92,7 +93,7 @@ def extremum(c, order, length, start):
 
 @kernel_only
 def turning_time(c, order, begin, end, first, last):
-    """Return the turning point of a polynomial between two times, from the slopes there."""
+    """Return the time, between `begin` and `end` with slopes `first` and `last`, of slope 0."""
     t = begin + (end - begin) * first / (first - last)
     for _ in range(4):
         _, slope = polynomial(c, order, t)
@@ -107,12 +108,12 @@ def turning_time(c, order, begin, end, first, last):
 
 @kernel
 def survey(p, states, phases, times, tolerance, log, sums):
-    """Record contacts, the largest |Z1| and first harmonics of a motion in segments.
+    """Record contacts, the largest |Z1| and first harmonics of a motion in m segments.
 
-    `states` (m, 4) at the beginnings of the segments are replaced by the states at their ends;
-    `phases` and `times` (m + 1,) are W T and T at the ends of segments. `log` (n, 5) receives the
-    first n contacts, as from `traces.trace`; `sums` (2, 2) real and imaginary part of the mean of 2
-    exp(-i W T) Z, for Z1 and Z2. Return the number of contacts and the largest |Z1|.
+    The states at the ends of segments replace the `states` (m, 4) at the beginnings. `phases` and
+    `times` (m + 1,) are W T and T at the edges of segments. `log` (n, 5) receives the first n
+    contacts, in rows as of `traces.trace`. `sums` (2, 2) receives the mean of 2 exp(-i W T) Z for
+    Z1 and Z2, real and imaginary part. Return the number of contacts and the largest |Z1|.
     """
     work, start = workspace(), np.empty(4)
     frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
@@ -151,7 +152,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @inlined
 def measure_one(p, periods, tolerance, out):
-    """Complete one record over `periods` forcing cycles, if their number is odd in two halves."""
+    """Complete one record over `periods` forcing cycles, in two halves if the number is odd."""
     halves = 1 + periods % 2
     y = out.state.copy().reshape(1, 4)
     log, sums = np.empty((0, 5)), np.empty((2, 2))
@@ -190,10 +191,10 @@ def measure_nothing(out):
 def measure(parameters, tolerance, watched, out, stop):
     """Complete the records `out` by measurements that begin at their states at the strobe.
 
-    A motion is integrated over its `period`, or `watched` forcing cycles if this is 0. Asymmetry is
-    the distance between the mirrored first state and the state after half the time, NaN for an even
-    number of cycles. The harmonics are complex amplitudes c of Re(c exp(i W T)). If another thread
-    sets `stop[0]`, the remaining records are not completed.
+    A motion is integrated over its `period`, or over `watched` forcing cycles if it has none. The
+    asymmetry is the distance between the mirrored first state and the state after half the time,
+    NaN for an even number of cycles. A harmonic is the complex amplitude c of Re(c exp(i W T)). If
+    another thread sets `stop[0]`, the remaining records are not completed.
     """
     for i in range(len(out)):
         if stop[0]:
@@ -206,7 +207,7 @@ def measure(parameters, tolerance, watched, out, stop):
 
 
 def measured(p, y, periods, tolerance):
-    """Return a record with the fields of `measure` only, measured from y over `periods` cycles."""
+    """Return a record measured from the state y over `periods` cycles, without other fields."""
     records = np.zeros(1, MOTION)
     records["state"] = y
     measure(p[None], tolerance, periods, records, NEVER)
@@ -214,19 +215,19 @@ def measured(p, y, periods, tolerance):
 
 
 def is_symmetric_pair(motions):
-    """Return the mask of motions that are symmetric, of period 1, with two contacts in a cycle."""
+    """Return the mask of the symmetric motions of period 1 with two contacts in a cycle."""
     two = (motions["contacts"] == 2) & (motions["period"] == 1)
     return two & (motions["asymmetry"] < SYMMETRIC)
 
 
 def phase_of(harmonic, reference):
-    """Return the phases of harmonics relative to `reference`, NaN if it is a rounding error."""
+    """Return the phases of harmonics relative to `reference`, NaN if that is a rounding error."""
     phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
     return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
 
 
 def tabulate(records):
-    """Return the registered variables, keyed by name, for an array of records of any shape."""
+    """Return a dict of dataset variables from an array of records of any shape."""
     first, second = records["harmonic_displacement"], records["harmonic_relative"]
     others = ("multiplier", "state", "reach", "harmonic_displacement", "harmonic_relative")
     return {name: records[name] for name in MOTION.names if name not in others} | {
@@ -238,12 +239,12 @@ def tabulate(records):
 
 
 def envelope(parameters, lengths, y, tolerance):
-    """Run a motion through windows of time (n,), each with its packed parameters (n, COUNT).
+    """Run a motion through n windows of time, with packed parameters (n, COUNT) and `lengths` (n,).
 
-    Return the largest |Z1| and the number of contacts begun in each window: infinite and NaN where
-    the motion escapes, NaN afterwards. y is replaced by the last state. Each window begins at the
-    strobe, where the force is zero, so the frequency can change there; with forcing it lasts a
-    cycle.
+    Return the largest |Z1| and the number of contacts begun in each window. They are infinite and
+    NaN in the window of an escape, and NaN in later windows. The last state replaces y. Each window
+    begins at the strobe, where the force is zero, so the frequency can change there. With forcing,
+    a window is one forcing cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)
@@ -261,7 +262,7 @@ def envelope(parameters, lengths, y, tolerance):
 def run_window(p, y, side, length, largest, tolerance, work):
     """Run a motion in place from the strobe for a time `length`.
 
-    Return the wall in contact, the larger of max |Z1| and `largest`, infinite after an escape, and
+    Return the wall in contact, the larger of max |Z1| and `largest` (infinite after an escape), and
     the number of contacts begun.
     """
     t, begun = strobe_time(p), 0
@@ -292,7 +293,7 @@ def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
 
 @kernel
 def follow_peaks(parameters, states, periods, tolerance, largest, stop):
-    """Run motions in place from a strobe; raise `largest` to max |Z1|, infinite after an escape."""
+    """Run motions in place from a strobe; raise `largest` to max |Z1|, or infinity on escape."""
     work = workspace()
     for i in range(len(states)):
         p, y = parameters[i], states[i]

@@ -1,7 +1,7 @@
-"""The steady motion that a state leads to, all motions at each frequency, and their lives.
+"""The steady motion that a state leads to, all motions at each frequency, and chaotic lives.
 
-Lives of chaotic transients are distributed exponentially, so the number of ends divided by the sum
-of the lives estimates the rate of ending.
+The life of a chaotic transient is its length. Lives are distributed exponentially, so the number of
+transients that end, divided by the sum of all lives, estimates the rate of ending.
 """
 
 from dataclasses import replace
@@ -30,9 +30,9 @@ from impact_damper.motions.strobe_map import STROBE
 from impact_damper.motions.sweep import sweep
 from impact_damper.motions.watch import NEAR
 
-# Runs that measure a life: largest difference in Z1 and Z1' of the first state from the motion;
-# distance from an orbit at which a transient ends; forcing cycles after a run that has not ended,
-# to decide whether it is still chaotic.
+# Runs that measure lives: largest difference of the first Z1 and Z1' from the chaotic motion;
+# distance from an orbit at which a transient ends; forcing cycles by which a run that has not ended
+# is continued, to decide whether it is still chaotic.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 
@@ -57,9 +57,9 @@ def steady_motion(
     xarray.Dataset
         Outcome (see `decode`), period, contacts per forcing cycle, largest |Z1|, asymmetry (0 if
         the motion is its own mirror image half a period later), phases of the first harmonic,
-        multiplier, Lyapunov exponent, and the frequencies of a quasi-periodic motion. `state` is a
-        state of the motion at W T = pi/2. It has this phase as a coordinate, so `simulate` and this
-        function can continue from it, for example at the next frequency of a sweep.
+        multiplier, Lyapunov exponent, and the frequencies of a quasi-periodic motion. `state` is
+        the state at W T = pi/2, with this phase as a coordinate. `simulate` and this function can
+        continue from this state, for example at the next frequency of a sweep.
 
     Examples
     --------
@@ -76,7 +76,7 @@ def steady_motion(
     p = model.pack()
     y = read_state(model, state)
     start = read_start(model, state, start)
-    # The start moves by whole forcing cycles into the cycle that ends at the strobe.
+    # Shift the start by whole forcing cycles into the cycle that ends at the strobe.
     strobe, period = STROBE / model.frequency, 2 * np.pi / model.frequency
     begin = min(start - np.ceil((start - strobe) / period - 1e-9) * period, strobe)
     record = ensemble.settle(p[None], y[None], settling, start=begin)[0]
@@ -88,9 +88,9 @@ def steady_motion(
 
 
 def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None):
-    """Return one period of the steady motion that a state leads to, from W T = pi/2 on.
+    """Return one period of the steady motion that a state leads to, as a dataset of `simulate`.
 
-    The dataset is as from `simulate`. ArithmeticError if the state leads to no periodic orbit.
+    The period begins at W T = pi/2. Raises ArithmeticError if the state leads to no periodic orbit.
     """
     settling = check_settling(settling)
     steady = steady_motion(system, damper, frequency, state, settling=settling)
@@ -121,8 +121,8 @@ def frequency_response(
 ):
     """Find all motions at each frequency, from many starts and from neighbouring frequencies.
 
-    Without a radius, Newton's method also looks for further stable orbits. Each motion found is
-    followed to the other frequencies of its branch.
+    Without a radius, Newton's method also looks for further stable orbits. Each motion that is
+    found is followed to neighbouring frequencies, as far as its branch extends.
 
     Parameters
     ----------
@@ -134,38 +134,40 @@ def frequency_response(
     starts : int
         Random starts (initial states) at each frequency.
     radius : float, optional
-        Radius of a ball around rest in which random starts are uniform, with the loose mass in its
-        gap. Without it starts are scaled by, and placed on, the motions without the damper.
+        Radius of a ball around rest. Random starts are uniform in the ball, with the loose mass in
+        its gap. Without a radius, starts are scaled by the motions without the damper, and some
+        starts are placed on these motions.
     whole_gap : bool
-        With a radius: only displacement and velocity of the primary mass lie in the ball, and the
-        loose mass is at rest relative to it, anywhere in its gap. The radius 0 then means a machine
-        at rest. By default the loose mass lies in the ball too, as in the paper.
+        With a radius: False, all four components of a start lie in the ball, as in the paper. True,
+        only displacement and velocity of the primary mass do; the loose mass is at relative rest,
+        anywhere in its gap. A machine at rest is `radius=0` with `whole_gap=True`.
     seed : int
         Seed of the random starts.
     settling : Settling, optional
     life_runs : int
         Runs of each chaotic motion that measure how long it lasts; 0 for none.
     life_periods : int
-        Length of these runs in forcing cycles.
+        Largest length of these runs in forcing cycles.
     workers : int
-        Threads; the result does not depend on it.
+        Number of threads. The result does not depend on this number.
     progress : str, optional
         Title of a progress bar.
 
     Returns
     -------
     xarray.Dataset
-        For each (frequency, motion) what `steady_motion` returns (the outcome `absent` fills rows
-        with fewer motions), the branch, `motion_starts` (number of random starts that lead to it),
-        the 95 % interval of their share, and the mean life of a chaotic motion. For each
-        (frequency, start) outcome and length of a run; for each `end` the end of a branch; for each
-        `frequency` the largest start and the largest motion without the damper. `missed_share`
-        bounds, at 95 % confidence, the share of starts that lead to a motion not found.
+        - For each (frequency, motion): what `steady_motion` returns, with outcome `absent` in rows
+          with fewer motions; the branch; `motion_starts`, the number of random starts that lead to
+          the motion; the 95 % interval of their share; the mean life of a chaotic motion.
+        - For each (frequency, start): outcome and length of the run. For each `end`: the end of a
+          branch. For each `frequency`: the largest start and the largest motion without the damper.
+        - `missed_share`: upper bound (95 %) of the share of starts to motions that were not found.
 
     Warns
     -----
     UserWarning
-        If a motion without the damper is larger or faster than the radius, without `whole_gap`.
+        If a motion without the damper exceeds the radius in displacement or speed, and `whole_gap`
+        is False.
 
     Examples
     --------
@@ -200,7 +202,8 @@ def frequency_response(
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
     """Return variables (n, m) of the lives of the chaotic motions of a sweep.
 
-    `runs` runs from near each motion, at `states` (n, m, 4), last at most `periods` forcing cycles.
+    `runs` runs begin near the state of each motion in `states` (n, m, 4). A run lasts at most
+    `periods` forcing cycles.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}
@@ -222,15 +225,15 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 
 
 def _lives(parameters, states, periods, settling, **running):
-    """Return the life of each run in forcing cycles; for a run that does not end `periods` + 1.
+    """Return the life of each run in forcing cycles, or `periods` + 1 if the run does not end.
 
-    The time in which a run approaches an orbit before it counts as settled is subtracted.
+    The time from the end of a transient near an orbit until the run has settled is subtracted.
     """
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 
     def work(part):
         begin = 0.5 * np.pi / parameters[part, FREQUENCY]
-        # The patience exceeds the limit, so no run is stopped as chaotic, and no tangent followed.
+        # The patience exceeds the limit: no run is stopped as chaotic, and no tangent is computed.
         settings = settling.tolerance, 2 * periods + 2, periods
         settle_many(parameters[part], states[part], begin, *settings, records[part], stop)
 
@@ -245,7 +248,7 @@ def _lives(parameters, states, periods, settling, **running):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]
         approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
     lives = np.maximum(lives - approach, 1)
-    # A run that proves no longer chaotic when it is continued counts as ended at `periods`.
+    # If a run settles when it is continued, its life is `periods`.
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives

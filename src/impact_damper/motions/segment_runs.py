@@ -1,4 +1,4 @@
-"""Kernels of multiple shooting, for orbits cut into chains of segments (`orbits.segments`)."""
+"""Kernels of multiple shooting, for orbits that are divided into segments (`orbits.segments`)."""
 
 import numpy as np
 
@@ -17,17 +17,17 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
 from impact_damper.motions.records import PIECES, turning_time
 
-# Change of a parameter in a central difference, and a finer one if forward and backward difference
-# differ by more than BENT times their sum: then a contact has appeared or vanished in between.
+# Change of a parameter in a central difference; finer change; largest ratio of the difference of
+# the one-sided differences to their sum, above which a contact has appeared or vanished in between.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 
 @kernel
 def list_turns(p, states, phases, tolerance, turns):
-    """List the extrema of Z2 of a motion in segments (see `survey`); return their number.
+    """List the extrema of Z2 of a motion in segments, as of `survey`; return their number.
 
-    A row of `turns` (n, 4) is segment, phase W T, 1 for a maximum of |Z2| or 0 for a minimum, and
-    |Z2| minus the clearance.
+    The columns of `turns` (n, 4) are the segment; the phase W T; 1 at a maximum of |Z2|, 0 at a
+    minimum; and |Z2| minus the clearance.
     """
     work, start = workspace(), np.empty(4)
     c = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
@@ -59,7 +59,10 @@ def list_turns(p, states, phases, tolerance, turns):
 
 @kernel
 def flow_all(p, states, tangents, times, tolerance):
-    """Integrate states (m, 4) and tangents (m, 0 or 4, 4) in place; return the time in contact."""
+    """Integrate m segments in place: states (m, 4) and tangents (m, 0 or 4, 4).
+
+    Return the time in contact.
+    """
     work, touching = workspace(), 0.0
     for k in range(len(states)):
         side = side_of(p, states[k])
@@ -71,10 +74,10 @@ def flow_all(p, states, tangents, times, tolerance):
 
 @kernel
 def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
-    """Compute the derivatives of the ends of segments by a parameter, as central differences.
+    """Compute the derivatives of the end states of segments by a parameter (central differences).
 
     `rate` (COUNT,) are the derivatives of the packed parameters by this parameter. `sign` is -1 if
-    the segments cover half a symmetric orbit. `slopes` (m, n) receives the first n components.
+    the segments cover half a symmetric orbit. `slopes` (m, n) receives n components of a state.
     """
     work, none = workspace(), np.empty((0, 4))
     ahead, behind, moved = np.empty(4), np.empty(4), np.empty(COUNT)
