@@ -1,8 +1,8 @@
-"""Integration of many trajectories, LANES of which are stepped side by side in vector registers.
+"""Integration of many trajectories, stepped side by side in LANES lanes of vector registers.
 
 All trajectories of one step must be in the same phase, in flight or in contact. Therefore a pool
 holds more trajectories than there are lanes and has a queue for each kind of step. Each step takes
-its trajectories from the longest queue. The result for a trajectory does not depend on the others.
+its trajectories from the longest queue. The result of a trajectory depends on no other trajectory.
 """
 
 from typing import NamedTuple
@@ -25,8 +25,8 @@ flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.cont
 flight_tangents = by_address(_MANY.flight_tangents)
 contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Indices of the numbers of a trajectory in `Pool.numbers`. The numbers have the same order as the
-# rows of a step (`series.rows`).
+# Indices at which quantities of a trajectory begin in `Pool.numbers`. Their order is the same as in
+# the rows of a step (`instances.rows`).
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -38,8 +38,8 @@ class Pool(NamedTuple):
 
     numbers: Parameters, state, side, time, longest step and tolerance; shape (m, LENGTH).
     farthest: |Z1| beyond which a trajectory escapes (`equation.no_return`); shape (m,).
-    queues, waiting: Indices of the trajectories that wait for a step of each kind, shape (4, m),
-        and their numbers, shape (4,).
+    queues: Indices of the trajectories that wait for a step of each kind; shape (4, m).
+    waiting: Number of trajectories in each queue; shape (4,).
     contacts: Contacts begun since the last call of `send`; shape (m,).
     held: Index of the trajectory whose parameters are in each lane, or -1; shape (LANES,).
     a, d: Rows of the step and of its tangents (`instances.rows`).
@@ -111,7 +111,7 @@ def enqueue(queues, waiting, m, kind):
 def choose(pool, chosen):
     """Take up to LANES trajectories from the longest queue; return their number and the queue.
 
-    `chosen` receives their indices, the last one repeated if there are fewer.
+    `chosen` receives their indices. Lanes that remain free get the last index.
     """
     waiting = pool.waiting
     kind = FLIGHT
@@ -127,7 +127,7 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Copy the chosen trajectories into the lanes, parameters only if the lane held another one."""
+    """Copy chosen trajectories into the lanes; parameters only if a lane held another one."""
     for lane in range(LANES):
         m = chosen[lane]
         numbers = pool.numbers[m]
@@ -145,10 +145,10 @@ def gather(pool, chosen, kind):
 
 @kernel_only
 def scatter(pool, chosen, count, kind, arrived):
-    """Copy trajectories from the lanes into the pool and queue those before their end time.
+    """Copy trajectories from the lanes into the pool and queue those before their end times.
 
-    Return the number of trajectories at their ends; `arrived` receives their indices. A trajectory
-    that has escaped (`equation.no_return`) counts as at its end and keeps the state at the escape.
+    Return the number of trajectories at their end times; `arrived` receives their indices. A
+    trajectory that has escaped (`equation.no_return`) ends at once, in the state at the escape.
     """
     ended = 0
     for lane in range(count):
@@ -178,9 +178,9 @@ def scatter(pool, chosen, count, kind, arrived):
 
 @kernel
 def advance_some(pool, chosen, arrived):
-    """Step the trajectories of a pool until some are at their ends; return the number of these.
+    """Step the trajectories of a pool until some are at their end times; return their number.
 
-    `arrived` (LANES,) receives their indices. `chosen` (LANES,) is working memory.
+    `arrived` (LANES,) receives the indices of those. `chosen` (LANES,) is working memory.
     """
     ended = 0
     a, d = pointer(pool.a), pointer(pool.d)
@@ -203,8 +203,8 @@ def advance_some(pool, chosen, arrived):
 def advance(parameters, states, sides, starts, ends, tolerance, contacts):
     """Integrate trajectories, each from its start time to its end time.
 
-    The `states` (m, 4) and the `sides`, the walls in contact (m,), are replaced by those at the
-    ends, and `contacts` (m,) receives the numbers of contacts begun.
+    The `states` (m, 4) and the walls in contact, `sides` (m,), are replaced by their values at the
+    end times. `contacts` (m,) receives the numbers of contacts begun.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

@@ -1,8 +1,8 @@
-"""How kernels are compiled with numba, where their machine code is kept, and how they are called.
+"""Compile kernels with numba, cache their machine code and call them. Decorators for functions:
 
-    kernel       compiled on the first call, and cached
-    kernel_only  not callable from Python; cached only as part of the kernels that call it
-    inlined      compiled as part of its callers and not by itself
+    kernel       The function is compiled on the first call, and cached.
+    kernel_only  Only kernels can call the function; it is cached as part of these kernels.
+    inlined      The function is compiled only as part of its callers.
 
 numba compiles a cached function again after an edit of the file that defines it, but not after an
 edit of a function that it calls. Therefore each module has a folder of its own, whose name is the
@@ -30,7 +30,7 @@ from numba.extending import intrinsic
 
 from impact_damper.kernel.sources import kernel_digest
 
-# Seconds of compilation after which MESSAGE is printed.
+# Time spent on compilation, in s, after which MESSAGE is printed.
 PATIENCE = 1.0
 MESSAGE = "impact_damper: compiling kernels; later sessions will load them from the cache"
 # Number of float64 values in a cache line of the processor, which has 64 bytes.
@@ -41,7 +41,7 @@ CACHE_LINE = 8
 def cache_directory(*paths) -> Path:
     """Return the folder of the compiled kernels of the modules `paths`.
 
-    It is a temporary folder if the usual one is not writable.
+    If the usual folder cannot be made, a temporary folder takes its place.
     """
     chosen = os.environ.get("NUMBA_CACHE_DIR")
     root = Path(chosen) if chosen else platformdirs.user_cache_path("impact-damper")
@@ -53,13 +53,13 @@ def cache_directory(*paths) -> Path:
     return path
 
 
-# Folder of the generated modules and of their kernels, which depend on this room alone.
+# Folder of the generated modules and of their kernels, which depend on this subpackage alone.
 CACHE_DIRECTORY = cache_directory()
 
 
 @contextmanager
 def own_cache(function):
-    """Let numba cache a function that is decorated within this context in the folder of its module.
+    """Return a context in which numba caches a decorated function in the folder of its module.
 
     At its end the context restores the user's setting of the folder.
     """
@@ -93,7 +93,7 @@ inlined = partial(kernel, inline="always")
 
 @kernel
 def aligned(count):
-    """Return `count` zeros from a cache line on; a vector that crosses two lines loads slower."""
+    """Return `count` zeros that begin at a cache line; vectors across two lines load slower."""
     numbers = np.zeros(count + CACHE_LINE)
     before = -numbers.ctypes.data // 8 % CACHE_LINE
     return numbers[before : before + count]
@@ -103,7 +103,7 @@ def aligned(count):
 def pointer(typing, array):
     """Return a pointer to the first element of an array, which the caller must keep alive.
 
-    For an array numba counts references with locked instructions, slower than some kernels.
+    For an array numba counts references. The locked instructions take longer than some kernels.
     """
 
     def generate(context, builder, signature, arguments):
@@ -129,8 +129,8 @@ def by_address(function):
     """Return a stand-in for a kernel; calls of the stand-in jump to the kernel's address.
 
     Otherwise LLVM compiles a called kernel again as a part of each caller. A cached caller refers
-    to the kernel by name, which must be bound to an address before the caller is loaded. Therefore
-    `by_address` is called while a module is imported that the modules of all callers import.
+    to the kernel by name. The name must be bound to an address before the caller is loaded.
+    Therefore a module that the modules of all callers import calls `by_address` at its import.
     """
     name = f"{function.__module__}.{function.__name__}"
     llvmlite.binding.add_symbol(name, compiled(function).address)
@@ -184,7 +184,7 @@ class Progress(event.Listener):
 
 
 def _is_own(compiled):
-    """Return whether an event concerns a function of this package or of a module it generated."""
+    """Return whether an event concerns a function of this package or of a generated module."""
     return compiled.data["dispatcher"].py_func.__module__.startswith("impact_damper")
 
 

@@ -29,7 +29,7 @@ from impact_damper.model.packed import (
 def forcing_amplitude(p, lane=0, lanes=1):
     """Return the amplitude F + U W^2 of the forcing per unit of primary mass.
 
-    `p` has a row of `lanes` numbers for each parameter; `lane` is the index of one of them.
+    `p` has a row of `lanes` numbers for each parameter; `lane` is the index of a number in its row.
     """
     frequency = p[FREQUENCY * lanes + lane]
     return p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
@@ -53,7 +53,7 @@ def spring(p, x, lane=0, lanes=1):
 
 @kernel_only
 def spring_slope(p, x, lane=0, lanes=1):
-    """Return the derivative of `spring` with respect to x, from the same parameters."""
+    """Return the derivative of `spring` with respect to x, with the same arguments."""
     return p[STIFFNESS * lanes + lane] + 3.0 * p[CUBIC * lanes + lane] * x * x
 
 
@@ -67,9 +67,9 @@ def acceleration(p, y, t):
 def no_return(p):
     """Return the |Z1| beyond which a primary mass that moves outward never comes back.
 
-    There a softening spring pushes outward at least as hard as the amplitude A of the forcing: with
-    |Z1| > 2 omega_l / sqrt(-k3), -k3 |Z1|^3 - omega_l^2 |Z1| >= -3/4 k3 |Z1|^3 >= A. The contact
-    forces of the loose mass are neglected.
+    Farther out, a softening spring pushes outward with at least the amplitude A of the forcing. For
+    |Z1| > 2 omega_l / sqrt(-k3), its force is -k3 |Z1|^3 - omega_l^2 |Z1| >= -3/4 k3 |Z1|^3, and
+    the second bound makes this at least A. The contact forces of the loose mass are neglected.
     """
     if p[CUBIC] >= 0.0:
         return math.inf
@@ -79,7 +79,7 @@ def no_return(p):
 
 @kernel_only
 def has_escaped(p, x, v):
-    """Return whether a mass at Z1 = x beyond `no_return` moves outward, or x or v is not finite."""
+    """Return whether a mass is beyond `no_return` and moves outward; also if x is NaN."""
     return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 
@@ -100,13 +100,13 @@ def energy(p, y):
 def coefficients(at):
     """Yield the lines that load the coefficients of the spring's nonlinear terms.
 
-    The function `at` of a name in `packed.NAMES` returns the expression for the parameter.
+    `at(name)` returns the expression for the parameter with this name in `packed.NAMES`.
     """
     yield f"cubic = {at('CUBIC')}"
 
 
 def beginning(at):
-    """Yield lines that define names for `motion` from x0; `at` is as in `coefficients`."""
+    """Yield lines that compute numbers for `motion` from x0; `at` is as in `coefficients`."""
     yield from coefficients(at)
     yield "double = 2.0 * cubic"
     yield "s0 = cubic * x0 * x0"
@@ -117,11 +117,11 @@ def beginning(at):
 def motion(order, phase, constants, across):
     """Yield the lines for the series of a step up to an order, in a phase, "flight" or "contact".
 
-    Before these lines x0, x1, the names of `beginning`, a constant acceleration `push`, and
-    `cosine` and `sine` of the forcing's phase, times its amplitude, must have values; in contact
-    also q0, q1, `r1` and `mobility` = 1 + 1/rm, and with `across` the names of `Writer.series`. The
-    function `constants` of k returns the lines for the coefficients that are the same in all steps
-    of a trajectory: h/k, D/k, and e[k] without its factor cosine or sine.
+    Names that must have values before these lines: x0, x1, those of `beginning`, the constant
+    acceleration `push`, and `cosine` and `sine` of the forcing's phase, times its amplitude; in
+    contact q0, q1, `r1` and `mobility` = 1 + 1/rm; with `across` those of `Writer.series`.
+    `constants(k)` returns the lines for the coefficients that are the same in all steps of a
+    trajectory: h/k, D/k, and e[k] without its factor cosine or sine.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -169,7 +169,7 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Yield the lines that change all of s[n], ..., s[2n] when the term x[n] is added to l.
+    """Yield the lines that update s = k3 l^2 when the term x[n] is added to the polynomial l.
 
     With y = 2 k3 x[n] the product y x[j] is added to s[n+j] for each j < n, in pairs that begin at
     an even order, and k3 x[n]^2 becomes s[2n].
@@ -209,7 +209,7 @@ def _without_damping(k, drive):
 
 
 def _accelerations(k, phase, loose):
-    """Yield the lines for g[k] and x[k+2] from c[k], in contact also q[k+2] from `loose`[k]."""
+    """Yield lines that compute g[k] and x[k+2] from c[k]; in contact q[k+2] from `loose`[k]."""
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
     factor = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"

@@ -1,10 +1,10 @@
-"""Modules with the integration step, generated for a number of lanes and for orders of the series.
+"""Generate modules with the integration step, for a number of lanes and orders of the series.
 
-A lane holds one of the trajectories that are stepped side by side. A kernel is a loop over lanes
-around the lines that `equation` yields, compiled by `straight_lines`. With one lane it works on
-single numbers and pairs of numbers, and is about three times as fast as loops over arrays. With
-several lanes it consists of vector instructions and is three times as fast again. All numbers of a
-step stand in one flat array of rows with one number for each lane.
+Several trajectories can be stepped side by side, each in its lane. A kernel of this module is a
+loop over the lanes; its lines come from `equation` and are compiled by `straight_lines`. With one
+lane a kernel works on numbers and pairs, about three times as fast as loops over arrays. With
+several lanes a kernel consists of vector instructions and is again three times as fast. All numbers
+of a step stand in one flat array of rows. A row has one number for each lane.
 """
 
 import importlib.util
@@ -29,20 +29,20 @@ from impact_damper.kernel.templates import (
 from impact_damper.model import packed
 from impact_damper.model.parameters import NONLINEAR
 
-# Orders of the Taylor series. With these the integration is cheapest at medium errors.
+# Orders of the Taylor series. For medium errors these orders make the integration cheapest.
 FLIGHT_ORDER = 18
 CONTACT_ORDER = 23
-# Rows of a step, in this order:
+# Rows of a step, in this order (name of a group of rows, content):
 # packed.NAMES    the packed parameters
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
 # STEP            further arguments of the step, and its result LENGTH
 # SCRATCH         intermediate results
-# SERIES          coefficients of Z1 (X), of the penetration of the wall (Q), of the acceleration
-#                 without the force of the wall (G), of the slope of the spring's nonlinear force
-#                 (U, for tangents); and coefficients that are the same in all steps: the forcing
-#                 without its factor cosine or sine (E), h/k (H) and D/k (D)
-# A tangent has its STATE, the Z2 that it keeps if the loose mass sticks (KEPT), and the
-# TANGENT_SERIES of Z1 (DX) and penetration (DQ).
+# SERIES          coefficients of series: Z1 (X); penetration of the wall (Q); acceleration without
+#                 the force of the wall (G); slope of the spring's nonlinear force for tangents (U).
+#                 The coefficients of three series are the same in all steps: forcing without its
+#                 factor cosine or sine (E); h/k (H); D/k (D)
+# Rows of a tangent: STATE; KEPT, its Z2 while the loose mass sticks; TANGENT_SERIES, the
+# coefficients of its Z1 (DX) and its penetration (DQ).
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
@@ -52,8 +52,8 @@ SCRATCH = (
     "DRAW BASE_COSINE BASE_SINE ACROSS MOST SWAYS SWAY SWAY_SLOPE SWAY_CURVE SWAY_JERK JERK_BOUND "
     "APART PUSH ROUGH SLIDE BEND STICKS STUCK HELD_Z2 LIMIT TURN"
 ).split()
-# Parameters that are replaced while the loose mass sticks (`friction.hold`), with rows for their
-# values.
+# Parameters that `friction.hold` replaces while the loose mass sticks. The rows FREE keep the
+# original values.
 HELD = ["DAMPING", "STIFFNESS", *map(str.upper, NONLINEAR), "CONTACT_STIFFNESS", "DASHPOT"]
 FREE = [f"FREE_{name}" for name in HELD]
 SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH + FREE
@@ -93,7 +93,7 @@ def _source(writer):
         "TANGENTS": writer.tangents,
         "FLIGHT_ORDER": writer.orders["flight"],
         "CONTACT_ORDER": writer.orders["contact"],
-        # Order of the first of the coefficients from which `step.predict_length` extrapolates.
+        # Lowest order of the coefficients from which `step.predict_length` extrapolates.
         "EARLY": 3 * (writer.orders["flight"] - 1) // 5 + 1,
         "SIZE": writer.rows["ROWS"] * writer.lanes,
         "TANGENT_SIZE": writer.rows["TANGENT_ROWS"] * writer.tangents,
@@ -108,7 +108,7 @@ def _source(writer):
 
 
 def rows(flight_order, contact_order):
-    """Return a dictionary from the name of each row to its number, for series of these orders.
+    """Return a dictionary that maps names of rows to their numbers, for series of these orders.
 
     Further entries: PARTS, the first row for partial sums; ROWS and TANGENT_ROWS, numbers of rows.
     """
@@ -127,7 +127,7 @@ def rows(flight_order, contact_order):
 class Writer:
     """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
 
-    With one lane there are up to four tangents, with several lanes one for each trajectory.
+    With one lane the trajectory has up to four tangents. With several lanes each has one tangent.
     """
 
     def __init__(self, lanes, flight_order, contact_order):
@@ -142,7 +142,7 @@ class Writer:
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return the expression for a tangent's entry k rows after `row`, or after the first."""
+        """Return the expression for a tangent's entry in the k-th row after `row` ("": row 0)."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
@@ -182,9 +182,9 @@ class Writer:
             yield f"d{k} = {factor}{self.at('DASHPOT')}"
 
     def _constants(self, phase, tangent):
-        """Return a function of k that returns lines for coefficient k of the constant series.
+        """Return a function that returns the lines for coefficient k of the constant series.
 
-        With several lanes each step has other trajectories, so the lines compute it again.
+        With several lanes each step has other trajectories, so the lines compute the coefficient.
         """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
         if self.lanes > 1:
@@ -194,14 +194,14 @@ class Writer:
     def series(self, phase, across=False):
         """Return a kernel that fills the series of a step: X and G, and in contact Q.
 
-        With `across` it includes the acceleration of the loose mass alone (module `across`).
+        With `across` an acceleration acts on the loose mass alone (template `across`).
         """
         lines = [
             f"cosine = {self.at('COSINE')}",
             f"sine = {self.at('SINE')}",
             f"x0 = {self.at('Y0')}",
-            # Adding 0.0 keeps LLVM from loading x0 and x1 as one vector, which would wait until
-            # the stores of both are complete.
+            # Adding 0.0 keeps LLVM from loading x0 and x1 as one vector. That load would wait
+            # until both numbers have been stored.
             f"x1 = {self.at('Y1')} + 0.0",
             f"push = {self.at('PUSH')}",
             *equation.beginning(self.at),
@@ -224,7 +224,7 @@ class Writer:
         return self.function(name, self._stored(lines, f"{self.moving(phase)}G"))
 
     def squares(self, phase):
-        """Return a kernel that fills U, for the tangents, from the series of a step."""
+        """Return a kernel that computes the series U, for the tangents, from the series X."""
         count = self.orders[phase] - 1
         lines = list(equation.coefficients(self.at))
         lines += [f"x{k} = {self.at('X', k)}" for k in range(count)]
@@ -232,7 +232,7 @@ class Writer:
         return self.function(f"{phase}_squares", lines)
 
     def tangent_series(self, phase):
-        """Return a kernel that fills the series of a tangent over a step, from U."""
+        """Return a kernel that computes the series of a tangent over a step from the series U."""
         order, names = self.orders[phase], self.moving(phase)
         lines = [
             *(f"u{k} = {self.at('U', k)}" for k in range(order - 1)),
@@ -255,7 +255,7 @@ class Writer:
             yield f"mobility = 1.0 + {self.at('INVERSE_MASS_RATIO')}"
 
     def _stored(self, lines, names, tangent=False):
-        """Yield `lines`, each coefficient of `names` followed by a line that stores it."""
+        """Yield `lines`, and after each coefficient of a series in `names` a line to store it."""
         for line in lines:
             yield line
             target = line.split(" = ")[0]
@@ -293,13 +293,13 @@ class Source(Writer):
             self.sums("flight_early", "flight", "T", slope | curve, terms=early),
             self.sums("flight_curve", "flight", "T", jerk),
             self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
-            # Upper bounds on |g|. In flight g is Z1''.
+            # Upper bounds on |g|, where g is Z1'' without the force of the wall.
             self.sums("flight_bound", "flight", "LENGTH", bound),
             self.sums("flight_jerk", "flight", "LENGTH", {"JERK_BOUND": "|G'|"}),
             self.sums("contact_jerk", "contact", "LENGTH", {"Z1_JERK": "|G'|"}),
             self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
-            # An upper bound on the change of Z1': the sum of the moduli of its terms after the
-            # first.
+            # An upper bound on the change of Z1': the sum of the moduli of all terms of Z1' after
+            # the first term.
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         imports = [
@@ -313,8 +313,8 @@ class Source(Writer):
 
         `results` maps the row of each result to its series: "X" for the sum of the series X, "X'"
         for the derivative of the sum, "|X|" for the sum of the moduli of the terms. A sum begins at
-        the order `begin` and has at most `terms` terms; the lines `then` follow. The processor can
-        compute four partial sums, each of every fourth term, at the same time.
+        the order `begin` and has at most `terms` terms; the lines `then` follow. A sum is computed
+        as four partial sums of every fourth term. The processor works on all four at the same time.
         """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
@@ -340,7 +340,7 @@ class Source(Writer):
         yield f"{_widened(parts[0])} = part"
 
     def circular(self):
-        """Return a kernel that stores the sums of COSINES and SINES at ANGLE in COSINE and SINE."""
+        """Return a kernel that sums COSINES and SINES at ANGLE into the rows COSINE and SINE."""
         cosine, sine = self.at("COSINE"), self.at("SINE")
         angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
         if self.lanes == 1:
@@ -351,7 +351,7 @@ class Source(Writer):
         return self.function("circular_series", lines)
 
     def _coefficient(self, series, *orders):
-        """Return the expression for one coefficient of a series, or for a vector of four."""
+        """Return the expression for a coefficient of a series, or for a vector of coefficients."""
         number = self.at(series.strip("'|"), orders[0])
         if len(orders) > 1:
             number = _widened(number)
@@ -360,9 +360,9 @@ class Source(Writer):
         return f"abs({number})" if series.startswith("|") else number
 
     def _wall(self):
-        """Yield lines for second and third derivatives ("curve", "jerk") of Z1 and penetration.
+        """Yield lines for second (CURVE) and third (JERK) derivatives of Z1 and penetration.
 
-        Before these lines Z1_CURVE and Z1_JERK hold g and g', without the force of the wall.
+        Before these lines Z1_CURVE and Z1_JERK must hold g and g', which lack the wall's force.
         """
         mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
         for force, depth_row, rate, derivative in (
@@ -377,7 +377,7 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """Yield lines that store in TAIL the largest of the last two terms of the velocities."""
+        """Yield lines that store in TAIL the largest modulus of each velocity's last two terms."""
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):
@@ -389,7 +389,7 @@ class Source(Writer):
         yield f"{self.at('TAIL')} = {' * '.join(['last', *factors])}"
 
     def tangent_value(self, phase):
-        """Return a kernel that evaluates a tangent at T."""
+        """Return a kernel that sums the series of a tangent at the time T."""
         lines = [*self._time("T", phase)]
         for number, name in enumerate(self.moving(phase)):
             terms = [self.at_tangent(f"D{name}", k) for k in range(self.orders[phase] + 1)]
@@ -399,7 +399,7 @@ class Source(Writer):
         return self.function(f"{phase}_tangent_value", lines, tangent=True)
 
     def _time(self, row, phase):
-        """Yield lines for the time t in a row, and for the powers of t that `_sum` needs."""
+        """Yield lines that load the time t from a row and compute the powers that `_sum` needs."""
         yield f"t = {self.at(row)}"
         yield "t2 = t * t"
         yield "t4 = t2 * t2"
@@ -409,7 +409,7 @@ class Source(Writer):
 
 
 def _widened(number):
-    """Return the expression for the vector that begins with a number of the array."""
+    """Return the expression for the vector whose first entry is a number of the array."""
     return number.replace("]", " + i]")
 
 

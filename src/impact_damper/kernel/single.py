@@ -40,7 +40,7 @@ DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 
 @kernel
 def workspace():
-    """Return an array for the rows of one trajectory and of its tangents (`series.rows`)."""
+    """Return an array for the rows of one trajectory and of its tangents (`instances.rows`)."""
     return aligned(BEHIND + TANGENT_SIZE)
 
 
@@ -64,7 +64,7 @@ def polynomial(c, order, t):
 
 @kernel_only
 def write_trajectory(p, y, side, tolerance, a):
-    """Write parameters and state into a workspace; these rows are the same for all orders."""
+    """Write parameters and state into a workspace; their indices are the same for all orders."""
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -102,14 +102,14 @@ def unload(y, a):
 
 @kernel
 def step(p, y, side, t, longest, tolerance, work):
-    """Integrate one step of at most `longest` from the time t, which ends early at an event.
+    """Integrate one step of at most `longest` from the time t; the step ends at the first event.
 
     `side` is the wall in contact. The state y (4,) is replaced. `work`, a `workspace()`, receives
-    the series of Z1 over the step from index X on and, in contact, the series of Z2 -+ d0 from
-    index Q on. Return the length of the step and the wall in contact.
+    the series of Z1 over the step from index X on. In contact it also receives the series of
+    Z2 -+ d0 from index Q on. Return the length of the step and the wall in contact.
 
     For a motion that has escaped (`equation.no_return`) the length is `longest`, because steps on
-    the way to infinity become ever shorter; y is the state at the escape, after `work[LENGTH]`.
+    the way to infinity become ever shorter. y is the state after the time `work[LENGTH]`.
     """
     a = pointer(work)
     load(p, y, side, tolerance, a)

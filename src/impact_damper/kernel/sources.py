@@ -1,8 +1,8 @@
 """Source files that a module depends on, found by following its imports.
 
-The digest of these files names the folder in which compiled kernels are kept, and the workflow runs
-a job again if one of them was edited. This module imports neither numba nor NumPy, because every
-dry run of Snakemake needs it.
+The digest of these files is the name of the folder with the compiled kernels. The workflow runs a
+job again if one of these files was edited. This module imports neither numba nor NumPy, because
+every dry run of Snakemake imports it.
 """
 
 import ast
@@ -13,12 +13,12 @@ from importlib.metadata import version
 from pathlib import Path
 
 KERNEL = Path(__file__).parent
-# Folder of the packages; the kernels of another package next to this one are compiled too.
+# Folder of this package, and of other packages that may have kernels too.
 ROOT = KERNEL.parents[1]
 
 
 def sources(*paths) -> set:
-    """Return the given files and all files that they import from their own or from this package."""
+    """Return the files `paths` and all files that they import, from their or this package."""
     packages = {path.relative_to(ROOT).parts[0] for path in paths if path.is_relative_to(ROOT)}
     packages = frozenset(packages | {KERNEL.parent.name})
     found, new = set(), set(paths)
@@ -34,8 +34,8 @@ def _imports(path, packages):
 
     The `__init__.py` of a subpackage is included only if a name is imported from it.
     """
-    # Parsing only the statements that import from the packages takes a tenth of the time of parsing
-    # whole files.
+    # Only statements that import from the packages are parsed. Parsing whole files would take ten
+    # times as long.
     statement = re.compile(
         rf"^ *((?:from|import) (?:{'|'.join(packages)})\b(?:[^(\n]*\([^)]*\)|[^(\n]*$))",
         re.MULTILINE,
@@ -68,7 +68,7 @@ def module_file(name) -> Path:
 def kernel_digest(*paths) -> str:
     """Return the digest of numba's version and of all sources that kernels in `paths` depend on.
 
-    They include this room, whose templates no module imports by name.
+    The sources include all files of this subpackage.
     """
     digest = hashlib.sha256(version("numba").encode())
     for path in sorted(sources(*paths, *KERNEL.rglob("*.py"))):

@@ -1,8 +1,8 @@
-"""Compile lines of arithmetic without branches ("straight lines") without numba's type inference.
+"""Compile arithmetic without branches ("straight lines"), bypassing numba's type inference.
 
-The type inference of numba would take a millisecond for each of thousands of operations in the
-Taylor series of a step. The same lines are executed for each lane, which holds one of several
-trajectories. With one lane an operation on a pair takes one instruction, not two.
+A Taylor series of a step has thousands of operations, and numba's type inference takes a
+millisecond for each. Each lane holds one of several trajectories, and all lanes execute the same
+lines. With one lane an operation on a pair of numbers takes one instruction, not two.
 """
 
 import ast
@@ -18,7 +18,7 @@ from numba.extending import intrinsic
 
 from impact_damper.kernel.compiling import CONTRACT
 
-# Lanes in a vector. Eight doubles fill one register of 512 bits, or several narrower registers.
+# Number of lanes in a vector. Eight doubles fill a register of 512 bits, or narrower registers.
 WIDTH = 8
 FLOAT = ir.DoubleType()
 PAIR = ir.VectorType(FLOAT, 2)
@@ -27,24 +27,24 @@ OPERATIONS = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv
 
 
 class NotStraightError(SyntaxError):
-    """A line that `straight` cannot compile; the message names its file and number."""
+    """`straight` cannot compile a line; the message names the file and the number of the line."""
 
 
 def straight(function):
     """Decorate a function that executes the same lines of arithmetic for each lane.
 
-    The function takes one or two pointers to float64. Its body is a loop `for i in range(lanes)`,
-    with up to WIDTH lanes or a multiple of WIDTH, over assignments `x = ...` and `x += ...`:
+    The function takes one or two pointers to float64. Its body is a loop `for i in range(lanes)`.
+    The number of lanes is at most WIDTH, or a multiple of WIDTH. The loop has only assignments:
 
-    - The left side is a name, `a[1 + i]`, or, with one lane, `a[1]`.
+    - The left side of `=` or `+=` is a name, `a[1 + i]`, or, with one lane, `a[1]`.
     - The right side consists of names, constants, `a[1 + i]`, `a[1]` (the same for all lanes),
       `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`,
       which means `x if x > y else y`.
-    - `(x, y)` is a pair, which a name can hold and `x, y = ...` unpacks. Operators act on both of
-      its values; a float combined with a pair is used with both.
+    - `(x, y)` is a pair. A name can hold a pair, and `x, y = ...` unpacks a pair. Operators act on
+      both values of a pair, and combine a float with both values.
 
-    The result can be called in kernels; its attribute `py_func` is the function. Other lines raise
-    NotStraightError when a kernel that calls it is compiled.
+    Kernels can call the result; its attribute `py_func` is the function. A line of another form
+    raises NotStraightError when a calling kernel is compiled.
     """
 
     def generate(context, builder, signature, arguments):
@@ -77,7 +77,7 @@ def write(function, builder, pointers):
     lines.lanes, lines.width = lanes, min(lanes, WIDTH)
     lines.arithmetic = Arithmetic(builder, lines.width)
     rounds, step = (ir.Constant(OFFSET, count) for count in (lanes // lines.width, lines.width))
-    # One vector for all lanes needs no loop, whose stores LLVM would move behind its end.
+    # One vector for all lanes needs no loop. LLVM would move the stores of a loop behind its end.
     with cgutils.for_range(builder, rounds) if lanes > WIDTH else nullcontext() as turn:
         lines.first = builder.mul(turn.index, step) if turn else None
         for statement in loop.body:
@@ -125,7 +125,7 @@ class _Lines(ast.NodeVisitor):
                 self.refuse(target, "cannot be assigned to")
 
     def element(self, node):
-        """Return the pointer to `a[1]` or `a[1 + i]`, and whether i is added."""
+        """Return the pointer to `a[1]` or `a[1 + i]`, and whether the index contains i."""
         match node:
             case ast.Subscript(ast.Name(array), ast.Constant(int(offset))):
                 own = False
@@ -153,7 +153,7 @@ class _Lines(ast.NodeVisitor):
         return self.arithmetic.in_all_lanes(number)
 
     def constants(self, node):
-        """Return a number made of one constant per lane."""
+        """Return a number that has its own constant in each lane."""
         return ir.Constant(self.arithmetic.type, [self.literal(each) for each in node.value.elts])
 
     def literal(self, node):
@@ -180,7 +180,7 @@ class _Lines(ast.NodeVisitor):
     def visit_BinOp(self, node):
         """Return a sum, difference, product or quotient.
 
-        a*b + c becomes fmuladd(a, b, c). If both terms are products, the right one is fused.
+        a*b + c becomes fmuladd(a, b, c). If both terms are products, the right product is fused.
         """
         kind, left, right = type(node.op), node.left, node.right
         if kind not in OPERATIONS:

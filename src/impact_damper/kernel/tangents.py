@@ -1,4 +1,4 @@
-"""Integration of one trajectory together with tangents, solutions of the variational equations.
+"""Integration of one trajectory and its tangents, which solve the variational equations.
 
 The kernels of the tangents are compiled when this module is imported (`compiling.by_address`).
 Therefore a module that integrates no tangents imports `single` only.
@@ -33,7 +33,7 @@ def unload_tangents(tangents, d):
 
 @kernel_only
 def step_all(count, t, longest, a, d):
-    """Integrate one step, with trajectory and `count` tangents in the workspace."""
+    """Integrate one step of the trajectory and the `count` tangents in a workspace."""
     before = a[SIDE]
     length, side = step_loaded(t, longest, a)
     if count > 0:
@@ -46,7 +46,7 @@ def step_all(count, t, longest, a, d):
 
 @kernel
 def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
-    """Do `single.step` for a trajectory and 0 to 4 `tangents` (m, 4), which are replaced."""
+    """Integrate as `single.step` does, and replace the `tangents` (m, 4), m from 0 to 4."""
     a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, side, tolerance, a)
     load_tangents(tangents, d)
@@ -61,7 +61,7 @@ def advance(p, y, tangents, side, t, end, tolerance, work):
     """Integrate from time t to time `end`, with the arguments of `step_with_tangents`.
 
     Return the side at the end, the number of contacts begun and the time in contact. If the motion
-    escapes (`equation.no_return`), the integration stops in the state at the escape.
+    escapes (`equation.no_return`), the integration stops, and y is the state at the escape.
     """
     contacts = 0
     touching = 0.0

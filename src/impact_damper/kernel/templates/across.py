@@ -1,8 +1,8 @@
 """Template (see `step`): acceleration across, Z2'' - Z1'' without the force of a wall, and returns.
 
-It is DRAW - BASE A cos(W T): the component of gravity along the gap, and the acceleration of a
-moving base, which acts on both masses where Z1 is measured from the base. SWAY is its double
-integral from the step's beginning. Both are 0 for a damper without gravity on a base at rest.
+The acceleration across is DRAW - BASE A cos(W T). DRAW is the component of gravity along the gap,
+with friction. The other term is due to a moving base. It acts on both masses if Z1 is measured from
+the base. SWAY is the double integral of the acceleration across from the beginning of the step.
 """
 
 import math
@@ -11,7 +11,7 @@ from impact_damper.kernel.compiling import kernel_only
 
 LANES: int
 
-# Phase angles below this take (x - sin x) / x^3 from its series.
+# Phase angle (rad) below which (x - sin x) / x^3 is computed from its series.
 SMALL = 0.5
 
 
@@ -77,11 +77,10 @@ def find_sway(a):
 def find_return(a):
     """Find the contact within [0, T] of lanes whose loose mass begins behind the wall's surface.
 
-    There the wall pushes again once f = q + LAG q' rises to zero at a depth q > 0; otherwise a
-    contact begins at q = 0 as usual. MODE, WALL, T and the rows END_ are set as by
-    `find_contact`, but MODE to MET_DEEP for a contact at a depth.
-
-    If the speed -q' out of the wall certainly exceeds LAG times a bound on |q''|, f falls.
+    The wall pushes again once f = q + LAG q' rises to zero at a depth q > 0. Without such a time a
+    contact begins at q = 0 as usual. MODE, WALL, T and the rows END_ are set as by `find_contact`,
+    except that MODE becomes MET_DEEP for a contact at a depth. f falls, and no search is needed, if
+    the speed -q' out of the wall certainly exceeds LAG times a bound on |q''|.
     """
     flight_bound(a)
     flight_jerk(a)
@@ -118,7 +117,7 @@ def find_return(a):
 
 @kernel_only
 def step_outside(a, i, t):
-    """Return the next time and mode of a search in mode MARCH of `find_return`."""
+    """Return the next time and mode of a search of `find_return` that is in mode MARCH."""
     wall, lag, bound = a[WALL + i], a[LAG + i], a[BOUND + i]
     clearance = a[CLEARANCE + i]
     z, w = loose_mass(a, i, t)

@@ -20,7 +20,7 @@ def loose_mass(a, i, t):
 
 @kernel_only
 def first_guess(a, i):
-    """Return the time of the contact by the first three terms of the series of the distance."""
+    """Estimate the time of the contact from the first three terms of the distance's series."""
     distance = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
     speed = abs(a[Y3 + i])
     bend = a[WALL + i] * (a[G + i] + a[ACROSS + i])
@@ -44,7 +44,7 @@ def distance_ahead(a, i, t):
 def expect_contact(a):
     """Move T from LENGTH to the expected time of a contact, in lanes that expect a contact.
 
-    Three terms of the series decide whether one is expected, and half of all terms give the time,
+    Three terms of the series decide whether a contact is expected. Half of all terms give its time,
     so the processor need not wait for the last coefficients.
     """
     expected = 0
@@ -78,20 +78,20 @@ def guess_contact(a):
 def find_contact(a):
     """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
 
-    If there is such a time, MODE becomes MET and WALL the wall that is met. If there is certainly
-    none, MODE becomes MISSED and T keeps its value. In either case END_Z1 and END_Z1_SLOPE receive
-    Z1 and its slope at T, which must be known before the call. A T below LENGTH means that
+    If there is such a time, MODE becomes MET, and WALL is the wall that is met. If there is
+    certainly none, MODE becomes MISSED, and T keeps its value. END_Z1 and END_Z1_SLOPE must hold Z1
+    and Z1' at T before the call; they are updated with T. A T below LENGTH means that
     `expect_contact` expects a contact at T; the contact may lie slightly later.
 
     Bounds decide most flights without a search, for any spring. `change` is the sum of the moduli
-    of all terms of Z2' after the first, at T. The loose mass first moves to the wall `ahead`.
+    of all terms of Z2' at T after the first term. The loose mass first moves to the wall ahead.
 
-    - `clear`: Z2 deviates from its chord by at most SAG `change` T. If the wall
-      ahead is further away at both ends, it is not met.
+    - `clear`: Z2 deviates from its chord by at most SAG `change` T. The wall ahead is not met if it
+      is further away at both ends of the flight.
     - `left`: the chord gives a lower bound on the distance to the wall behind, and the first speed
-      minus `change` another. If their mean is positive, this wall is not met.
-    - `certain`: the speeds at both ends give lower bounds on the speed. If their mean is positive,
-      the velocity keeps its sign: only the wall ahead can be met, and only once.
+      minus `change` gives another. If the mean of both bounds is positive, this wall is not met.
+    - `certain`: the speed at each end gives a lower bound on the speed. If the mean of both bounds
+      is positive, the velocity keeps its sign: only the wall ahead can be met, and only once.
     """
     undecided = 0
     expected = 0
@@ -124,7 +124,7 @@ def find_contact(a):
 
 @kernel_only
 def meet_expected(a):
-    """Do one iteration, mostly the last, towards the contact in lanes that expect one at T.
+    """Do one iteration, mostly the only one, in lanes that expect a contact at T.
 
     Return the number of lanes that are still undecided.
     """
@@ -180,7 +180,7 @@ def search_contact(a):
                 upper = safe_advance(clearance - z, w, bound)
                 lower = safe_advance(clearance + z, -w, bound)
                 wall = 1.0 if upper < lower else -1.0
-                # Next to a wall that recedes, the distance is a rounding error for `shortest`.
+                # Next to a receding wall the distance stays a rounding error for `shortest`.
                 shortest = math.sqrt(8.0 * fine / (bound + TINY))
                 receding = max(shortest, ROUNDING * t) if wall * w <= 0.0 else 0.0
                 ahead = max(min(upper, lower), receding)

@@ -12,8 +12,8 @@ LANES: int
 # pi/2 as the sum of two numbers. The first has few digits, so its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
-# If COSINE and SINE are known for a phase that differs by less than NEAR, the new values follow
-# from the addition theorem, with the series of cos and sin of the difference up to third order.
+# Largest change of phase (rad) for which COSINE and SINE follow from known values by the addition
+# theorem. The series of cos and sin of the change are used up to third order.
 NEAR = 1e-4
 
 

@@ -1,11 +1,12 @@
 """Template (see `step`): Coulomb friction of the loose mass on its floor.
 
-Sliding in the direction SLIDE = sign(Z2'), friction adds -FRICTION SLIDE to the acceleration across
-and PUSH to Z1''. A loose mass that sticks (STUCK) moves with the primary mass,
+On a loose mass that slides in the direction SLIDE = sign(Z2'), friction adds -FRICTION SLIDE to the
+acceleration across (template `across`) and PUSH to Z1''. If the loose mass sticks (STUCK), both
+masses move together,
 
     (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T)),
 
-while the friction that this needs, per unit of loose mass, stays below FRICTION.
+while the friction that holds them together, per unit of loose mass, stays below FRICTION.
 """
 
 import math
@@ -24,9 +25,9 @@ KEPT: int
 
 @kernel_only
 def load_friction(a):
-    """Decide at the beginning of a step in which direction the loose mass slides, or if it sticks.
+    """Decide at the beginning of a step whether the loose mass sticks, or which way it slides.
 
-    After a turn or while it sticks Z2' is exactly 0.
+    After a turn, and while the loose mass sticks, Z2' is exactly 0.
     """
     a[STICKS] = 0.0
     for i in range(LANES):
@@ -60,10 +61,10 @@ def wall_force(a, i):
 
 @kernel_only
 def hold(a):
-    """Replace parameters of lanes that stick by those of both masses moving together.
+    """In lanes whose loose mass sticks, replace parameters by those of both masses together.
 
-    Damping and spring act on both masses, so their parameters are scaled; the last two of HELD_ROWS
-    are those of the wall, whose force is constant.
+    Damping and spring act on both masses, so their parameters are scaled. The last two of HELD_ROWS
+    belong to the wall; they become 0, because its force is constant.
     """
     for k in range(len(HELD_ROWS)):
         row, free = HELD_ROWS[k], FREE_ROWS[k]
@@ -79,7 +80,7 @@ def hold(a):
 
 @kernel_only
 def let_go(a):
-    """Restore the parameters that `hold` has replaced."""
+    """Restore the parameters that `hold` replaced."""
     for k in range(len(HELD_ROWS)):
         for i in range(LANES):
             a[HELD_ROWS[k] + i] = a[FREE_ROWS[k] + i]
@@ -97,7 +98,7 @@ def load_rates(a):
 
 @kernel_only
 def series_held(a, touching):
-    """Fill the series of a step while the parameters of lanes that stick are replaced."""
+    """Compute the series of a step with the parameters and forcing of lanes that stick."""
     hold(a)
     for i in range(LANES):
         inverse = a[INVERSE_MASS_RATIO + i]
@@ -117,10 +118,10 @@ def series_held(a, touching):
 
 @kernel_only
 def find_turn(a, touching):
-    """Find the first turn (Z2' = 0 of a mass that slides) or slip (of one that sticks) before T.
+    """Find the first turn or slip before T.
 
-    In these lanes MODE becomes TURNED, and T and the rows END_ those of the turn or slip. Other
-    lanes keep theirs.
+    At a turn Z2' of a sliding loose mass is 0. At a slip a sticking mass begins to slide. MODE
+    becomes TURNED there, and T and the rows END_ receive time and state. Other lanes do not change.
     """
     if touching:
         contact_jerk(a)
@@ -202,7 +203,7 @@ def wall_force_held(a, i):
 
 @kernel_only
 def end_turn(a):
-    """Set Z2' to 0 after a turn, and to a number of the right sign where the mass begins to slide.
+    """Set Z2' to 0 after a turn, and after a slip to a tiny number with the sign of the sliding.
 
     A loose mass that sticks keeps its Z2.
     """
@@ -217,7 +218,7 @@ def end_turn(a):
 
 @kernel_only
 def keep_tangents(a, d):
-    """Hold parameters for the tangents of lanes that stick, and keep the tangents' Z2."""
+    """Replace parameters for tangents as `hold` does, and store the tangents' Z2 in KEPT."""
     hold(a)
     for i in range(TANGENTS):
         d[KEPT + i] = d[2 * TANGENTS + i]
@@ -225,10 +226,10 @@ def keep_tangents(a, d):
 
 @kernel_only
 def friction_jump(a, d):
-    """Multiply tangents by the saltation matrix of a turn, and end what `keep_tangents` began.
+    """Multiply tangents by the saltation matrix of a turn, and undo `keep_tangents`.
 
-    At a turn friction jumps by J, and Z2'' before it is b: Z1' jumps by -rm J/b, and Z2' by
-    -(1 + rm) J/b times the tangent's Z2', to 0 if the loose mass sticks. Nothing jumps at a slip.
+    At a turn friction jumps by J, and Z2'' before the turn is b. The tangent's Z1' and Z2' jump by
+    -rm J/b and -(1 + rm) J/b times its Z2'. Its Z2' is 0 if the mass sticks. At a slip none jumps.
     """
     for i in range(TANGENTS):
         j = i % LANES

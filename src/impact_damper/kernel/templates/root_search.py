@@ -22,8 +22,8 @@ LANES: int
 
 # Relative rounding error of an event function, 4 units in the last place.
 ROUNDING = 2.0**-50
-# The iteration for a root ends once (move / bending time)^3, the size of the first term that it
-# neglects, is below LAST_MOVE times the tolerance. The bending time is |f'/f''|.
+# Largest ratio of the first neglected term to the tolerance at which the iteration for a root ends.
+# The size of this term is (move / bending time)^3, where the bending time is |f'/f''|.
 LAST_MOVE = 0.01
 MARCH, BRACKET, ENDING, MET, MISSED, MET_DEEP, TURNED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0
 # TINY prevents divisions by zero. FAR replaces infinity, because 0 times infinity is NaN.
@@ -65,7 +65,7 @@ def chebyshev(first, bend):
 
 @kernel_only
 def is_last_move(a, i, move, rate):
-    """Return whether the terms that a move neglects are far below the tolerance (LAST_MOVE)."""
+    """Return whether a move neglects only terms far below the tolerance (LAST_MOVE)."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -75,12 +75,12 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
     """Return the next move and mode of a search in mode BRACKET, by one safeguarded iteration.
 
     The event function is positive at LOW and not positive at HIGH, with one root between them. HIGH
-    is FAR while no such time is known; then at most one root lies between LOW and the end of the
-    step. A move that would leave the bracket is replaced by bisection.
+    is FAR while no such time is known; at most one root then lies between LOW and the end of the
+    step. Bisection replaces a move that would leave the bracket.
 
-    `first` is an estimate of the move to the root, such as a Newton step, and `bend` the part of
-    f'' that it neglects, divided by f'. `rate` is a lower limit of the rate that `is_last_move`
-    gets, and `fine` the rounding error of f.
+    `first` is an estimate of the move to the root, such as a Newton step. `bend` is the part of f''
+    that this estimate neglects, divided by f'. `is_last_move` gets the larger of `rate` and
+    |`bend`|. `fine` is the rounding error of f.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t
@@ -102,9 +102,9 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
 @kernel_only
 def store_end(a, i, row, end, move, going):
-    """Store value and slope after a move in `end` and the next row, if the search is `going` on.
+    """Store value and slope after a move in the row `end` and the next row if `going` is true.
 
-    The four rows from `row` on hold the value and three derivatives before it.
+    The four rows from `row` on hold the value and three derivatives before the move.
     """
     value, slope = a[row + i], a[row + LANES + i]
     curve, jerk = a[row + 2 * LANES + i], a[row + 3 * LANES + i]

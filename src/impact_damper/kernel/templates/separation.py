@@ -14,7 +14,7 @@ from impact_damper.kernel.equation import spring, spring_slope
 
 LANES: int
 
-# Longest step while the penetration grows and while it shrinks, in natural periods of the contact.
+# Longest step while the penetration grows, and while it shrinks, in natural periods of the contact.
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
 # Largest relative increase of the rate at which the phase of the contact turns (`find_separation`).
 # With this margin the phase turns by less than 0.55 * 1.25 < 3/4 of a turn while the penetration
@@ -33,7 +33,7 @@ def fast_exp2(y):
 
 @kernel_only
 def time_to_zero(f, slope, natural):
-    """Return about arctan(-natural f / slope) / natural, when a harmonic oscillation is zero."""
+    """Return the time when a harmonic oscillation is 0, about arctan(-natural f/slope)/natural."""
     u = (natural * f) ** 2
     v = slope * slope
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
@@ -41,7 +41,7 @@ def time_to_zero(f, slope, natural):
 
 @kernel_only
 def predict_separation(a):
-    """Compute the NATURAL frequency of the contact, LENGTH, and the separation T up to LENGTH.
+    """Predict the time T of separation, at most LENGTH; compute the NATURAL frequency and LENGTH.
 
     The prediction needs only the state, so that the processor need not wait for the series.
     """
@@ -82,12 +82,12 @@ def find_separation(a):
     none, T becomes LENGTH and MODE becomes MISSED. END_Z1, END_DEPTH and the rows of their slopes
     receive the values of Z1, of the penetration q and of both slopes at T.
 
-    In q'' = g - w^2 q - D q', w is the natural frequency of the contact, D = DASHPOT (1 + 1/rm),
-    and g, bounded by the sum G of the moduli of its terms, does not come from the wall. The
-    radius R = (q'^2 + w^2 q^2)^(1/2) grows at most at the rate G and falls at most at the rate
-    G + D R, which bounds |q''|. The phase of (w q, q') turns at the rate w, with a deviation of at
-    most G/R + D/2. If this is below PHASE_MARGIN w, q + LAG q', which is zero twice in a turn, has
-    at most one root in the step, and the search begins in mode BRACKET.
+    The penetration obeys q'' = g - w^2 q - D q' with the natural frequency w of the contact and
+    D = DASHPOT (1 + 1/rm). |g| is at most G, the sum of the moduli of the terms of g. The radius
+    R = (q'^2 + w^2 q^2)^(1/2) grows at most at the rate G and falls at most at the rate G + D R.
+    The largest R gives a bound on |q''|. The phase of (w q, q') turns at the rate w, with a
+    deviation of at most G/R + D/2. q + LAG q' is zero twice in a turn. If the deviation is below
+    PHASE_MARGIN w, it has at most one root in the step, and the search begins in mode BRACKET.
     """
     find_sway(a)
     contact_values(a)

@@ -27,17 +27,17 @@ KEPT: int
 
 # Bits of the float 1.0.
 ONE = 1023 << 52
-# The last terms of the series may reach SAFETY times the tolerance. Contacts amplify local errors;
-# with this factor the error of settled motions stays below 10 times the tolerance.
+# Largest ratio of the last terms of a series to the tolerance. Contacts amplify local errors; with
+# this ratio the error of settled motions stays below 10 times the tolerance.
 SAFETY = 0.05
-# A flight is shortened only if its last terms exceed `largest_tail` by the factor EXCESS. Its
-# length is a prediction, and without this margin many flights would be computed twice.
+# Ratio of the last terms to `largest_tail` above which a flight is shortened. The length of a
+# flight is a prediction. Without this margin many flights would be computed twice.
 EXCESS = 4.0
 # Longest flight that begins behind the surface of the unloaded wall (`is_outside`), in units of
 # LAG, the time in which a free wall returns to 1/e of its penetration.
 OUTSIDE = 2.0
-# A flight that cannot advance ends in a contact if its distance from the wall is below this share
-# of the clearance.
+# Largest distance from the wall, as a share of the clearance, at which a flight that cannot advance
+# ends in a contact.
 NEAREST = 1e-9
 
 
@@ -49,7 +49,7 @@ def bits(x):
 
 @kernel_only
 def number(x):
-    """Return the float that has these bits."""
+    """Return the float whose bits are the integer x."""
     return np.int64(x).view(np.float64)
 
 
@@ -63,9 +63,9 @@ def largest_tail(a, i):
 def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a series' derivative stay below `largest_tail`.
 
-    Only lanes whose TAIL exceeds `largest_tail` by the factor `excess` are changed. The n-th root
-    of `largest_tail` divided by a coefficient is computed from the bits of the numbers, which are
-    nearly proportional to logarithms, with an error of a few per cent.
+    Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. The new LENGTH is an
+    n-th root of `largest_tail` divided by a coefficient. It is computed from the bits of both
+    numbers, which are nearly proportional to logarithms. Its error is a few per cent.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
@@ -81,9 +81,9 @@ def limit_length(a, series, order, excess):
 def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
-    The coefficients of Z1 are assumed to decay geometrically from SCALE, at the rate of the
-    coefficients from order EARLY on, until the last terms of Z1' reach SAFETY times the tolerance.
-    The processor can begin with the next step before the last coefficients are computed.
+    The coefficients of Z1 are assumed to decay geometrically from SCALE, at a rate that follows
+    from the orders EARLY to EARLY + 2. With LENGTH the last terms of Z1' reach SAFETY times the
+    tolerance. The processor can begin the next step before the last coefficients are computed.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -219,9 +219,9 @@ def contact_tangents(a, d):
 def dashpot_jump(a, d, direction):
     """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
 
-    The dashpot's force sets in (direction -1) or ends (direction +1). Only this force jumps, so the
-    jump is proportional to the tangent's Z2, and the matrix has determinant 1. A force of the
-    wall that begins or ends at a depth is 0 there and does not jump.
+    The dashpot's force begins (direction -1) or ends (direction +1). Only this force jumps.
+    Therefore the tangent jumps in proportion to its Z2, and the matrix has determinant 1. A force
+    of the wall that begins or ends at a depth is 0 there and does not jump.
     """
     for i in range(TANGENTS):
         j = i % LANES
