@@ -1,4 +1,4 @@
-"""Evidence for claims 1 to 3, on solutions of harmonic balance and the orbits near them."""
+"""Evidence for claims 1 to 3: solutions of harmonic balance, and exact orbits near them."""
 
 import numpy as np
 import pandas as pd
@@ -8,9 +8,9 @@ from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading.datasets import Missing
 from impact_damper.data.datasets import flag, is_settled
 
-AROUND = 0.1  # a frequency is around Wp if |W/Wp - 1| is at most this
-BELOW = 0.75  # least W/Wp at which violent motions below the band are looked for
-ALL_DESIGNS = (*reading.CAPTIONS, *reading.RULES)  # the designs of figure 3
+AROUND = 0.1  # largest |W/Wp - 1| of a frequency around the peak frequency Wp
+BELOW = 0.75  # smallest W/Wp at which violent motions below the band are searched for
+ALL_DESIGNS = (*reading.CAPTIONS, *reading.RULES)  # names of all designs of figure 3
 
 
 def small_motion(datasets):
@@ -41,7 +41,7 @@ def small_motion(datasets):
 
 
 def rigid_against_elastic(datasets):
-    """Return the numbers of claim 2: the larger solutions of (14) and (7) agree."""
+    """Return the numbers of claim 2: large solutions of (14) and (7) have the same amplitude."""
     designs = reading.damped(datasets, "harmonic_balance").values()
     if not designs:
         raise Missing("There is no dataset of the stage harmonic_balance with a damper")
@@ -66,7 +66,7 @@ def rigid_against_elastic(datasets):
 
 
 def quiet_and_high(datasets):
-    """Return the numbers of claim 3: quiet motions around Wp, violent ones outside the band."""
+    """Return the numbers of claim 3: quiet motions exist around Wp, violent ones below the band."""
     around, beside, found = [], [], []
     for design in reading.select(datasets, "harmonic_balance", ALL_DESIGNS):
         peak = float(design.peak_frequency)
@@ -111,7 +111,7 @@ def _elastic_orbits(datasets):
 
 
 def design_multipliers(datasets):
-    """Return the largest multiplier modulus of each exact quiet orbit of figure 3 at Wp."""
+    """Return the largest Floquet multiplier modulus at Wp of each exact quiet orbit of figure 3."""
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     return np.array([reading.largest_multiplier(reading.design_point(each)) for each in followed])
 

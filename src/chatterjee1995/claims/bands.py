@@ -1,4 +1,4 @@
-"""Evidence for claims 4, 16 and 17, on the suppression band and the amplitude in it."""
+"""Evidence for claims 4, 16 and 17, on the suppression band and the amplitude in the band."""
 
 import itertools
 
@@ -13,7 +13,7 @@ from impact_damper.data.datasets import oscillator_of
 
 
 def widening(datasets):
-    """Return the numbers of claim 4: the band widens with omega_l, with rm and with lower e."""
+    """Return the numbers of claim 4: larger omega_l, larger rm and smaller e widen the band."""
     stiffer, heavier = (
         [reading.select(datasets, "harmonic_balance", names) for names in series]
         for series in ((reading.CAPTIONS, reading.RULES), (reading.BY_MASS,))
@@ -38,7 +38,7 @@ def widening(datasets):
 
 
 def _growth(series, width):
-    """Return the smallest ratio of a width to the width before it in several series of designs."""
+    """Return the smallest ratio of the widths of two successive designs in several series."""
     return min(
         float(width(after) / width(before))
         for designs in series
@@ -47,7 +47,7 @@ def _growth(series, width):
 
 
 def _remaining(datasets, names):
-    """Return max |Z1| of the exact quiet orbits at Wp, stable or not, over the free resonance."""
+    """Return max |Z1| of each exact quiet orbit at Wp, divided by that of the free resonance."""
     return [
         float(reading.design_point(orbit).orbit_displacement)
         / orbits.resonance_fold(orbits.free_of(datasets, orbit))[1]
@@ -56,7 +56,7 @@ def _remaining(datasets, names):
 
 
 def accuracy(datasets):
-    """Return the numbers of claim 16: harmonic balance gives the band's amplitude and width."""
+    """Return the numbers of claim 16: harmonic balance predicts the band's amplitude and width."""
     widths, shares, factors, harmonics = [], [], [], []
     for name in reading.ELASTIC:
         design = reading.get(datasets, "harmonic_balance", name)
@@ -82,12 +82,12 @@ def accuracy(datasets):
 
 
 def _factor(one, other):
-    """Return the larger of two positive numbers over the smaller."""
+    """Return the larger of two positive numbers divided by the smaller."""
     return max(one / other, other / one)
 
 
 def amplitude_by_mass(datasets):
-    """Return the numbers of claim 17: the larger rm, the lower the amplitude in the band."""
+    """Return the numbers of claim 17: a larger rm lowers the amplitude in the band."""
     designs = reading.select(datasets, "harmonic_balance", reading.BY_MASS)
     edges = np.array([reading.band_edges(design) for design in designs])
     parts = [reading.within(each, edges[:, 0].max(), edges[:, 1].min()) for each in designs]

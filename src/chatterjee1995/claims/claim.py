@@ -1,4 +1,4 @@
-"""A claim of the paper as `claims.yaml` states it, and its verdict from the numbers of the data."""
+"""A claim of the paper, as stated in `claims.yaml`, and its verdict, computed from datasets."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -18,12 +18,12 @@ NOT_DECIDABLE = "not decidable"
 
 
 def part(share, digits=2) -> str:
-    """Return a share for a sentence that goes on with "of the": "all", "none" or a percentage."""
+    """Return a share in words that may precede "of the": "all", "none" or a percentage."""
     return {1.0: "all", 0.0: "none"}.get(float(share)) or percent(share, digits)
 
 
 def rounding(distance) -> str:
-    """Return words for a printed number and its distance in half units of its last digit."""
+    """Return in words whether a number is rounded right; `misrounding` returns `distance`."""
     return "a right rounding" if distance <= 1 else "not a rounding"
 
 
@@ -39,7 +39,7 @@ SENTENCES.tests["known"] = lambda value: not math.isnan(value)
 
 
 class Bound(NamedTuple):
-    """The values that a claim requires of one of its numbers."""
+    """The range in which a claim requires one of its numbers to lie."""
 
     name: str
     least: float
@@ -54,7 +54,7 @@ class Bound(NamedTuple):
         return cls(name, *map(float, least or [-math.inf]), *map(float, most or [math.inf]))
 
     def holds(self, values) -> bool | None:
-        """Return whether the number is within the bound; None if it is NaN."""
+        """Return whether the number is within the bound; None if the number is NaN."""
         value = values[self.name]
         return None if math.isnan(value) else self.least <= value <= self.most
 
@@ -68,14 +68,14 @@ class Bound(NamedTuple):
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper, with its number, "1" to "19" or "S1" to "S6".
+    """A statement of the paper. `number` is "1" to "19", or "S1" to "S6" for misprints.
 
-    `evidence` takes all datasets, keyed by stage and name. It returns the numbers of the bounds,
-    NaN if the data do not determine them, and other values for the finding, or raises `Missing`.
-    `reading` is our meaning of vague words, `finding` a template of sentences that are true for
-    every verdict. `required` and `full_agreement` map each bound to the meaning of its number, the
-    second bound of a number to None. `figures` begin with the most important one. `verdicts`
-    replace the usual words.
+    `evidence` takes all datasets, keyed by stage and name, and returns values for `finding`. Some
+    values are the numbers that have bounds; a number that the data do not determine is NaN.
+    `reading` says how we read vague words. `finding` is a template, true for every verdict.
+    `required` and `full_agreement` map each bound to the meaning of its number; a second bound of
+    the same number maps to None. `figures` are names, the most important first. `verdicts` maps
+    usual verdicts to other words.
     """
 
     number: str
@@ -91,12 +91,12 @@ class Claim:
 
     @property
     def meanings(self) -> dict:
-        """What each number with a bound measures."""
+        """The meaning of each number that has a bound, keyed by the number's name."""
         texts = {**self.required, **self.full_agreement}
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
-        """Return the verdict; an unknown number leaves the claim open unless another refutes it."""
+        """Return the verdict; an unknown number prevents it unless a required bound fails."""
         required, wished = (
             [Bound.read(text).holds(values) for text in bounds]
             for bounds in (self.required, self.full_agreement)
@@ -120,7 +120,7 @@ class Claim:
         return " ".join(parts)
 
     def sentences(self, values) -> str:
-        """Return what the data show; if the claim is not decidable, which numbers are unknown."""
+        """Return the finding as text, or the unknown numbers if the claim is not decidable."""
         if self.verdict(values) != NOT_DECIDABLE:
             return " ".join(SENTENCES.from_string(self.finding).render(values).split())
         unknown = [words for name, words in self.meanings.items() if math.isnan(values[name])]

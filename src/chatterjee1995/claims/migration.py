@@ -1,4 +1,4 @@
-"""Evidence for claims 12, 13, 14 and 19; a case is a dataset of the stage `migration`."""
+"""Evidence for claims 12 to 14 and 19. A release switches the damper off; a case is a dataset."""
 
 import numpy as np
 
@@ -17,14 +17,14 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return the share of releases to a free motion, for each damped motion of a kind."""
+    """Return for each damped motion of a kind the share of releases that lead to a free motion."""
     rows = case.damped_kind.values == flag("damped_kind", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]
 
 
 def release_phase(datasets):
-    """Return the numbers of claim 13: at W = 1.7 the phase decides between period 1 and 3."""
+    """Return the numbers of claim 13: at W = 1.7 the phase of release decides for period 1 or 3."""
     case = reading.get(datasets, "migration", "figure_15")
     frequency = reading.parameter(case, "frequency")
     lower, upper = orbits.subharmonic_range(orbits.free_of(datasets, case))
@@ -42,7 +42,7 @@ def release_phase(datasets):
 
 
 def _scanned(datasets, case):
-    """Return whether the phase of release decides at each W scanned, for a case's damper, by W."""
+    """Return a dict: scanned W -> whether the release phase decides, for the damper of a case."""
     wanted = oscillator_of(case), damper_of(case)
     found = {}
     for scan in datasets.get("release_scan", {}).values():
@@ -56,7 +56,7 @@ def _scanned(datasets, case):
 
 
 def _nearest_range(decides, frequency):
-    """Return the ends of the range of neighbouring W at which the phase decides, nearest to W."""
+    """Return the ends of the range of W, nearest to `frequency`, in which the phase decides."""
     scanned = list(decides)
     ends = [
         (scanned[first], scanned[last - 1]) for first, last in runs_of_true(list(decides.values()))
@@ -93,7 +93,7 @@ def total_cycles(datasets):
 
 
 def early_release(datasets):
-    """Return the numbers of claim 19: early release at W = 1.85 leads to period 3, then to 1."""
+    """Return the numbers of claim 19: release at W = 1.85 first leads to period 3, later to 1."""
     case = reading.get(datasets, "migration", "figure_16")
     counts = case.destination_count.sel(damped_motion="unsettled")
     shares = counts / counts.sum()
@@ -115,7 +115,7 @@ def early_release(datasets):
 
 
 def by_policy(datasets, case, policy):
-    """Return the share of runs that arrive by a policy and their median cycles, or NaN twice."""
+    """Return a policy's share of runs that arrive, and their median cycles; NaN without data."""
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"
     for data in datasets.get("release_policies", {}).values():

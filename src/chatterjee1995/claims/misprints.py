@@ -12,12 +12,12 @@ from impact_damper.model.parameters import Oscillator
 from impact_damper.theory.design_rule import peak_frequency
 
 STATE = ("displacement", "velocity", "relative_displacement", "relative_velocity")
-PRINTED_PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}  # by damping h
+PRINTED_PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}  # damping h -> Wp printed in the paper
 SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansion of S1 is tested
 
 
 def misrounding(printed, computed):
-    """Return the distance of a printed to a computed number, in half units of the last digit."""
+    """Return |printed - computed| in half units of the last printed digit; at most 1 is right."""
     decimals = len(f"{printed:g}".partition(".")[2])
     return abs(printed - computed) * 2 * 10**decimals
 

@@ -73,14 +73,14 @@ def _violent(datasets, name):
 
 
 def phases(datasets):
-    """Return the numbers of claim 7: the masses move in antiphase below Wp, in phase above."""
+    """Return the numbers of claim 7: the masses move in antiphase below Wp, in phase above Wp."""
     of = pd.DataFrame([_phases(datasets, name) for name in BY_MASS])
     turns = {key: of[key][(of[key] - 1).abs().idxmax()] for key in ("turn_balance", "turn")}
     return of.max().to_dict() | turns | {"highest": of.highest.min()}
 
 
 def _phases(datasets, name):
-    """Return the phases of one damper, from 0.75 Wp to the highest W of harmonic balance."""
+    """Return the numbers of claim 7 for one damper, from 0.75 Wp to the highest computed W."""
     design = reading.get(datasets, "harmonic_balance", name)
     peak = float(design.peak_frequency)
     balance = reading.quiet_balance(design).sel(frequency=slice(0.75 * peak, None))
@@ -136,11 +136,11 @@ def contact_model(datasets):
 
 
 def _duration(restitution):
-    """Return the time in contact over the time for e = 1."""
+    """Return the time in contact, divided by the time in contact for e = 1."""
     return 1 / math.sqrt(1 - damping_ratio(restitution) ** 2)
 
 
 def _pull_free_error(restitution):
-    """Return the relative excess of the restitution over e if the wall cannot pull."""
+    """Return (restitution of a wall that cannot pull) / e - 1 for a nominal restitution e."""
     damping = damping_ratio(restitution)
     return math.exp(2 * math.asin(damping) * damping * _duration(restitution)) - 1

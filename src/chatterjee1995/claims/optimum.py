@@ -10,11 +10,11 @@ from chatterjee1995.reading import orbits
 from chatterjee1995.reading.bands import suppression_band
 from chatterjee1995.reading.datasets import Missing
 
-AWAY = 0.1  # relative change of d0 from its optimum at which the rise of max |Z1| is evaluated
+AWAY = 0.1  # relative distance of d0 from the optimum d0 at which the rise of max |Z1| is read
 
 
 def excess(datasets):
-    """Return the numbers of claim 9: the optimum d0 is slightly higher than by (7), and flat."""
+    """Return the numbers of claim 9: the optimum d0 slightly exceeds that of (7), and is flat."""
     groups = _sweeps(datasets, "damping", restitution=1)
     members = [sweep for group in groups.values() for sweep in group]
     over = [float(sweep.optimum_clearance / sweep.analytical_optimum) - 1 for sweep in members]
@@ -24,7 +24,7 @@ def excess(datasets):
         spreads.append(np.max(sizes) / np.min(sizes) - 1)
     for sweep in members:
         damping, frequency = reading.parameters(sweep, "damping", "frequency")
-        displaced.append(_displaced(sweep) * damping * frequency)  # resonance: 1/(h W)
+        displaced.append(_displaced(sweep) * damping * frequency)  # max |Z1| / (1/(h W))
     return {
         "dampings": len(groups),
         "least": np.min(over),
@@ -36,7 +36,7 @@ def excess(datasets):
 
 
 def _sweeps(datasets, *keys, **fixed):
-    """Return groups of two or more sweeps with the parameters `fixed`, by the values of `keys`."""
+    """Return sweeps with the parameters `fixed`, grouped by `keys`, at least two in a group."""
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
         if all(reading.parameter(sweep, key) == value for key, value in fixed.items()):
@@ -48,14 +48,14 @@ def _sweeps(datasets, *keys, **fixed):
 
 
 def _displaced(sweep):
-    """Return max |Z1| at 10 % below or above the optimum d0, whichever is larger."""
+    """Return the larger of max |Z1| at d0 10 % below and at d0 10 % above the optimum."""
     ends = float(sweep.optimum_clearance) * np.array([1 - AWAY, 1 + AWAY])
     size = np.interp(ends, sweep.clearance, sweep.quiet_displacement, left=np.nan, right=np.nan)
     return float(np.max(size))
 
 
 def _rise(sweep):
-    """Return the relative rise of max |Z1| from the optimum d0 to 10 % off it."""
+    """Return the relative rise of max |Z1| if d0 is 10 % off the optimum."""
     return _displaced(sweep) / float(sweep.optimum_displacement) - 1
 
 
@@ -83,7 +83,7 @@ def restitution(datasets):
 
 
 def _restitution_steps(group):
-    """Return ratios of d0 and of the rise at each step to a lower e, and of d0 over all steps."""
+    """Return for each step to a lower e the ratios of d0 and rise, and the overall ratio of d0."""
     group = sorted(group, key=lambda sweep: -reading.parameter(sweep, "restitution"))
     return [
         {

@@ -5,13 +5,13 @@ import numpy as np
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading import orbits
 
-# Dampers of light and heavy loose masses, and one on an oscillator with low damping.
+# Dampers with a light loose mass, with a heavy one, and on an oscillator with low damping.
 LIGHT, HEAVY, LOW_DAMPING = reading.BY_MASS[:2], reading.BY_MASS[2], "figure_08"
-AS_LARGE = 0.95  # least share of the free amplitude of a subharmonic that counts as unchanged
+AS_LARGE = 0.95  # least ratio to the free amplitude at which a subharmonic is called unchanged
 
 
 def _remaining(datasets, name):
-    """Return widths in W with stable subharmonics, and their largest ratios to free ones."""
+    """Return widths in W with stable subharmonics, and largest ratios of damped to free size."""
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
     edges = reading.band_edges(reading.get(datasets, "harmonic_balance", name))
@@ -54,7 +54,7 @@ def by_damping(datasets):
 
 
 def _reduction(datasets, name):
-    """Return by how much a damper lowers the subharmonic, on average between its folds."""
+    """Return how much a damper lowers the subharmonic, averaged over W between the free folds."""
     branches, free = orbits.of_curve(datasets, name)
     ends = orbits.subharmonic_range(free)
     curve = reading.within(reading.get(datasets, "subharmonic", name), *ends)

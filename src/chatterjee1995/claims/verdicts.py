@@ -50,7 +50,7 @@ _TEXTS = yaml.safe_load(files(__package__).joinpath("claims.yaml").read_text())
 CLAIMS = tuple(
     Claim(str(number), EVIDENCE[str(number)], **entry) for number, entry in _TEXTS["claims"].items()
 )
-# Symbols in plain text, as regular expressions, and in print.
+# Regular expression of a symbol in plain text -> printed symbol.
 PRINTED = {"omega_l": "ωl", r"\bpi\b": "π", r"\^2\b": "²", r"\bsqrt\b": "√", ">=": "≥"}
 
 
@@ -60,7 +60,7 @@ def claims(datasets) -> pd.DataFrame:
 
 
 def document(frame, picture=None, drawn=None) -> str:
-    """Return the page of the claims in Markdown; `picture` shows a figure that is in `drawn`."""
+    """Return the page of the claims in Markdown; `picture` embeds each figure named in `drawn`."""
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     rows = frame.to_dict("records")
     for row in rows:
@@ -84,7 +84,7 @@ def document(frame, picture=None, drawn=None) -> str:
 
 
 def typeset(text) -> str:
-    """Return a text with printed symbols."""
+    """Return a text with plain symbols replaced by printed symbols."""
     for plain, printed in PRINTED.items():
         text = re.sub(plain, printed, text)
     return text
@@ -96,6 +96,6 @@ def title(number) -> str:
 
 
 def _tally(frame) -> str:
-    """Return the verdicts, each with the number of its claims."""
+    """Return a text that lists each verdict with its number of claims."""
     counts = frame["verdict"].value_counts()
     return ", ".join(f"{verdict} ({number})" for verdict, number in counts.items())

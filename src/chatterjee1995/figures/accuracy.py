@@ -19,7 +19,7 @@ MODELS = {
     "many_harmonics": (style.SKY, "h", "-"),
     "shooting": (style.BLACK, "*", "none"),
 }
-# Marker and line of integrators, by whether they locate contacts, and of other Taylor orders.
+# Marker and line of integrators that locate contacts or do not; below, of other Taylor orders.
 LOCATED = {True: ("^", "-"), False: ("v", ":")}
 OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]
 # Quantity of the required accuracy -> variable or statistic of the dataset, and label of the axis.
@@ -33,7 +33,7 @@ QUANTITIES = {
     "exponent": ("exponent", "Relative error of the Lyapunov exponent"),
 }
 FINEST = 1e-16  # smallest error drawn: below the rounding error of a double
-# Ends of runs that have a result.
+# Values of `run_status` of runs that have a result.
 ENDED = "ok", "missed_contacts", "invented_contacts"
 DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
@@ -99,7 +99,7 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the runs of one method, open if doubtful; `bars` are standard errors or None."""
+    """Draw the runs of one method, doubtful ones with open markers; `bars`: standard errors."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     if bars is None:

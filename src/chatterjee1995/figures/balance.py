@@ -1,4 +1,4 @@
-"""Where harmonic balance fails: with many harmonics, and over two parameters."""
+"""Errors of harmonic balance: with many harmonics, and as maps over two parameters."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -14,10 +14,10 @@ PANELS = {
     "retained": "Error of $Z_1$ in harmonics up to $N$",
     "multiplier": "Error of a Floquet multiplier (Hill)",
 }
-ROUNDING = 1e-12  # smallest error fitted: smaller ones are dominated by rounding
+ROUNDING = 1e-12  # smallest error used in the fit; rounding dominates smaller errors
 FLOOR = 1e-16  # smallest error drawn
 GUIDE = {"color": style.GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
-# Result of a cold start -> legend text and marker.
+# Result of a cold start (Newton's method from one harmonic) -> legend text and marker.
 COLD = {
     "same_motion": ("(d): finds the same motion", {"marker": "o", "markerfacecolor": "none"}),
     "another_motion": ("(d): finds another motion", {"marker": "s", "markersize": 4.4}),
@@ -30,7 +30,7 @@ PARAMETERS = {
     "clearance": "Clearance, $d_0$",
     "restitution": "Coefficient of restitution, $e$",
 }
-# Legend text, colour and hatching of each verdict.
+# Verdict (answer of harmonic balance, answer of exact motions) -> legend text, colour, hatching.
 QUIET = {
     "stable_stable": ("rightly called stable", style.PALE_SKY, ""),
     "stable_unstable": ("called stable, orbit is unstable", style.VERMILION, "////"),
@@ -60,7 +60,7 @@ VIOLENT = {
 
 @style.context()
 def draw_harmonic_convergence(*, harmonic_convergence):
-    """Draw errors of max |Z1|, of the retained harmonics and of multipliers, and cold starts."""
+    """Draw errors of max |Z1|, retained harmonics and multipliers, and results of cold starts."""
     drawn = style.figure("double", 6.4)
     panels = drawn.subplots(2, 2, sharex=True)
     style.letter_panels(panels.flat)
@@ -91,7 +91,7 @@ def _draw_errors(axes, harmonics, measure):
 
 
 def _guide(data, at):
-    """Return the line of predicted decrease, three times the fit so that it hides no errors."""
+    """Return the line of predicted decrease, raised by a factor of 3 to keep errors visible."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():
@@ -117,7 +117,7 @@ def _draw_cold(axes, harmonics):
 
 
 def _title(data, short=False):
-    """Return the parameters of a motion as text: its damper, or "free" without one."""
+    """Return the parameters of a motion as text: the damper, or "free" without a damper."""
     parameters = parameters_of(data)
     if not has_damper(data):
         return "free" if short else f"free, {style.parameter_label(parameters, 'frequency')}"
@@ -152,7 +152,7 @@ def draw_balance_map(*, balance_map):
         ("left", "right"),
         strict=True,
     ):
-        # Blank entries, so that both legends begin at the same height.
+        # Blank entries make both legends begin at the same height.
         blank = [Line2D([], [], linestyle="none")] * (longest - len(labels))
         place = f"outside lower {side}"
         drawn.legend(handles + blank, labels + [""] * len(blank), title=words, loc=place)

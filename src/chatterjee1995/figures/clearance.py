@@ -1,4 +1,4 @@
-"""Optimum clearances: figures 6, 7 and 11 of the paper, rules for the clearance, and studies."""
+"""Optimum clearances: figures 6, 7 and 11 of the paper, design rules, and studies (grids)."""
 
 from itertools import product
 
@@ -33,7 +33,7 @@ UNSETTLED = {"hatch": "////", "edgecolor": style.BLACK, "linewidth": 0}
 
 @style.context()
 def draw_optimum(*, optimum):
-    """Draw the largest displacement of the quiet motion against clearance, all in one plot."""
+    """Draw the largest displacement of the quiet motion against clearance, for all datasets."""
     drawn = style.figure("double", 4.4)
     sweep_plot(optimum, drawn.subplots())
     style.legend(drawn, 3)
@@ -80,7 +80,7 @@ def _draw_sweep(axes, data, name):
 
 
 def _draw_errors(axes, datasets):
-    """Draw the share of optima that each rule predicts within an error, against this error."""
+    """Draw the share of optima that each rule predicts within an error, against the error."""
     for rule, look in RULES.items():
         errors = np.concatenate(
             [

@@ -13,7 +13,7 @@ from impact_damper.plot.maps import marked, mesh
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
 LEVELS = 0.01, 0.05  # errors with a contour line
 LINEAR = 1e-3  # the load axis is linear below this value and logarithmic above
-# Looks of the contacts of motions, in the order of the coordinate `size` of the dataset.
+# Markers of simulated contacts, in the order of the coordinate `size` of the dataset.
 MOTIONS = (
     {"color": style.BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},
     {"color": style.VERMILION, "marker": "_", "markersize": 5.0, "markeredgewidth": 0.5},

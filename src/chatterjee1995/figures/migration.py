@@ -1,4 +1,4 @@
-"""Migration control: figures 13 to 16 of the paper, basins, and policies of release."""
+"""Migration control: figures 13 to 16, basins, and policies of release (switching off)."""
 
 import numpy as np
 
@@ -8,8 +8,8 @@ from impact_damper.plot import style
 from impact_damper.plot.basin_plane import basins as basins_plot
 from impact_damper.plot.motions import migration as migration_plot
 
-AROUND = -15, 25  # cycles from the last release at which the panel around it begins and ends
-# Look of each destination of a release, and panel title of each motion with damper.
+AROUND = -15, 25  # first and last cycle of the detail panel, relative to the last release
+# Destination of a release -> marker. Below: motion with damper -> panel title.
 DESTINATIONS = {
     "non_resonance": style.markers(
         "released to the non-resonance motion", style.BLUE, ".", markerfacecolor=style.BLUE
@@ -28,7 +28,7 @@ MOTIONS = {
 DAMPER = "mass_ratio", "clearance", "restitution"
 
 
-@style.context({"axes.titley": None})  # keeps the letters clear of the upper axis
+@style.context({"axes.titley": None})  # keeps the panel letters clear of the upper axis
 def draw_migration(*, migration):
     """Draw the displacement in the stored run of each case: the whole run, and its last release."""
     drawn = style.figure("double", 0.7 + 3.6 * len(migration))
@@ -56,7 +56,7 @@ def draw_release(*, migration):
     drawn, panels = style.grid(len(sources), 2.6, 0.6, columns)
     for axes, (runs, row) in zip(panels, sources, strict=True):
         _draw_releases(axes, runs.isel(damped=row))
-    # of three panels in a row only the middle one has a label: three labels would overlap
+    # With three panels in a row only the middle one has a label: three labels would overlap.
     for axes in panels[1::3] if columns == 3 else panels:
         axes.set_xlabel(style.axis_label(migration[0]["release_displacement"]))
     drawn.supylabel(style.axis_label(migration[0]["release_velocity"]), fontsize="medium")
@@ -86,7 +86,7 @@ def draw_basins(*, basins):
 
 @style.context({"axes.titley": None})
 def draw_release_policies(*, release_policies):
-    """Draw success and cycles of each policy, for each damper."""
+    """Draw the share of success and the median cycles of each policy, for each damper."""
     (data,) = release_policies
     drawn = style.figure("double", 5.2)
     panels = drawn.subplots(2, data.sizes["case"], sharex=True, sharey="row", squeeze=False)
@@ -109,11 +109,11 @@ def _draw_case(above, below, one):
         look = style.curve(k) | {"marker": style.CURVES[k][2], "label": POLICIES[policy]}
         success = one["policy_success"].sel(policy=policy).values
         spread = np.abs(success[:, 1:] - success[:, :1]).T
-        # side by side, so that intervals do not hide each other
+        # A small shift in frequency keeps intervals from hiding each other.
         above.errorbar(frequency + 0.004 * (k - 1.5), success[:, 0], spread, capsize=1.5, **look)
         cycles = one["policy_cycles"].sel(policy=policy, quantile=0.5).values
         middle = np.where(np.isfinite(cycles[:, 0]), cycles[:, 0], np.nan)
-        # an infinite upper end becomes a bar that leaves the panel
+        # An infinite upper end becomes a bar that leaves the panel.
         spread = middle - cycles[:, 1], np.minimum(cycles[:, 2], 1e6) - middle
         below.errorbar(frequency + 0.004 * (k - 1.5), middle, spread, capsize=1.5, **look)
     ends = frequency[0] - 0.03, frequency[-1] + 0.03

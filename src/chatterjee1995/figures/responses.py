@@ -1,4 +1,4 @@
-"""Frequency responses, branches of orbits and shares: figures 2 to 5, 8 and 10 of the paper."""
+"""Responses, branches of orbits and shares of starts: figures 2 to 5, 8 and 10 of the paper."""
 
 from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
 from impact_damper.plot import style
@@ -8,7 +8,7 @@ from impact_damper.plot.motions import phase_panel
 from impact_damper.plot.responses import response as response_plot
 from impact_damper.plot.stacked_shares import shares as shares_plot
 
-# Looks of orbits without a damper behind branches of orbits with one.
+# Lines of orbits without a damper, drawn behind branches of orbits with a damper.
 FREE = {"color": style.BLACK, "linewidth": 0.7, "zorder": 2.2}
 FREE_UNSTABLE = {"color": style.GREY, "linewidth": 0.7, "linestyle": ":", "zorder": 2.1}
 
@@ -88,7 +88,7 @@ def _restitution(data):
 
 
 def _period_3(motions):
-    """Return motions of which only the settled ones are left whose period is a multiple of 3."""
+    """Return motions; all but settled ones with a period that is a multiple of 3 become absent."""
     period = motions["period"]
     chosen = is_settled(motions) & (period > 1) & (period % 3 == 0)
     outcome = motions["outcome"].where(chosen, flag("outcome", "absent"))
@@ -97,7 +97,7 @@ def _period_3(motions):
 
 @style.context()
 def draw_branches(*, branches):
-    """Draw max |Z1| of orbits against frequency, one panel with all free orbits for each damper."""
+    """Draw max |Z1| against frequency, a panel for each damper; all panels show the free orbits."""
     damped = [data for data in branches if has_damper(data)]
     free = [data for data in branches if not has_damper(data)]
     drawn = style.figure("double", 4.6 * len(damped))
@@ -115,7 +115,7 @@ def draw_branches(*, branches):
 
 @style.context()
 def draw_shares(*, response):
-    """Draw the shares of random starts over frequency, one panel for each damper."""
+    """Draw the share of random starts that lead to each motion, one panel for each damper."""
     drawn, panels = style.grid(len(response), 2.3, 0.8, sharey=True)
     for place, (axes, data) in enumerate(zip(panels, response, strict=True)):
         shares_plot(data, axes)

@@ -21,7 +21,7 @@ def contours(axes, x, y, error, levels):
 
 @style.context()
 def draw_rigid_limit(*, rigid_limit):
-    """Draw maps of the error of max |Z1|, and the power of r1 with which the error falls."""
+    """Draw maps of the error of max |Z1|, and curves of the error against stiffness r1."""
     drawn = style.figure("double", 5.2)
     grid = drawn.add_gridspec(2, len(rigid_limit), height_ratios=(1, 1.2))
     maps = [drawn.add_subplot(grid[0, column]) for column in range(len(rigid_limit))]
@@ -53,7 +53,7 @@ def _draw_map(axes, data, norm):
 
 
 def _draw_orders(axes, rigid_limit):
-    """Draw errors of max |Z1| against stiffness at the design frequency, with lines of powers."""
+    """Draw errors of max |Z1| against stiffness r1 at the design frequency, with lines r1^-n."""
     for index, data in enumerate(rigid_limit):
         row = data.sel(frequency=parameters_of(data)["frequency"], method="nearest")
         x, look = data["stiffness"], style.curve(index)

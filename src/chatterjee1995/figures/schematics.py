@@ -10,7 +10,7 @@ from impact_damper.plot import style
 
 
 def carriage(axes):
-    """Draw the primary mass on its rail, with springs and dashpot on the left and the force."""
+    """Draw the primary mass on its rail, springs and dashpot to the left, force to the right."""
     parts.ground(axes, (0.35, 2.5), (0.35, 0.3))
     parts.ground(axes, (0.35, 0.3), (6.75, 0.3))
     parts.mass(axes, 2.05, 0.46, 3.9, 1.86)
@@ -80,7 +80,7 @@ def inelastic_model():
 
 
 def place(u, v, level):
-    """Return points (n, 2) of a plane in perspective: u to the right, v into the page."""
+    """Return points (n, 2) of the sheet for points of a plane: u to the right, v into the page."""
     u, v = np.broadcast_arrays(np.atleast_1d(u), v)
     return np.column_stack((0.25 + u + 0.5 * v, level + 0.6 * v))
 
@@ -98,7 +98,7 @@ def attractor(axes, centre, radius, level, color, **keywords):
 
 
 def approach(axes, start, centre, radius, level, color, rate, **keywords):
-    """Draw a trajectory from a start onto a circle; its distance falls by exp(-rate) a radian."""
+    """Draw a spiral onto a circle; the distance to the circle falls by exp(-rate) per radian."""
     offset = np.subtract(start, centre)
     turned = np.linspace(0, 2 * np.pi, 300)
     angle = np.arctan2(offset[1], offset[0]) + turned
@@ -136,7 +136,7 @@ def triad(axes, x, y):
 
 
 def planes(axes, off, on):
-    """Draw the planes of states without the damper (two basins) and with the damper (one)."""
+    """Draw the planes of states: two basins without the damper, one basin with the damper."""
     right = 5.3
     v = np.linspace(0, 2, 100)
     border = 2.5 + 0.22 * np.sin(2.6 * v)
@@ -190,7 +190,7 @@ def migration_scheme():
 
 
 def node(axes, x, y, width, height, words, color):
-    """Write words on a box of a flow chart; a question has pale orange, start and ends pale sky."""
+    """Draw a box of a flow chart; questions are pale orange, the start and the ends pale sky."""
     across, up = width / 2, height / 2
     if color == style.PALE_ORANGE:
         corners = [(x - across, y), (x, y - up), (x + across, y), (x, y + up)]

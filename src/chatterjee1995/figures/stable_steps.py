@@ -5,7 +5,7 @@ from impact_damper.data.datasets import parameters_of
 from impact_damper.plot import style
 
 LINEAR = "linear stability limit"
-# Looks of the lines in the order of the accuracies in the dataset, and of the linear limit.
+# Lines: one for each accuracy, in the order of the dataset, and one for the linear limit.
 LINES = {
     "within 1 %": {"marker": "o", "markerfacecolor": style.WHITE, "linestyle": (0, (4, 2))},
     "within 10 %": {"marker": "s"},

@@ -1,4 +1,4 @@
-"""The suppression band by the motions that exist: exact orbits and simulated motions."""
+"""The suppression band, determined from exact orbits and simulated motions."""
 
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ from chatterjee1995.reading import orbits
 
 
 class Band(NamedTuple):
-    """Edges of a suppression band in W; the lower one is at most `resolution` above `lower`."""
+    """A suppression band in W; it begins between `lower` and `lower + resolution`."""
 
     lower: float
     upper: float
@@ -28,7 +28,7 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Return the mask of the violent motions; above the end of the free resonance is none."""
+    """Return the mask of the violent motions; it is false above the end of the free resonance."""
     frequency = response.frequency
     size = xr.DataArray(orbits.resonance(free, frequency), {"frequency": frequency})
     return reading.touching(response) & (response.maximum_displacement > orbits.HALF * size)
@@ -41,9 +41,9 @@ def quiet_motions(response, free):
 
 
 def suppression_band(datasets, name):
-    """Return the `Band` of a curve without a violent motion, up to the end of the free resonance.
+    """Return the `Band` of a curve: it has no violent motion and ends with the free resonance.
 
-    The resolution is 0 at an end of a branch of orbits, otherwise a step of the response.
+    The resolution is 0 if a branch of orbits ends at `lower`, else at most one frequency step.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

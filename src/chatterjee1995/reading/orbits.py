@@ -1,6 +1,6 @@
 """Branches of exact periodic orbits, cut into pieces and evaluated at any frequency.
 
-`free` are branches without the damper. An orbit is high (violent) above half of their resonance.
+`free`: branches without damper. High (violent): max |Z1| above half of the free resonance at W.
 """
 
 import numpy as np
@@ -25,18 +25,18 @@ def free_of(datasets, data):
 
 
 def of_curve(datasets, name):
-    """Return the branches of dataset `name` and of its free oscillator, or raise Missing."""
+    """Return the branches `name` and those of the oscillator without damper, or raise Missing."""
     branches = reading.get(datasets, "branches", name)
     return branches, free_of(datasets, branches)
 
 
 def pieces(branches) -> pd.DataFrame:
-    """Return the pieces of branches, each from one orbit to the next, a row for each piece.
+    """Return a row for each piece of the branches; a piece joins two successive orbits.
 
-    `lower` and `upper` are its ends in W. In its middle `size` is max |Z1|; `amplitude` and `loose`
-    are the complex first harmonic of Z1 with its phase relative to Z2 and to x2. The same names
-    with `_change` hold differences between the ends. At the ends `fewest` and `contacts` are the
-    least and largest number of contacts, `restitution` the least ratio of speeds in a contact.
+    `lower` and `upper` are the ends in W. `size` is max |Z1| in the middle. `amplitude` and `loose`
+    are the complex first harmonic of Z1 there, with the phase relative to Z2 and to x2. A name with
+    `_change` holds the difference between the ends. `fewest` and `contacts` are the least and most
+    contacts of the orbits at the ends, `restitution` their least ratio of speeds in a contact.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -155,7 +155,7 @@ def quiet(branches, free):
 
 
 def smallest_quiet(branches, free, frequency):
-    """Return the smallest stable quiet orbit at each frequency as `crossings`, or raise Missing."""
+    """Return the row of `crossings` with the smallest quiet orbit at each W, or raise Missing."""
     orbits = smallest(quiet(branches, free), frequency)
     missing = np.setdiff1d(frequency, orbits.frequency)
     if len(missing):
@@ -166,7 +166,7 @@ def smallest_quiet(branches, free, frequency):
 def high_counterparts(design, branches, free) -> pd.DataFrame:
     """Return `crossings` of the exact orbits nearest to the stable violent solutions of (7).
 
-    Only symmetric orbits of period 1 with two contacts count; one harmonic approximates no others.
+    Only symmetric orbits of period 1 with two contacts are taken: (7) approximates no others.
     """
     part = pieces(branches)
     part = part[(part.period == 1) & (part.asymmetry < SYMMETRIC)]
@@ -180,7 +180,7 @@ def high_counterparts(design, branches, free) -> pd.DataFrame:
 
 
 def subharmonic(free):
-    """Return the pieces of the free subharmonic, its widest branch, or raise Missing."""
+    """Return the pieces of the widest branch of the free subharmonic, or raise Missing."""
     part = pieces(free)
     third = part[(part.period == 3) & (part.asymmetry < SYMMETRIC)]
     if third.empty:

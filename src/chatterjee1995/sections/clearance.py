@@ -9,7 +9,7 @@ from impact_damper.command.section import dotted, increasing, problem
 from impact_damper.command.values import number_or_range, several, starts_of
 from impact_damper.model.bounds import MOST_RUNS
 
-# Axes of the grid of a study, as the stage numbers its cells.
+# Axes of the grid of a study, in the order in which the stage numbers the cells.
 AXES = ("mass_ratio", "clearance", "frequency", "restitution")
 
 
@@ -103,7 +103,7 @@ class Study(system.WithOscillator):
         return math.prod(points(getattr(self, key)) for key in AXES)
 
     def chunk(self, config, chunk) -> dict:
-        """Return the parameters of the job of a chunk, such as "2-of-4"."""
+        """Return the parameters of the job that computes a part of the grid, such as "2-of-4"."""
         number, count = map(int, chunk.split("-of-"))
         grid = {
             "axes": {key: even(getattr(self, key)) for key in AXES},
@@ -115,7 +115,7 @@ class Study(system.WithOscillator):
 
     @stage("chatterjee1995.stages.studies:study_chunk", "The study {name}")
     def studies(self, config) -> dict:
-        """Return the parameters of the job that joins the chunks."""
+        """Return the parameters of the job that joins the parts of the grid."""
         return {}
 
 

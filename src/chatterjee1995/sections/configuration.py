@@ -1,4 +1,4 @@
-"""The whole configuration: its check before any job starts, with a line for each problem."""
+"""The whole configuration. It is checked before any job starts; each problem yields a line."""
 
 from contextlib import suppress
 
@@ -29,7 +29,7 @@ from impact_damper.command.values import (
 )
 from impact_damper.model import bounds
 
-# Keys whose product is the number of runs of a job.
+# Pairs of keys; the product of their values is the number of runs of a job.
 COUNTS = (
     ("points.free", "search.starts"),
     ("points.simulated", "search.starts"),
@@ -38,7 +38,7 @@ COUNTS = (
     ("points.scanned", "controller.releases"),
     ("points.map_frequencies", "points.map_values"),
 )
-# Names of drawings, which a figure of the kind `schematic` has in place of entries.
+# Names of drawings, which a figure of the kind `schematic` shows in place of entries.
 SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
 
 TEXT = text("in Markdown or reStructuredText without links")
@@ -115,7 +115,7 @@ class Controller(Section):
 
 
 class Captions(Section):
-    """Captions of tables, and the texts that all figures of a kind share, by their names."""
+    """Captions of tables, and texts in the captions of all figures of a kind."""
 
     figures: entries(TEXT)
     tables: entries(TEXT)
@@ -212,7 +212,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return a configuration without entries set to null and figures that draw no others."""
+    """Return a configuration without entries set to null, and without figures of only such."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}
@@ -221,7 +221,7 @@ def without_left_out(given):
         for key, section in sections.items()
     }
     for name, figure in list(sections.get("figures", {}).items()):
-        with suppress(AttributeError, KeyError, TypeError):  # the check names what is wrong
+        with suppress(AttributeError, KeyError, TypeError):  # the later check reports bad types
             known = sections[section_of(figure["kind"])]
             data = [each for each in figure["data"] if known.get(each, "") is not None]
             if len(data) < len(figure["data"]):

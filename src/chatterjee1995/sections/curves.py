@@ -8,8 +8,8 @@ from impact_damper.command.values import choice, several
 # Stages of an entry of `curves`, and which of them need a damper.
 STAGES_OF_CURVES = ("harmonic_balance", "design_orbit", "response", "subharmonic", "branches")
 NEED_DAMPER = ("design_orbit", "subharmonic")
-# The three numbers under figure 4 of the paper, and relative velocity 0. A start at rest would lead
-# to a motion without contact.
+# Initial state: the three numbers under figure 4 of the paper, and relative velocity 0. A start at
+# rest would lead to a motion without contact.
 START = [1.0, 0.5, 0.0, 0.0]
 
 

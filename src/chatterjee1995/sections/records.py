@@ -1,4 +1,4 @@
-"""Records of a stage, a kind of figure and a table, which the workflow and the tests read."""
+"""Records that describe stages, kinds of figures and tables, for the workflow and the tests."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,22 +10,22 @@ class Stage(NamedTuple):
 
     name: str
     section: str
-    # Method of an entry: from the whole configuration the keywords of `function`, in forms that
-    # `workflow.job.made` reads.
+    # Method of an entry. It takes the whole configuration and returns the keywords of `function`,
+    # in forms that `workflow.job.made` reads.
     job: Callable
     function: str  # computes the dataset, as "module:function"
     message: str  # printed for a job
-    reads: dict = {}  # keyword of the function -> stages whose datasets of the same entry it gets
-    files: dict = {}  # keyword of the function -> JSON file of the project that it gets
-    together: bool = False  # one job computes all entries: its start takes longer than its work
+    reads: dict = {}  # keyword of `function` -> stages; their datasets of the same entry are passed
+    files: dict = {}  # keyword of `function` -> JSON file of the project; its content is passed
+    together: bool = False  # whether one job computes all entries, to save starts of jobs
     # 2 for jobs for which other jobs wait, 1 for the longest jobs, which should not start last.
     priority: int = 0
-    paper: bool = True  # computed by `snakemake` without a target
-    page: bool = False  # each entry has a page
+    paper: bool = True  # whether `snakemake` without a target computes it
+    page: bool = False  # whether each entry has a page
 
 
 def stage(function, message, **options):
-    """Mark a method of a section's class as the job of the stage with the method's name."""
+    """Mark a method of a section's class as the job of a stage; both have the same name."""
 
     def mark(job):
         job.stage = {"name": job.__name__, "function": function, "message": message} | options
@@ -36,12 +36,12 @@ def stage(function, message, **options):
 
 @dataclass(frozen=True)
 class Shown:
-    """What a chapter shows, made from the datasets of stages by a function of a module."""
+    """A table or kind of figure of a chapter, made from datasets by a function of a module."""
 
     name: str
     chapter: str
-    module: str  # name in the room `tables` or `figures`, or full name
-    stages: tuple[str, ...]  # those it reads; a drawn entry of `curves` must have the first
+    module: str  # name in the package `tables` or `figures`, or full name
+    stages: tuple[str, ...]  # stages read; an entry of `curves` must have the first one
 
     room: ClassVar[str]
 
@@ -56,7 +56,7 @@ class Table(Shown):
     """A table, made by the function with its name."""
 
     room = "tables"
-    pictures: bool = False  # its Markdown shows figures and needs their names
+    pictures: bool = False  # whether its Markdown shows figures
 
 
 @dataclass(frozen=True)
@@ -65,6 +65,6 @@ class Kind(Shown):
 
     room = "figures"
     most: int = 6  # largest number of entries in a figure
-    # Whether entries of `curves` must have a damper, or must have none. If they have one, a figure
-    # with `branches` also draws those of the same oscillators without a damper.
+    # Entries of `curves` must have a damper (True) or must have none (False). If True, a figure
+    # that reads `branches` also draws the branches of the same oscillators without a damper.
     damper: bool = True

@@ -35,7 +35,7 @@ def _table(model, keys=None):
 
 
 def _rows(prefix, fields):
-    """Yield a line for each field, and in place of a section the lines of its fields."""
+    """Yield a line for each field; the lines of its own fields replace a section."""
     for key, field in fields.items():
         kind, key = field.annotation, prefix + key
         if get_origin(kind) is dict:
@@ -55,7 +55,7 @@ def _rows(prefix, fields):
 
 
 def _item(kind):
-    """Return the allowed values of an entry of a list."""
+    """Return the allowed values of an entry of a list, in words."""
     words, inner = _allowed(kind.__metadata__).words, get_args(kind)[0]
     return f"{words}, each {_item(get_args(inner)[0])}" if get_origin(inner) is list else words
 

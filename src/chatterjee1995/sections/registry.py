@@ -1,4 +1,4 @@
-"""All stages, kinds of figures and tables, by name; dry runs import it, so it must load fast."""
+"""All stages, kinds of figures and tables. Dry runs import this module, so it must load fast."""
 
 from chatterjee1995.sections import balance, clearance, curves, machines, methods, migration
 from chatterjee1995.sections.records import Kind, Stage, Table
@@ -12,7 +12,7 @@ CLAIMED = (
 VERDICTS = "chatterjee1995.claims.verdicts"
 CLAIMS = (Table("claims", "claims", VERDICTS, tuple(CLAIMED), pictures=True),)
 SUBJECTS = (curves, balance, clearance, migration, methods, machines)
-# Chapters of the report with their titles. One job draws the figures and makes the tables of one.
+# Chapters of the report with their titles. One job makes all figures and tables of a chapter.
 CHAPTERS = {
     "design": "Models and harmonic balance",
     "responses": "Frequency responses",
@@ -40,7 +40,7 @@ def section_of(kind) -> str | None:
 
 
 def is_paper(chapter) -> bool:
-    """Return whether a chapter belongs to the paper, not to a stage beside it."""
+    """Return whether the paper covers all stages that a chapter reads."""
     shown = [each for each in (*KINDS.values(), *TABLES.values()) if each.chapter == chapter]
     return all(STAGES[stage].paper for each in shown for stage in each.stages)
 

@@ -6,7 +6,7 @@ from chatterjee1995.sections.registry import KINDS, PAPER, STAGES, TABLES, secti
 from impact_damper.model.parameters import SYMBOLS
 from impact_damper.model.text import number
 
-MANY = 3  # if a list has more values than this, the text gives only the smallest and the largest
+MANY = 3  # longest list printed in full; of a longer list the text gives smallest and largest value
 # Key of an entry that holds several values of a parameter -> name of the parameter.
 SWEPT = {
     "mass_ratios": "mass_ratio",
@@ -31,7 +31,7 @@ def job(config, stage, name) -> dict:
 
 
 def read_by(config, stage, name) -> dict:
-    """Return the stages whose datasets of the same entry a job reads, by keyword."""
+    """Return a dict: keyword -> stages whose datasets of the entry `name` the job reads."""
     return {
         key: [each for each in stages if name in entries(config, each)]
         for key, stages in STAGES[stage].reads.items()
@@ -39,7 +39,7 @@ def read_by(config, stage, name) -> dict:
 
 
 def figure_data(config, name) -> dict:
-    """Return the entries of a figure by stage, and the branches of their free oscillators."""
+    """Return the entries that a figure draws, by stage; `branches` include free oscillators."""
     figure = config.figures[name]
     kind, found = KINDS[figure.kind], {}
     for stage in kind.stages:
@@ -135,12 +135,12 @@ def caption(title, cases, text, remark) -> str:
     head = f"{title}: {cases}." if cases else f"{title}."
     whole = "\n".join(part for part in (head, text.strip(), remark) if part)
     whole = re.sub(r"\bW(?=p?(²|\b))", "Ω", whole)
-    # Text between bars would be the name of a substitution.
+    # reStructuredText reads a text between bars as the name of a substitution.
     return whole.replace("omega_l", "ωl").replace("|", r"\|")
 
 
 def cases_in_words(cases) -> str:
-    """Return the parameters of a figure's entries as text, first those that all entries share."""
+    """Return the parameters of a figure's entries as text; shared parameters come first."""
     shared = [each for each in next(iter(cases.values())) if all(each in x for x in cases.values())]
     parts = [", ".join(shared)]
     for name, case in cases.items():

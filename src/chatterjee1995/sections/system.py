@@ -1,4 +1,4 @@
-"""Keys for the fields of `Oscillator` and `Damper` that the paper has, with bounds and meanings."""
+"""Keys of the configuration for the paper's parameters of oscillator and damper, with bounds."""
 
 import math
 from typing import ClassVar
@@ -50,7 +50,7 @@ def keys_of(names, *, needed=(), without=()):
 
 
 def given(section, names) -> dict:
-    """Return the values that a section has under some names; names without a value are left out."""
+    """Return the values of some keys of a section; keys without a value are left out."""
     found = {name: getattr(section, name, None) for name in names}
     return {name: value for name, value in found.items() if value is not None}
 
@@ -73,7 +73,7 @@ class Range(Section):
 
 
 def range_of(kind, *, points=False):
-    """Return the model of a range; `kind` is the type of its ends, `points` adds their number."""
+    """Return the model of a range; `kind` is the type of its ends, `points` adds a key `points`."""
     types = {"first": kind, "last": kind} | (
         {"points": points_of("points of the grid")} if points else {}
     )
@@ -143,7 +143,7 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
 
 
 def damper_values(entry, config) -> dict:
-    """Return the arguments of `Damper` for an entry, with the number of the clearance `rule`."""
+    """Return the arguments of `Damper` for an entry; a number replaces the clearance `rule`."""
     values = {COMMON: config.contact_stiffness} | given(entry, DAMPER)
     if values.get("clearance") == "rule":
         oscillator = Oscillator(**config.oscillators[entry.oscillator].values())
@@ -152,7 +152,7 @@ def damper_values(entry, config) -> dict:
 
 
 def too_many(path, section, keys):
-    """Yield a line if the product of the counts under some dotted keys is too large for a job."""
+    """Yield a line if the product of the values of some dotted keys is too large for a job."""
     counts = []
     for key in keys:
         value = section

@@ -9,7 +9,7 @@ from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import decode, is_settled, parameters_of
 from impact_damper.data.shares import wilson
 
-# An amplitude of harmonic balance is near the exact one if they differ relatively by at most NEAR.
+# Largest relative difference at which an amplitude of harmonic balance is near the exact one.
 NEAR = 0.2
 # Errors of the amplitude for which the table lists the harmonics needed.
 ACCURACIES = {0.01: "1 %", 1e-3: "1e-3", 1e-6: "1e-6"}
@@ -31,7 +31,7 @@ TRUTHS = {
 
 
 def harmonic_balance(datasets) -> pd.DataFrame:
-    """Return the paper's rule (19), harmonic balance and exact orbit of each curve at its Wp."""
+    """Return for each curve the d0 of rule (19), and harmonic balance and exact orbit at Wp."""
     rows = []
     for name, data in reading.damped(datasets, "harmonic_balance").items():
         peak = float(data.peak_frequency)
@@ -78,7 +78,7 @@ def _exact_orbit(orbit):
 
 
 def harmonic_convergence(datasets) -> pd.DataFrame:
-    """Return the harmonics needed, the decrease of errors and the cold starts of each motion."""
+    """Return for each motion the harmonics needed, the decrease of errors and the cold starts."""
     return pd.DataFrame(
         {"motion": name} | _convergence(data)
         for name, data in datasets.get("harmonic_convergence", {}).items()
@@ -118,14 +118,14 @@ def _convergence(data):
 
 
 def _needed(highest, error, accuracy):
-    """Return the smallest N from which on all errors are at most `accuracy`; NaN if none is."""
+    """Return the smallest N from which on all errors are at most `accuracy`, or NaN."""
     above = np.flatnonzero(~(error <= accuracy))
     first = above[-1] + 1 if len(above) else 0
     return highest[first] if first < len(highest) else np.nan
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Return the numbers of map cells with each verdict, chaos, and accurate amplitudes."""
+    """Return the numbers of map cells with each verdict, with chaos, and with near amplitudes."""
     rows = []
     for name, data in datasets.get("balance_map", {}).items():
         found = []
@@ -150,7 +150,7 @@ def _answers(meaning):
 
 
 def _cells(question, balance, truth, count, total):
-    """Return a count and its share with Wilson's interval, as if cells were a random sample."""
+    """Return a row: a count of cells, its share, and Wilson's interval for random samples."""
     share, lower, upper = wilson(int(count), int(total))
     return {
         "question": question,

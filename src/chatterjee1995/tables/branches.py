@@ -1,4 +1,4 @@
-"""Tables of branches of periodic orbits and of the bifurcations of stable ones."""
+"""Tables of branches of periodic orbits and of the bifurcations of stable orbits."""
 
 import numpy as np
 import pandas as pd
@@ -8,7 +8,7 @@ from chatterjee1995.tables.columns import DAMPER, parameter_columns
 from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true
 
-# Ends at which a branch is left although its orbits go on, with the reason.
+# End at which the computation leaves a branch although the orbits go on -> text of the table.
 LEFT = {
     "unstable": "left among unstable orbits, since it winds through chaos there",
     "point limit": "left after the largest number of orbits, since it winds through chaos",
@@ -50,14 +50,14 @@ def orbits(datasets) -> pd.DataFrame:
 
 
 def _branches(datasets):
-    """Return pairs of name and dataset of branches, those without a damper first."""
+    """Return (name, dataset) for the datasets of branches, first those without a damper."""
     return [*reading.free(datasets, "branches").items()] + [
         *reading.damped(datasets, "branches").items()
     ]
 
 
 def _ends_of(data, branch):
-    """Return why a branch ends, at both ends, with the number of the branch that it meets there."""
+    """Return for both ends of a branch why it ends, and the number of a branch that it meets."""
     ends, met = data["branch_end"][branch], data["branch_met"].values[branch]
     names = [LEFT.get(name, name) for name in map(reading.meaning, ends)]
     return [

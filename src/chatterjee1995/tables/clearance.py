@@ -8,8 +8,8 @@ from chatterjee1995.reading import datasets as reading
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import damper_of, decode, oscillator_of, parameters_of
 
-WITHIN = (1, 10)  # errors in per cent within which predicted optima are counted
-# The value of rm W^2 d0 that each rule gives, or the model from which it follows.
+WITHIN = (1, 10)  # largest errors in per cent of predicted optima that are counted
+# Rule -> value of rm W^2 d0 that the rule gives, or model from which the rule follows.
 RULE_NAMES = {
     "balance": "(18): 1",
     "gap_harmonic": "pi^2/8",
@@ -22,7 +22,7 @@ CRITERIA = {"displacement": "max |Z1|", "first_harmonic": "first harmonic of Z1"
 
 
 def optimum(datasets) -> pd.DataFrame:
-    """Return the optimum clearance of each sweep by simulation, (7), rules and straight flight."""
+    """Return for each sweep the optimum d0 of the simulation, of (7), rules and straight flight."""
     rows = []
     for name, data in datasets.get("optimum", {}).items():
         best, rule = float(data.optimum_clearance), float(data.rule_clearance)
@@ -73,7 +73,7 @@ def _grids(datasets):
 
 
 def _sweeps(datasets):
-    """Yield a frame with the columns of `_grids` for each sweep, whose optima are all stable."""
+    """Yield a frame for each sweep, with columns as in `_grids`; all found optima are stable."""
     for data in datasets.get("optimum", {}).values():
         parameters = parameters_of(data)
         oscillator, damper = oscillator_of(data), damper_of(data, clearance=1.0)
@@ -94,7 +94,7 @@ def _sweeps(datasets):
 
 
 def _agreement(cells):
-    """Return the columns of a group of designs with one criterion and one rule."""
+    """Return counts and errors of the optima that one rule predicts in a group of designs."""
     error = 100 * (cells.rule_ratio / cells.best_ratio - 1).abs()
     excess = 100 * cells.rule_excess
     return (

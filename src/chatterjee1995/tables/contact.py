@@ -40,7 +40,7 @@ def contact_model(datasets) -> pd.DataFrame:
 
 
 def _unloaded(data):
-    """Return the columns of a contact without load; a wall that cannot pull has no pull."""
+    """Return the columns of a contact without load (no acceleration by other forces)."""
     realised = float(data.unloaded_restitution)
     return {
         "restitution e, given": float(data.used),
@@ -52,7 +52,7 @@ def _unloaded(data):
 
 
 def rigid_limit(datasets) -> pd.DataFrame:
-    """Return the errors of rigid walls against the damper's own walls, and counts of map cells."""
+    """Return the errors of rigid walls, relative to the damper's walls, and counts of map cells."""
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=reading.parameter(data, "frequency"), method="nearest")
@@ -89,7 +89,7 @@ VERDICTS = {
 
 
 def _needed(own):
-    """Return the stiffness from which on rigid walls are accurate, or why it is not known."""
+    """Return the least stiffness at which rigid walls are accurate, or why it is unknown."""
     columns = {}
     for k, level in enumerate(own.threshold.values):
         value = float(own.needed_stiffness[k])

@@ -11,7 +11,7 @@ from impact_damper.model.text import number
 
 # Significant digits of numbers in CSV and in Markdown files.
 DIGITS, FEW_DIGITS = 6, 4
-SHOWN = 9  # columns of a table that its page shows
+SHOWN = 9  # number of columns that the page of a table shows
 
 
 def as_markdown(frame) -> str:

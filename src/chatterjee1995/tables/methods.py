@@ -21,7 +21,7 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return for each method and scene the cheapest accurate setting, or else the most accurate."""
+    """Return for each scene (test case) and method the cheapest accurate or most accurate run."""
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
         asked = parameters_of(data)["accuracy"]
@@ -59,7 +59,7 @@ def models(datasets) -> pd.DataFrame:
 
 
 def cheapest(data, labels):
-    """Return the index of the accurate run with the least work among methods, None without any."""
+    """Return the index of the accurate run with the least work; None if no run is accurate."""
     meets = decode(data["meets_accuracy"]).values == "yes"
     meets &= np.isin(data["method"].values, labels)
     work = np.where(meets, data["operations"].values, np.inf)
@@ -67,7 +67,7 @@ def cheapest(data, labels):
 
 
 def _most_accurate(data, method):
-    """Return the run of a method with the least error of max |Z1| or contacts a cycle, or None."""
+    """Return the run of a method with the least error (or None), if no run is accurate."""
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
         return None
@@ -130,7 +130,7 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return the largest step that keeps each accuracy together with all smaller steps, by r1."""
+    """Return, by r1 and accuracy, the largest step up to which all steps are accurate."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         cycle = 2 * np.pi / reading.parameter(data, "frequency")

@@ -1,4 +1,4 @@
-"""Tables of migration control: cases of the paper, scans of releases, policies of release."""
+"""Tables of migration control: the paper's cases, scans and policies of release (damper off)."""
 
 import numpy as np
 import pandas as pd
@@ -51,14 +51,14 @@ def migration(datasets) -> pd.DataFrame:
 
 
 def _destination(motion):
-    """Return the head of the share of releases to a free motion."""
+    """Return the column head for the share of releases that lead to a free motion."""
     if motion in ("unresolved", "other"):
         return f"share {motion}"
     return f"share to the {motion.replace('_', '-')}"
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """Return at which frequencies releases of a motion lead to each set of free motions."""
+    """Return the frequencies at which releases of a motion lead to each set of free motions."""
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
         ends = list(scan.free_motion.values)

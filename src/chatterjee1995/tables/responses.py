@@ -1,4 +1,4 @@
-"""Tables of the motions of responses: outcomes of starts, quasi-periodic, chaotic, subharmonic."""
+"""Tables of responses: outcomes of starts; quasi-periodic, chaotic and subharmonic motions."""
 
 import numpy as np
 import pandas as pd
@@ -10,7 +10,7 @@ from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.columns import DAMPER, parameter_columns
 from impact_damper.data.motion_variables import OUTCOME
 
-# Stages with the outcome of each start, and their names in the table `outcomes`.
+# Stage that stores the outcome of each start -> its name in the table `outcomes`.
 SWEPT = {
     "response": "frequency responses",
     "subharmonic": "starts on the free subharmonic",
@@ -84,7 +84,7 @@ def quasi_periodic(datasets) -> pd.DataFrame:
 
 
 def chaos(datasets) -> pd.DataFrame:
-    """Return the chaotic motions that are violent, with their mean lives."""
+    """Return the violent chaotic motions and the mean number of cycles that their chaos lasts."""
     rows = []
     for name, data in reading.damped(datasets, "response").items():
         try:
@@ -149,7 +149,7 @@ def subharmonic(datasets) -> pd.DataFrame:
 
 
 def _subharmonic(name, damper, data):
-    """Return the columns that say where a subharmonic was looked for; some are filled later."""
+    """Return all columns of a row on a subharmonic; the caller fills the empty columns."""
     columns = parameter_columns(data, "damping", "mass_ratio", "clearance")
     return (
         {"curve": name, "damper": damper}

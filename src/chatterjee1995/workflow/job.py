@@ -19,15 +19,15 @@ from pathlib import Path
 
 import psutil
 
-# Collect garbage only after 10 000 new objects, more than by default: objects made by imports stay
-# until the end, and a job makes few others.
+# Collect garbage only after 10 000 new objects, which is rarer than by default. Objects made by
+# imports stay until the end, and a job makes few other objects.
 gc.set_threshold(10_000)
 
-# Seconds between checks that Snakemake is alive. A new run of Snakemake needs longer than this to
-# start its first job, so that jobs of an old run never meet jobs of a new one.
+# Seconds between checks that Snakemake is alive. A new run of Snakemake takes longer than LOOK to
+# start its first job. By that time the jobs of an old run have ended.
 LOOK = 0.5
 
-# Objects and arrays that parameters of jobs stand for, such as {"linspace": [0.6, 2.6, 41]}.
+# Key of a parameter such as {"linspace": [0.6, 2.6, 41]} -> function that makes its value.
 MADE = {
     "Oscillator": "impact_damper.model.parameters:Oscillator",
     "Damper": "impact_damper.model.parameters:Damper",
@@ -50,7 +50,7 @@ def imported(name):
 
 
 def made(value):
-    """Return a parameter of a job with the objects and arrays that it stands for."""
+    """Return a parameter of a job, in which functions of MADE have replaced such dictionaries."""
     if isinstance(value, list):
         return [made(each) for each in value]
     if not isinstance(value, dict):
@@ -63,14 +63,14 @@ def made(value):
 
 
 def counts(first, last, points):
-    """Return whole numbers with a nearly constant ratio."""
+    """Return whole numbers from `first` to `last` with a nearly constant ratio."""
     import numpy as np
 
     return np.geomspace(first, last, points).round().astype(int).tolist()
 
 
 class Job:
-    """A job, made from the variable `snakemake` of its script; it ends soon after Snakemake."""
+    """A job of the variable `snakemake` of a script. Its process ends soon after Snakemake ends."""
 
     def __init__(self, snakemake):
         self.snakemake = snakemake
@@ -95,11 +95,11 @@ class Job:
             steps = path.with_suffix("") / "steps"
             data = self.computed(given, {"name": path.stem, "folder": steps, "progress": path.stem})
             save(data, path)
-            # Finished steps of a design, from which an interrupted job continues.
+            # Finished steps of a design serve only to continue an interrupted job.
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Return the result of the stage's function, which gets what it takes of `offered`."""
+        """Return the result of the stage's function, which accepts some values of `offered`."""
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}
@@ -117,7 +117,7 @@ class Job:
 
     @cached_property
     def datasets(self):
-        """All datasets among the inputs, keyed by stage and by entry, with the entry's name."""
+        """All datasets among the inputs, keyed by stage and entry; the entry is their `name`."""
         from impact_damper.data.datasets import load
 
         found = {}
@@ -139,7 +139,7 @@ def _content(files):
 
 
 def _report_file_errors():
-    """Report errors of files in one line, also on the terminal, as a full disk keeps no log."""
+    """Report file errors in one line, also on the terminal: a full disk cannot store the log."""
     terminal, show = sys.stderr, sys.excepthook
 
     def report(kind, error, trace):
@@ -179,7 +179,7 @@ def _write_timing(path):
     """Write seconds, CPU seconds and peak memory (MB) of this process and its children."""
     process = psutil.Process()
     seconds = time.time() - process.create_time()
-    cpu = sum(process.cpu_times()[:4])  # of the user and of the system; the same of its children
+    cpu = sum(process.cpu_times()[:4])  # user, system; user and system of children
     with suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
         numbers = "\t".join(f"{value:.3f}" for value in (seconds, cpu, peak_memory()))
@@ -187,7 +187,7 @@ def _write_timing(path):
 
 
 def peak_memory() -> float:
-    """Return the peak memory of this process in MB; `ru_maxrss` begins at the parent's value."""
+    """Return this process's peak memory in MB; `ru_maxrss`, the last resort, includes parents."""
     status = Path("/proc/self/status")
     if status.exists():
         lines = status.read_text().splitlines()

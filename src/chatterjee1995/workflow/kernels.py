@@ -17,7 +17,7 @@ def compiled_kernels(orders) -> str:
 
 
 def compile_all(processes, orders) -> None:
-    """Compile all kernels; `orders` are pairs of orders of the series that `accuracy` compares."""
+    """Compile all kernels; `orders` are pairs of Taylor orders, which `accuracy` compares."""
     from chatterjee1995.workflow.job import end_with_parent
     from impact_damper.command.warm_up import warm_up_orbits, warm_up_settling
 
