@@ -45,12 +45,11 @@ NEVER = np.zeros(1, bool)
     QUASI_PERIODIC,
     DRIFTING,
 ) = range(9)
-# The record of a motion. `measure` fills the fields from `maximum_displacement` on; `watch.watch`
-# fills the other fields. Field and meaning of the less obvious ones:
+# Fields of a record: `measure` fills those from `maximum_displacement` on, `watch` the others.
 # period       period of the orbit in forcing cycles, 0 without an orbit
 # periods_run  forcing cycles until the outcome was known
 # residual     largest difference between the state and the state a period later
-# state        state on the orbit of a settled motion, otherwise last state, at the strobe
+# state        state at the strobe: on the orbit if the motion has settled, otherwise the last one
 # reach        largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
 WATCHED = "residual lyapunov_exponent lyapunov_error first_frequency second_frequency"
 MEASURED = "maximum_displacement contacts asymmetry"
@@ -207,7 +206,7 @@ def measure(parameters, tolerance, watched, out, stop):
 
 
 def measured(p, y, periods, tolerance):
-    """Return a record measured from the state y over `periods` cycles, without other fields."""
+    """Return a record in which only `measure` has filled fields, from y over `periods` cycles."""
     records = np.zeros(1, MOTION)
     records["state"] = y
     measure(p[None], tolerance, periods, records, NEVER)

@@ -134,9 +134,8 @@ def frequency_response(
     starts : int
         Random starts (initial states) at each frequency.
     radius : float, optional
-        Radius of a ball around rest. Random starts are uniform in the ball, with the loose mass in
-        its gap. Without a radius, starts are scaled by the motions without the damper, and some
-        starts are placed on these motions.
+        Radius of a ball around rest with uniform random starts, the loose mass in its gap. Without
+        a radius, the motions without the damper scale the random starts and are further starts.
     whole_gap : bool
         With a radius: False, all four components of a start lie in the ball, as in the paper. True,
         only displacement and velocity of the primary mass do; the loose mass is at relative rest,
@@ -166,8 +165,7 @@ def frequency_response(
     Warns
     -----
     UserWarning
-        If a motion without the damper exceeds the radius in displacement or speed, and `whole_gap`
-        is False.
+        If a motion without the damper exceeds the radius, unless `whole_gap` is True.
 
     Examples
     --------
@@ -202,8 +200,7 @@ def frequency_response(
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
     """Return variables (n, m) of the lives of the chaotic motions of a sweep.
 
-    `runs` runs begin near the state of each motion in `states` (n, m, 4). A run lasts at most
-    `periods` forcing cycles.
+    From near each of the `states` (n, m, 4), `runs` runs last at most `periods` forcing cycles.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}
@@ -248,7 +245,7 @@ def _lives(parameters, states, periods, settling, **running):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]
         approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
     lives = np.maximum(lives - approach, 1)
-    # If a run settles when it is continued, its life is `periods`.
+    # The life of a run that is not chaotic when it is continued is `periods`.
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives

@@ -17,8 +17,8 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
 from impact_damper.motions.records import PIECES, turning_time
 
-# Change of a parameter in a central difference; finer change; largest ratio of the difference of
-# the one-sided differences to their sum, above which a contact has appeared or vanished in between.
+# Change of a parameter in a central difference. Finer change, if a contact appears or vanishes in
+# between: the difference of the one-sided differences exceeds BENT times their sum.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 
@@ -59,10 +59,7 @@ def list_turns(p, states, phases, tolerance, turns):
 
 @kernel
 def flow_all(p, states, tangents, times, tolerance):
-    """Integrate m segments in place: states (m, 4) and tangents (m, 0 or 4, 4).
-
-    Return the time in contact.
-    """
+    """Integrate states (m, 4), tangents (m, 0 or 4, 4) in place; return the time in contact."""
     work, touching = workspace(), 0.0
     for k in range(len(states)):
         side = side_of(p, states[k])

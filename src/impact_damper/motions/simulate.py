@@ -19,8 +19,8 @@ CONTACT = "contact_wall contact_begin contact_end approach_velocity departure_ve
 def random_states(count, radius, damper, seed, *, within_gap=True):
     """Return random states (count, 4), uniform in a ball of a radius around the origin.
 
-    Without a damper it is a disk of (Z1, Z1'). If `within_gap`, states with |Z2| beyond the
-    clearance are drawn again, because the contact spring would store a large energy.
+    Without a damper the ball is a disk of (Z1, Z1'). With `within_gap`, a state with |Z2| above the
+    clearance is drawn again, because the contact spring would store a large energy.
     """
     bounds.check_count("count", count, least=0, most=10**8)
     bounds.check_number("radius", radius, **bounds.RADIUS_RANGE)
@@ -67,7 +67,7 @@ def simulate(
     frequency : float
         Forcing frequency W, or Hz for a machine.
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
-        Z1, Z1', Z2, Z2' at time `start`, or a state of a dataset, which has its phase as a
+        Z1, Z1', Z2, Z2' at the time `start`; or a state from a dataset, with its phase as a
         coordinate.
     periods : float
         Length of the motion in forcing cycles.
@@ -82,14 +82,14 @@ def simulate(
     Returns
     -------
     xarray.Dataset
-        - Over `time`: the state. On a moving base Z1 is relative to the base, and the absolute
-          displacement and acceleration of the primary mass are given beside it.
+        - Over `time`: the state. On a moving base Z1 is relative to the base; the absolute
+          displacement and the absolute acceleration of the primary mass are further variables.
         - Over `contact`: wall (1 or -1, the sign of Z2), beginning and end of each contact, Z2' at
           the beginning and the end, and the largest force (N for a machine, otherwise divided by
           the primary mass). An end after the last sample is NaN.
         - The scalar `largest_contact_force`, 0 without contacts.
-        - With a softening spring the scalar `escape_time`, or NaN. After this time the motion has
-          crossed a barrier of the spring and reaches infinity in a finite time; the state is NaN.
+        - With a softening spring: the scalar `escape_time`, NaN without an escape. A motion escapes
+          when it crosses a barrier of the spring and tends to infinity. Later states are NaN.
 
     Examples
     --------

@@ -1,11 +1,11 @@
 """Start states of a search for motions: random states, and states on known motions.
 
-With a radius all starts are random and uniform in a ball, as in the paper (section 3, iii), or have
-the primary mass in a disk and the loose mass anywhere in its gap. Without a radius, random starts
-are distributed on a logarithmic scale up to SPREAD times the free motions, and others are placed:
-on free motions and at rest, with the loose mass at several places and velocities; on solutions of
-harmonic balance; at the ends of slow ramps, which find the violent motions of weakly damped
-machines, whose small basins hardly any random start hits.
+With a radius all starts are random. They are uniform in a ball, as in the paper (section 3, iii),
+or the primary mass lies in a disk and the loose mass anywhere in its gap. Without a radius, random
+starts are distributed on a logarithmic scale, to SPREAD times the free motions. Further starts are
+placed on free motions and at rest, with several states of the loose mass; on solutions of harmonic
+balance; at the ends of slow ramps. Ramps find the violent motions of weakly damped machines, whose
+small basins hardly any random start hits.
 """
 
 import math
@@ -24,29 +24,30 @@ from impact_damper.motions.simulate import random_states
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-# Free motions: phases of starts with the amplitudes of harmonic balance, samples in a forcing
-# cycle, and largest number of states stored of one motion.
+# Search for free motions: number of phases of the starts on solutions of harmonic balance, samples
+# in a forcing cycle, and largest number of states stored of one motion.
 PHASES, SAMPLES, MOST_STATES = 6, 256, 5
 # Largest random start divided by the largest free motion, smallest divided by the largest start.
 SPREAD, SMALLEST = 3.0, 0.01
-# Placed starts: Z2 divided by the clearance, and Z2' divided by the speed that crosses the gap in
-# half a forcing cycle, or by the speed of the free motion if this is larger.
+# Placed starts: Z2 divided by the clearance; Z2' divided by the larger of the speed of the free
+# motion and the crossing speed, which crosses the gap in half a forcing cycle.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
-# States of the loose mass for `sweep.stable_orbits`, and largest |Z1' - Z2'|, like VELOCITIES.
+# States of the loose mass for `sweep.stable_orbits`: number; largest |Z1' - Z2'|, like VELOCITIES.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# Largest random start divided by the barrier of a softening spring, with the speed that reaches it.
+# Largest |Z1| and |Z1'| of random starts with a softening spring, divided by those of `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
-# Ramps: relative change of a parameter in a step of PERIODS forcing cycles; first frequency divided
-# by the lowest fold, or highest fold divided by it; first force divided by the last.
+# Ramps: relative change of a parameter in a step; forcing cycles in a step; ratio of the first
+# frequency to the lowest fold, and of the highest fold to it; ratio of the first force to the last.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
 class Search(NamedTuple):
-    """Start states of a search at n systems, at T = 0, and the sizes of starts and of free motions.
+    """Start states at T = 0 of a search in n systems, and sizes of the starts and free motions.
 
-    `random` has the shape (n, m, 4). `placed`, and `loose` (an argument of `sweep.stable_orbits`),
-    have an array for each system, empty if a radius is given.
+    `random` has the shape (n, m, 4). `placed` and `loose`, an argument of `sweep.stable_orbits`,
+    hold an array for each system, which is empty if a radius is given. `displacement` and `speed`
+    (n,) are the largest of random starts; `free_displacement` and `free_speed`, of free motions.
     """
 
     random: np.ndarray
@@ -58,7 +59,7 @@ class Search(NamedTuple):
     free_speed: np.ndarray
 
     def variables(self, dimension=None) -> dict:
-        """Return registered variables of the range of the search, along `dimension` if given."""
+        """Return dataset variables of the range of the search, along `dimension` if given."""
         names = "start_displacement", "start_speed", "free_displacement", "free_speed"
         data = {
             name: ((), values[0]) if dimension is None else (dimension, values)
@@ -68,9 +69,9 @@ class Search(NamedTuple):
 
 
 def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_gap=False) -> Search:
-    """Return the starts of a search, `count` random ones for each system (damper or None, W).
+    """Return the starts of a search in systems (damper or None, W), each with `count` random ones.
 
-    With `whole_gap` starts near rest are wanted, so a radius below the free motions is no mistake.
+    With `whole_gap` starts near rest are wanted, so a small radius causes no warning.
     """
     if radius is None:
         rows = [
@@ -92,18 +93,18 @@ def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_g
 
 
 def describe_search(starts, radius, seed, whole_gap=False) -> dict:
-    """Return the parameters of a search for a dataset, without those that change nothing."""
+    """Return the parameters of a search for a dataset, without unused ones."""
     parameters = {"starts": starts, "seed": seed} | ({"whole_gap": True} if whole_gap else {})
     return parameters if radius is None else parameters | {"radius": radius}
 
 
 def missed_share(starts) -> float:
-    """Return the 95 % bound of the rule of three on the share of starts to a missed motion."""
+    """Return the upper bound (95 %, rule of three) of the share of starts to a missed motion."""
     return min(1.0, 3.0 / starts) if starts else 1.0
 
 
 def free_sizes(oscillator, frequencies) -> dict:
-    """Return the largest free displacement and speed by frequency, from harmonic balance."""
+    """Return a dict by frequency of the largest displacement and speed in harmonic balance."""
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
     return {w: (size, size * w) for w, size in sizes.items()}
 
@@ -126,7 +127,7 @@ def warn_if_narrow(oscillator, frequencies, radius) -> None:
 
 
 def gap_states(count, radius, damper, seed):
-    """Return random states (count, 4) in a disk of Z1, Z1', the loose mass at rest in the gap."""
+    """Return random states (count, 4): Z1, Z1' in a disk, Z2 anywhere in the gap, and Z2' = 0."""
     states = radius * random_states(count, 1.0, None, seed)
     if damper is not None:
         generator = np.random.default_rng(np.append(seed, count))
@@ -136,7 +137,7 @@ def gap_states(count, radius, damper, seed):
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return the fields of `Search` for one system, in their order. No radius is given."""
+    """Return the fields of a `Search` without a radius for one system, as a tuple."""
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
@@ -151,7 +152,7 @@ def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
 
 
 def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return random starts (count, 4), scaled by the free motions, and largest |Z1| and |Z1'|."""
+    """Return random starts (count, 4), scaled by the free motions, and bounds of |Z1| and |Z1'|."""
     generator = np.random.default_rng(seed)
     free = free_motions(oscillator, frequency, settling)
     crossing = 0.0 if damper is None else _crossing_speed(damper, frequency)
@@ -190,7 +191,7 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
     if damper.gravity or damper.friction or oscillator.base:
         return np.array(rows)
     try:
-        # The solutions are used as starts only, so the solutions for elastic contact suffice.
+        # For starts the solutions for elastic contact suffice.
         solutions = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
     except ArithmeticError:
         return np.array(rows)
@@ -200,9 +201,9 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
 
 
 def ramped(oscillator, damper, frequency, tolerance) -> list:
-    """Return the states at T = 0 at the ends of slow ramps, without motions that have escaped.
+    """Return the states at T = 0 after slow ramps of a parameter, except for escaped motions.
 
-    Ramps of the frequency begin outside the folds of the free response, at least an octave away.
+    Ramps of the frequency W begin outside the folds of the free response, an octave or more from W.
     """
     folds = [fold.frequency for fold in free_folds(oscillator)] or [frequency]
     lowest = max(BELOW * min(frequency / 2, *folds), FREQUENCY_RANGE["least"])
@@ -214,7 +215,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """Return the state at T = 0 after a ramp from rest of some packed parameters, from `factor`."""
+    """Return the state at T = 0 after a ramp from rest of parameters from `factor` x `target`."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent
@@ -233,7 +234,7 @@ def barrier(oscillator):
 
 
 class FreeMotions(NamedTuple):
-    """States Z1, Z1' (k, 2) at W T = 0 of the free motions at one frequency, and largest sizes."""
+    """States Z1, Z1' (k, 2) at W T = 0 of the free motions at one frequency, and largest values."""
 
     states: np.ndarray
     displacement: float
@@ -244,7 +245,7 @@ class FreeMotions(NamedTuple):
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
     """Find the free motions at one frequency W, by runs from rest and from harmonic balance.
 
-    The amplitude of the resonance peak leads to motions near a fold that balance does not predict.
+    Starts with the amplitude of the resonance peak find motions near a fold that balance misses.
     """
     p = pack(oscillator, None, frequency)
     angles = 2 * np.pi * np.arange(PHASES) / PHASES
@@ -266,6 +267,6 @@ def free_motions(oscillator, frequency, settling) -> FreeMotions:
         course = traces.states_at(p, record["state"], begin, times, strobe_map.POLISH_TOLERANCE)
         largest = max(largest, record["maximum_displacement"])
         fastest = max(fastest, np.max(np.abs(course[:, 1])))
-        # The state is recorded at the phase W T = pi/2. T = 0 is three quarters of a cycle later.
+        # The record's state is at W T = pi/2. The phase 0 is three quarters of a cycle later.
         states.append(course[3 * SAMPLES // 4 :: SAMPLES, :2][:MOST_STATES])
     return FreeMotions(np.concatenate(states or [[(0.0, 0.0)]]), float(largest), float(fastest))

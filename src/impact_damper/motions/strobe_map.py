@@ -1,7 +1,7 @@
 """The strobe map, from one forcing cycle to the next, and Newton's method for its periodic orbits.
 
-The strobe, at the forcing phase W T = pi/2, lies midway between the contacts of a damper at its
-design point, which occur near W T = 0 and pi.
+The strobe is the forcing phase W T = pi/2. The contacts of a damper at its design point occur near
+W T = 0 and pi, so the strobe lies midway between them.
 """
 
 import math
@@ -16,11 +16,11 @@ from impact_damper.model.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MAS
 
 # Phase W T of the strobe.
 STROBE = math.pi / 2
-# Newton's method: most corrections, size of the last one, smallest determinant of a regular matrix.
+# Newton's method: most corrections, largest last correction, smallest determinant of the matrix.
 ITERATIONS, CONVERGED, REGULAR = 10, 1e-9, 1e-12
 # Largest local error of a step in the integration of orbits.
 POLISH_TOLERANCE = 1e-12
-# In `repeats_sooner` two states are the same if they differ by less than SAME_STATE.
+# Largest difference of two states at which `repeats_sooner` takes them as the same.
 SAME_STATE = 1e-4
 
 
@@ -39,9 +39,9 @@ def one_period(p, y, tangents, side, tolerance, work):
 
 @kernel_only
 def speed_weight(p, side):
-    """Return the weight of Z2' in `distance`: 1 in flight, in contact nearly 1/w.
+    """Return the weight of Z2' in `distance`: 1 in flight, nearly 1/w in contact.
 
-    With the natural frequency w of the contact a velocity counts as the penetration that it causes.
+    w is the natural frequency of the contact. A velocity v causes the penetration v/w.
     """
     if side == 0:
         return 1.0
@@ -59,8 +59,8 @@ def distance(a, b, weight):
 def flow(p, state, tangents, begin, periods, half, tolerance):
     """Integrate over `periods` forcing cycles from `begin`, and half a cycle more if `half`.
 
-    State (4,) and tangents (n, 4) are replaced: with returned arrays numba would lose a Ctrl-C that
-    arrives meanwhile. Return the number of contacts begun and the time in contact.
+    State (4,) and tangents (n, 4) are changed in place, because numba loses a Ctrl-C in kernels
+    that return arrays. Return the number of contacts begun and the time in contact.
     """
     period = 2.0 * math.pi / p[FREQUENCY]
     work = workspace()
@@ -77,7 +77,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state `periods` cycles after a strobe, its derivative by y, and contacts begun."""
+    """Return the state `periods` cycles after y, its derivative by y, and contacts begun."""
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents = y.copy(), np.eye(4)
     contacts, _ = flow(p, state, tangents, strobe_time(p), periods, half, tolerance)
@@ -138,8 +138,8 @@ def dominant(values):
 def polish(p, y, periods, reach, tolerance):
     """Move a state y onto the periodic orbit near it, by Newton's method on the map over `periods`.
 
-    Without contacts only Z1 and Z1' are unknown. Return whether the method converged within `reach`
-    of y in Z1, Z1' and Z2, the largest residual of the orbit, and its dominant multiplier.
+    Without contacts only Z1 and Z1' are unknown. Return whether the method has converged to an
+    orbit within `reach` of y in Z1, Z1' and Z2, its largest residual, and its dominant multiplier.
     """
     orbit = y.copy()
     for _ in range(ITERATIONS):

@@ -1,8 +1,8 @@
 """Find the motions along a sweep of one parameter, by runs from start states and by following.
 
-At each value Newton's method also searches for stable orbits, some of which attract hardly any
-random start. Settled motions are followed to the next values, upward and downward; others are
-matched between neighbouring values by outcome, period and size.
+At each value Newton's method also finds stable orbits, because hardly any random start leads to
+some of them. Settled motions are followed to the next values, upward and downward. Motions that
+have not settled are matched between neighbouring values by outcome, period and size.
 """
 
 import math
@@ -20,27 +20,26 @@ from impact_damper.motions.following import StrobeOrbit, follow_stable
 from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
-# Records of equal outcome, period and contacts per cycle are one motion if max |Z1| differs by less
-# than SAME, relatively, or ROUNDING, near rest; motions that have not settled if the ratio of their
-# sizes is below SIMILAR. With an asymmetry below SAME they are symmetric.
+# Limits for records of one motion: relative difference of max |Z1| (and asymmetry of a symmetric
+# motion); difference of max |Z1| near rest; ratio of the sizes of motions that have not settled.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
-# Outcomes with an infinite displacement or 0, by which records of equal period are one motion.
+# Outcomes whose displacement is infinite or 0. Records with such an outcome are one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
-# Newton's method for further orbits: longest period in forcing cycles; distance from the start, in
-# units of the known motions or the clearance; difference below which two orbits are the same.
+# Newton's method for further orbits: longest period in forcing cycles; largest distance from the
+# start, divided by the largest known motion or the clearance; largest difference of equal orbits.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
-# Events at the end of a branch: smallest modulus of a multiplier before a bifurcation, smallest
-# imaginary part of a complex one, and largest difference in max |Z1| between a symmetric motion and
-# the asymmetric motion that branches off.
+# Events at the end of a branch: smallest modulus of the multiplier at a bifurcation; smallest
+# imaginary part of a complex multiplier; largest difference of max |Z1| between a symmetric motion
+# and the asymmetric motion that branches off.
 CRITICAL, COMPLEX, CLOSE = 0.98, 1e-3, 0.05
 
 
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
     """Find all motions along a sweep of one parameter; return a dict of registered variables.
 
-    The rows of packed `parameters` differ in the number `index`, which is named `dimension`.
-    Variables are over (dimension, motion), (dimension, start) for runs, or (end) for ends of
-    branches.
+    The rows of packed `parameters` differ in the column `index`; the parameter there is named
+    `dimension`. The dimensions are (dimension, motion) for motions, (dimension, start) for runs,
+    and (end) for ends of branches.
     """
     size, starts = search.random.shape[:2]
     rows, states = np.repeat(parameters, starts, axis=0), search.random.reshape(-1, 4)
@@ -61,7 +60,7 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
             catalogue.add(record, "placed_start")
     add_orbits(catalogues, search.loose, settling, workers)
     links, passes = [], []
-    # The second sweep upward also follows the motions that the sweep downward found.
+    # The second sweep upward also follows the motions that the sweep downward has found.
     for order in (catalogues, catalogues[::-1], catalogues):
         passes.append([])
         for source, target in pairwise(order):
@@ -82,14 +81,14 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
 
 
 def reached(data):
-    """Return the mask of the motions of a `sweep` that a random or a placed start leads to."""
+    """Return the mask of those motions of a `sweep` to which a random or placed start leads."""
     return (data["motion_starts"][1] > 0) | (data["origin"][1] == flag("origin", "placed_start"))
 
 
 def _follow(source, target, index, settling, links, ends):
-    """Follow all motions of `source` to the next value, and enter what they lead to in `target`.
+    """Follow all motions of catalogue `source` to the next value, and add the results to `target`.
 
-    `links` receives pairs of numbers of motions on the same branch, `ends` a dict for each end.
+    `links` receives the numbers of two motions on the same branch, `ends` a dict for each end.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
@@ -125,7 +124,7 @@ def _follow(source, target, index, settling, links, ends):
 def _end_event(record, multiplier, beyond):
     """Return the name of the event that ends a branch of the motion `record`.
 
-    `multiplier` belongs to the last orbit of the branch, `beyond` is the motion at the next value.
+    `multiplier` is that of the last orbit of the branch. `beyond` is the motion at the next value.
     """
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
@@ -141,7 +140,7 @@ def _end_event(record, multiplier, beyond):
 
 
 def _branches(catalogues, links):
-    """Return the branch of each motion by its number: connected components of links and matches."""
+    """Return an array with the branch of each motion. Links and matches connect a branch."""
     links = links + [
         (first.numbers[i], second.numbers[j])
         for first, second in pairwise(catalogues)
@@ -153,7 +152,7 @@ def _branches(catalogues, links):
 
 
 def _tables(catalogues, branches, dimension, starts):
-    """Return variables (dimension, motion) by descending displacement, padded by absent motions."""
+    """Return variables (dimension, motion), motions by descending max |Z1|, then absent ones."""
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -187,8 +186,8 @@ def _tables(catalogues, branches, dimension, starts):
 class Catalogue:
     """Distinct motions at one value of the swept parameter, with packed parameters p.
 
-    Each has a record, a number from the iterator `numbering`, the flag of `origin`, and the number
-    of random starts that lead to it.
+    A motion has a record, a number from the iterator `numbering`, the flag of its `origin`, and the
+    number of random starts that lead to the motion.
     """
 
     def __init__(self, p, numbering):
@@ -197,7 +196,7 @@ class Catalogue:
         self.records, self.numbers, self.origins, self.starts = [], [], [], []
 
     def find(self, record):
-        """Return the index of a known motion that equals a record or its mirror image, or None."""
+        """Return the index of the motion of a record or of its mirror image, None if unknown."""
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue
@@ -211,7 +210,7 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Return the index of a motion, and enter it if it is new or larger than its record."""
+        """Add the record of a motion if it is new or has become larger; return its index."""
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -230,7 +229,7 @@ class Catalogue:
 
 
 def match_unsettled(first, second) -> list:
-    """Return pairs of indices of equal motions at two neighbouring values, closest sizes first."""
+    """Match unsettled motions at two neighbouring values, closest sizes first; return pairs."""
     pairs = sorted(
         (ratio, i, j)
         for i, one in enumerate(first)
@@ -248,9 +247,9 @@ def match_unsettled(first, second) -> list:
 
 
 def size_ratio(one, other):
-    """Return the ratio of max |Z1| of two motions of the same period, larger over smaller.
+    """Return the ratio, at least 1, of max |Z1| of two motions of the same period.
 
-    A chaotic motion may be small while it is measured; its `reach` is compared too.
+    A motion without a period may be small while it is measured; its `reach` is compared too.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0
@@ -263,7 +262,7 @@ def size_ratio(one, other):
 
 
 def add_orbits(catalogues, loose, settling, workers) -> None:
-    """Enter the orbits that `stable_orbits` finds into the catalogues, each with its `loose`."""
+    """Add the orbits that `stable_orbits` finds from states `loose` to each of the catalogues."""
     found, stop = [np.empty((0, 4))] * len(catalogues), np.zeros(1, bool)
 
     def work(part):
@@ -284,9 +283,9 @@ def add_orbits(catalogues, loose, settling, workers) -> None:
 def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
     """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
 
-    On most of these orbits the primary mass moves nearly as in another motion. So Newton's method
-    starts with Z1 and Z1' of the `motions` (m, 2) at the strobe in turn, and with Z2 and Z1' - Z2'
-    of the loose mass in `loose` (n, 2).
+    On most of these orbits the primary mass moves nearly as in a known motion. So Newton's method
+    starts with Z1 and Z1' of the known `motions` (m, 2) at the strobe in turn, and with Z2 and
+    Z1' - Z2' from the rows of `loose` (n, 2).
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

@@ -1,6 +1,6 @@
 """Traces of motions: states at given times, and a log of the contacts.
 
-This module imports no kernels with tangents, so that `simulate` does not compile them.
+This module imports no kernels with tangents. So `simulate` does not compile such kernels.
 """
 
 import numpy as np
@@ -9,15 +9,15 @@ from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import LENGTH, assign, side_of, state_in_step, step, workspace
 
-# Number of steps of a trace in one call of its kernel, which takes a fraction of a second; and rows
-# of the log at first, since allocating a large log takes longer than a short motion.
+# Number of steps in one call of the kernel, which takes a fraction of a second; first number of
+# rows of the log. To allocate a larger log would take longer than a short motion.
 STEPS_AT_ONCE, ROWS = 50_000, 64
 
 
 def trace(p, state, begin, times, tolerance):
     """Return the states at increasing times, shape (n, 4), and the contacts, shape (k, 5).
 
-    After an escape the states are NaN. A contact has a row of wall, beginning, end, and Z2' there.
+    After an escape the states are NaN. A contact is wall, beginning, end, Z2' at both times.
     """
     y, t, times = np.array(state, float), float(begin), np.ascontiguousarray(times, float)
     states, log = np.empty((len(times), 4)), np.empty((ROWS, 5))
@@ -50,7 +50,7 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
             break
         assign(start, y)
         before = side
-        # The last sample is the end of a step, so y is the state at the last sample.
+        # The last step ends at the last sample, so y becomes the state at the last sample.
         left = times[-1] - t
         length, side = step(p, y, side, t, left, tolerance, work)
         gone = has_escaped(p, y[0], y[1])

@@ -1,9 +1,10 @@
 """Run undecided motions longer, until their outcome is certain.
 
-The states of a quasi-periodic motion at the strobes lie on a closed curve, and advance along it by
-the rotation number on average. With weights that vanish at both ends with all derivatives the
-average over N states converges faster than any power of 1/N (S. Das, Y. Saiki, E. Sander and J. A.
-Yorke, Nonlinearity 30, 4111-4140, 2017), on a chaotic motion only as N^(-1/2).
+The states of a quasi-periodic motion at the strobes lie on a closed curve. The rotation number is
+their mean advance along the curve. For the mean over N states, the weights and all their
+derivatives vanish at both ends. Such a mean converges faster than any power of 1/N (S. Das, Y.
+Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017); for a chaotic motion it
+converges only as N^(-1/2).
 """
 
 import math
@@ -19,27 +20,27 @@ from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
-# Forcing cycles of the first block, and batches of a block for the standard error of the exponent.
+# Forcing cycles of the first block; batches of a block, from which the standard error is estimated.
 FIRST, BATCHES = 1500, 30
 # Smallest growth of the tangent of a chaotic motion in a block, as a natural logarithm. While a
-# motion leaves an unstable orbit the tangent grows by ln(1e16) = 37, from rounding errors.
+# motion leaves an unstable orbit from a rounding error, the tangent grows by ln(1e16) = 37.
 GROWN = 40.0
-# An exponent counts as 0 if it is within NEUTRAL standard errors of 0.
+# Largest modulus, in standard errors, of a Lyapunov exponent that is taken as 0.
 NEUTRAL = 3.0
-# Longest period of an orbit in forcing cycles, and its largest distance from a state.
+# Longest period of an orbit in forcing cycles; largest distance of an orbit from the last state.
 LONGEST, REACH = 256, 1e-2
-# A motion lies on known closed curves if its distance from them is below NEIGHBOUR.
+# Largest distance of a motion from the closed curves on which it lies.
 NEIGHBOUR = 1e-3
-# Fields that a motion on known closed curves takes over from the known motion.
+# Fields that are copied from a known quasi-periodic motion to a motion on the same closed curves.
 TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
-# Largest error of a rotation number, and smallest number of points of an orbit.
+# Largest error of a rotation number, and smallest number of points.
 AGREEMENT, FEWEST = 1e-8, 100
-# The advances of the angle from point to point, as points on a circle, must leave an interval of at
-# least INTERVAL revolutions empty. The circle is cut in this interval.
+# The advances of the angle modulo 1 are points on a circle. Smallest empty interval between them,
+# in revolutions; the circle is cut there.
 INTERVAL = 0.02
-# Largest change of the angle between points that are neighbours by phase, and largest sum of the
-# moduli of all changes, in revolutions.
+# Largest change of the angle between neighbouring points, sorted by phase, and largest sum of the
+# moduli of all these changes, in revolutions.
 TURN, WANDERING = 0.05, 3.0
 
 
@@ -68,7 +69,7 @@ def run_block(p, y, tangent, states, growth, stop):
 def name_undecided(parameters, motions, limit, further, stop):
     """Continue the motions that `settle_many` left unresolved, and complete their records.
 
-    Blocks double in length, for at most `further` forcing cycles together.
+    A motion is continued in blocks of double length, in all by at most `further` forcing cycles.
     """
     curves = []
     for i in np.flatnonzero(motions["outcome"] == records.UNRESOLVED):
@@ -81,7 +82,7 @@ def name_undecided(parameters, motions, limit, further, stop):
 
 
 class _Curves(NamedTuple):
-    """Closed curves on which a quasi-periodic motion lies at the strobe, represented by states."""
+    """Closed curves of a quasi-periodic motion at the strobe, represented by `states` on them."""
 
     parameters: np.ndarray
     states: np.ndarray
@@ -89,7 +90,7 @@ class _Curves(NamedTuple):
 
 
 def _name_one(p, record, limit, further, known, stop):
-    """Continue a motion, whose record is an array of length 1; return the last block's states."""
+    """Continue the motion of a record, an array of length 1; return its last states."""
     y, tangent = record["state"][0].copy(), np.full((1, 4), 0.5)
     period, count = 2 * math.pi / p[FREQUENCY], min(limit, FIRST)
     states = np.empty((LONGEST_PERIOD, 4))
@@ -136,27 +137,27 @@ def _is_known(record, known, states):
 
 
 def _exponent(growth):
-    """Return the mean growth in a cycle and its standard error, from batches."""
+    """Return the mean growth of the tangent in a cycle, and its standard error from batches."""
     length = len(growth) // BATCHES
     batches = growth[-BATCHES * length :].reshape(BATCHES, length).mean(axis=1)
     return np.mean(batches), np.std(batches, ddof=1) / math.sqrt(BATCHES)
 
 
 def _grows(growth, mean, error):
-    """Return whether a tangent certainly grows in a block, and still grows in its last quarter."""
+    """Return whether a tangent certainly grows in a block, including the last quarter of it."""
     lasting = np.mean(growth[-len(growth) // 4 :]) > mean / 2
     return lasting and mean > CONFIDENCE * error and np.sum(growth) > GROWN
 
 
 def _on_orbit(p, record, states, contacts, limit):
-    """Move a motion onto the stable orbit near it and return its outcome; else UNRESOLVED."""
+    """Move a motion onto a stable orbit near it; return its outcome, else UNRESOLVED."""
     last, components = states[-1], 2 if contacts == 0 else 3
     before = states[-2 : -2 - LONGEST : -1]
     near = np.max(np.abs(before - last)[:, :components], axis=1) < NEAR
     for n in np.flatnonzero(near) + 1:
         y, n = last.copy(), int(n)
         found, residual, multiplier = polish(p, y, n, REACH, POLISH_TOLERANCE)
-        # n rises, so the first orbit found has the shortest period; divisors need no check.
+        # n ascends, so the first orbit that is found does not repeat sooner.
         if not found or abs(multiplier) >= 1:
             continue
         duration = n * 2 * math.pi / p[FREQUENCY]
@@ -173,9 +174,9 @@ def _on_orbit(p, record, states, contacts, limit):
 def _quasi_periodic(p, record, states, mean, error):
     """Return QUASI_PERIODIC if the states move along closed curves, otherwise UNRESOLVED.
 
-    `find_rotation` fails on a curve with corners, where contacts begin or end, or so bent that it
-    does not go around its centre. So every curve is tried, in the planes of (Z1, Z1') and (Z2,
-    Z2').
+    `find_rotation` fails on a curve that has corners, where contacts begin or end, and on a curve
+    that does not enclose its centre. So the function tries every curve in the planes of (Z1, Z1')
+    and (Z2, Z2').
     """
     if abs(mean) > NEUTRAL * error:
         return records.UNRESOLVED
@@ -195,25 +196,25 @@ def _quasi_periodic(p, record, states, mean, error):
 
 
 def birkhoff_average(values):
-    """Return the average of values along an orbit, weighted by exp(-1/(t (1 - t))), 0 < t < 1."""
+    """Return the mean of values along an orbit with the weights exp(-1/(t (1 - t))), 0 < t < 1."""
     t = np.arange(1, len(values) + 1) / (len(values) + 1)
     weights = np.exp(-1 / (t * (1 - t)))
     return np.sum(weights * values) / np.sum(weights)
 
 
 def find_rotation(points):
-    """Return rotation number and error of an orbit's map on its closed curve, or None without one.
+    """Return the rotation number of complex points on a closed curve and its error, or None.
 
-    The number (revolutions, from 0 to 1/2) is the average advance of the angle around the average
-    of the complex points, stretched to the same spread in all directions: on a slender curve the
-    angle advances mainly at the ends. The error is the largest difference between the numbers of
-    three parts of the orbit. On a closed curve points sorted by phase go around once.
+    The number (revolutions, 0 to 1/2) is the mean advance of the angle around the mean point. The
+    curve is first stretched to the same spread in all directions, because on a slender curve the
+    angle advances mainly at the ends. The error is the largest difference between the numbers from
+    three parts of the points. The result is None if the points do not lie on a closed curve.
     """
     if len(points) < FEWEST:
         return None
     angle = np.angle(_rounded(points)) / (2 * math.pi)
     advance = np.diff(angle) % 1
-    # The advances are points on a circle, which is cut in the widest interval between them.
+    # The advances are points on a circle. Cut the circle in the widest interval between them.
     order = np.sort(advance)
     intervals = np.diff(order, append=order[0] + 1)
     widest = np.argmax(intervals)
@@ -230,7 +231,7 @@ def find_rotation(points):
 
 
 def _rounded(points):
-    """Return points relative to their average, stretched to the same spread in all directions."""
+    """Return points relative to their mean, stretched to the same spread in all directions."""
     apart = points - birkhoff_average(points)
     plane = np.stack([apart.real, apart.imag])
     spread, axes = np.linalg.eigh(plane @ plane.T)
@@ -239,7 +240,7 @@ def _rounded(points):
 
 
 def _goes_around_once(angle, number):
-    """Return whether angles, in revolutions, go around once in the order of their phases."""
+    """Return whether angles, in revolutions, sorted by phase, make one turn without jumps."""
     order = np.argsort(np.arange(len(angle)) * number % 1)
     turns = np.diff(angle[order], append=angle[order[0]])
     turns -= np.round(turns)

@@ -1,8 +1,8 @@
-"""Judge a motion once in each forcing cycle: whether it has settled to an orbit, or is chaotic.
+"""Judge once in each forcing cycle whether a motion has settled to an orbit or is chaotic.
 
-Distances between states n cycles apart decrease geometrically near an orbit of period n. Once the
-sum of the remaining series is small, Newton's method looks for a stable orbit close by; so a slow
-passage near a fold is not mistaken for one.
+Near an orbit of period n the distances between states n cycles apart decrease geometrically. Once
+the sum of all further distances is small, Newton's method looks for a stable orbit close by. So a
+slow passage near a fold is not mistaken for an orbit.
 """
 
 import math
@@ -22,22 +22,22 @@ from impact_damper.motions.strobe_map import (
     speed_weight,
 )
 
-# Longest period of an orbit in forcing cycles, and number of strobe states stored to find it.
+# Longest period of an orbit in forcing cycles; length of the ring, a buffer of last strobe states.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# Standard errors by which the Lyapunov exponent of a chaotic motion exceeds 0, and a weak exponent
-# per unit of time.
+# Smallest Lyapunov exponent of a chaotic motion, in standard errors; largest weak exponent, per
+# unit of T.
 CONFIDENCE, WEAK = 4.0, 0.05
-# Forcing cycles of a batch, over which the logarithm of the growth of a tangent is summed, and
-# number of last batches in which the tangent of a chaotic motion must grow.
+# Forcing cycles of a batch, in which the logarithms of the growth of a tangent are summed; number
+# of last batches in which the tangent of a chaotic motion must still grow.
 BLOCK, RECENT = 10, 5
-# Distances from an orbit at which Newton's method is tried first and last.
+# Largest and smallest distance from an orbit at which Newton's method is tried.
 NEAR, NEAREST = 1e-4, 1e-9
-# Without forcing a motion is at rest once its energy is below REST times the first energy.
+# Largest energy of an unforced motion at rest, divided by the first energy.
 REST = 1e-9
-# Data of one motion while it runs: number of last forcing cycles without contact (`untouched`);
-# distance at which Newton's method is tried next (`near`); cycles over which the tangent has been
-# followed (`periods`), its growth in this batch, and mean, squares and last complete batches.
+# Data of one motion while it runs. untouched: last forcing cycles without contact. near: distance
+# at which Newton's method is tried next. periods: cycles with a tangent. batch: growth of the
+# tangent in this batch. mean, squares, recent: mean, variance sum and last values of full batches.
 SEEN = np.dtype(
     [(name, "i8") for name in ("index", "strobes", "untouched", "periods")]
     + [(name, "f8") for name in ("near", "energy", "batch", "mean", "squares")]
@@ -61,7 +61,7 @@ def normalise(tangent):
 def follow_tangent(tangent, growth):
     """Normalise a tangent after a forcing cycle, and add the logarithm of its growth to the batch.
 
-    Mean and sum of squares over complete batches are updated by Welford's recurrence.
+    Welford's recurrence updates the mean and the sum of squares over complete batches.
     """
     growth.batch += normalise(tangent)
     growth.periods += 1
@@ -76,7 +76,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return mean growth in a batch, standard error, and whether the last RECENT exceed mean/2."""
+    """Return mean growth in a batch, its error, and whether the last batches exceed mean/2."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -87,9 +87,9 @@ def exponent(growth):
 
 @kernel_only
 def nearby_period(ring, k, weight, floor, tolerance):
-    """Return the period of an orbit within `tolerance` of the motion, or 0.
+    """Return the period of an orbit whose distance from the motion is at most `tolerance`, or 0.
 
-    `ring[k % RING]` is the last of k + 1 strobe states; `floor` is the error of the integration.
+    `ring[k % RING]` is the last of k + 1 strobe states. `floor` is the error of the integration.
     """
     last = ring[k % RING]
     for n in range(1, LONGEST_PERIOD + 1):
@@ -111,9 +111,9 @@ def nearby_period(ring, k, weight, floor, tolerance):
 def move_onto_orbit(p, y, periods, near, out):
     """Move a state y onto the stable orbit near it; return whether there is such an orbit.
 
-    A motion that spirals towards an orbit may seem to repeat after a multiple of the period, so the
-    divisors of `periods` are tried first. If Newton's method fails, as it can near a grazing
-    contact, a motion within NEAREST counts as an orbit, with NaN for residual and multiplier.
+    A motion that spirals towards an orbit may seem to repeat after a multiple of the period only.
+    So the divisors of `periods` are tried first. Newton's method can fail near a grazing contact. A
+    motion within NEAREST of an orbit is then the orbit, with the residual and multiplier NaN.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):
@@ -132,7 +132,7 @@ def move_onto_orbit(p, y, periods, near, out):
 
 @inlined
 def leave_transient(p, out):
-    """Replace the Lyapunov exponent, measured on the way to an orbit, by the orbit's own."""
+    """Replace the Lyapunov exponent of the transient by that of the orbit, from its multiplier."""
     duration = out.period * 2.0 * math.pi / p[FREQUENCY]
     out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
     out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan
@@ -140,7 +140,7 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Move the primary mass onto the stable orbit without contacts near it, if there is one."""
+    """Move the primary mass onto a stable orbit without contacts; return whether one is near."""
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
         if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:
@@ -166,7 +166,7 @@ def begin_watch(seen, index, out):
 
 @kernel_only
 def watch_free(p, y, seen, out):
-    """Judge an unforced motion as `watch` does; set a motion at rest exactly to rest."""
+    """Judge an unforced motion as `watch` does; replace a state near rest by exact rest."""
     left = energy(p, y)
     if seen.strobes == 0:
         seen.energy = left
@@ -183,18 +183,18 @@ def watch_free(p, y, seen, out):
 def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
     """Judge a motion at a strobe, complete its record `out`, and return whether it is stopped.
 
-    It is stopped
+    A motion is stopped
 
     - when it has settled, diverged or escaped, or after `limit` cycles;
     - as at_rest if there is no forcing and hardly any energy is left (REST);
-    - as non_colliding if it has settled without contacts, or if the primary mass is on an orbit and
-      the loose mass has touched no wall for `patience` cycles and would drift by less than 1 % of
-      the clearance in `limit` cycles; as drifting after `limit` cycles if it drifts faster;
+    - as non_colliding if it has settled without contacts. Or the primary mass is on an orbit, the
+      loose mass has touched no wall for `patience` cycles, and would drift by less than 1 % of the
+      clearance in `limit` cycles. If it drifts faster, as drifting after `limit` cycles;
     - as chaotic after `patience` cycles if the largest Lyapunov exponent exceeds CONFIDENCE
-      standard errors and the tangent still grows (a transient may have ended); below WEAK only
-      in the last BLOCK cycles before `limit`, because a slow spiral can look like weak chaos.
+      standard errors and the tangent still grows (a transient may have ended). An exponent below
+      WEAK is judged just before `limit` only, because a slow spiral can look like weak chaos.
 
-    Tangent and `reach` are followed from cycle `patience`/2 on.
+    The tangent and `reach` are updated from cycle `patience`/2 on.
     """
     k = seen.strobes
     bounded = p[CLEARANCE] < math.inf
