@@ -23,7 +23,7 @@ def part(share, digits=2) -> str:
 
 
 def rounding(distance) -> str:
-    """Return in words whether a number is rounded right; `misrounding` returns `distance`."""
+    """Return in words whether a number is rounded right; `distance` comes from `misrounding`."""
     return "a right rounding" if distance <= 1 else "not a rounding"
 
 
@@ -75,7 +75,7 @@ class Claim:
     `reading` says how we read vague words. `finding` is a template, true for every verdict.
     `required` and `full_agreement` map each bound to the meaning of its number; a second bound of
     the same number maps to None. `figures` are names, the most important first. `verdicts` maps
-    usual verdicts to other words.
+    usual verdicts to other words. `evidence` raises `Missing` if the data lack something needed.
     """
 
     number: str
@@ -96,7 +96,7 @@ class Claim:
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
-        """Return the verdict; an unknown number prevents it unless a required bound fails."""
+        """Return the verdict: not decidable if a number is unknown and no required bound fails."""
         required, wished = (
             [Bound.read(text).holds(values) for text in bounds]
             for bounds in (self.required, self.full_agreement)

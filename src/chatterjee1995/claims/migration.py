@@ -1,4 +1,4 @@
-"""Evidence for claims 12 to 14 and 19. A release switches the damper off; a case is a dataset."""
+"""Claims 12 to 14 and 19. A release switches the damper off. `case` is a dataset of `migration`."""
 
 import numpy as np
 
@@ -24,7 +24,7 @@ def _release_shares(case, kind, free_motion="non_resonance"):
 
 
 def release_phase(datasets):
-    """Return the numbers of claim 13: at W = 1.7 the phase of release decides for period 1 or 3."""
+    """Return the numbers of claim 13: at W = 1.7 the phase of release selects period 1 or 3."""
     case = reading.get(datasets, "migration", "figure_15")
     frequency = reading.parameter(case, "frequency")
     lower, upper = orbits.subharmonic_range(orbits.free_of(datasets, case))
@@ -42,7 +42,7 @@ def release_phase(datasets):
 
 
 def _scanned(datasets, case):
-    """Return a dict: scanned W -> whether the release phase decides, for the damper of a case."""
+    """Return by W whether the phase of release selects the motion, in scans of a case's damper."""
     wanted = oscillator_of(case), damper_of(case)
     found = {}
     for scan in datasets.get("release_scan", {}).values():
@@ -56,7 +56,7 @@ def _scanned(datasets, case):
 
 
 def _nearest_range(decides, frequency):
-    """Return the ends of the range of W, nearest to `frequency`, in which the phase decides."""
+    """Return the ends of the range of W, nearest to `frequency`, in which `decides` is true."""
     scanned = list(decides)
     ends = [
         (scanned[first], scanned[last - 1]) for first, last in runs_of_true(list(decides.values()))

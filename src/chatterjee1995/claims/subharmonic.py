@@ -5,7 +5,7 @@ import numpy as np
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading import orbits
 
-# Dampers with a light loose mass, with a heavy one, and on an oscillator with low damping.
+# Names of dampers with light masses, with a heavy mass, and on an oscillator with low damping.
 LIGHT, HEAVY, LOW_DAMPING = reading.BY_MASS[:2], reading.BY_MASS[2], "figure_08"
 AS_LARGE = 0.95  # least ratio to the free amplitude at which a subharmonic is called unchanged
 
@@ -54,7 +54,7 @@ def by_damping(datasets):
 
 
 def _reduction(datasets, name):
-    """Return how much a damper lowers the subharmonic, averaged over W between the free folds."""
+    """Return a damper's reduction of the subharmonic, averaged between the free branch's folds."""
     branches, free = orbits.of_curve(datasets, name)
     ends = orbits.subharmonic_range(free)
     curve = reading.within(reading.get(datasets, "subharmonic", name), *ends)

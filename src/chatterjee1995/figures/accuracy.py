@@ -1,4 +1,4 @@
-"""Error against work, for each method on each test case (figure kind `accuracy`)."""
+"""Error against operations, for each method on each test case (figure kind `accuracy`)."""
 
 from itertools import cycle
 

@@ -88,7 +88,7 @@ def _restitution(data):
 
 
 def _period_3(motions):
-    """Return motions; all but settled ones with a period that is a multiple of 3 become absent."""
+    """Return a dataset with only the settled motions whose period is a multiple of 3."""
     period = motions["period"]
     chosen = is_settled(motions) & (period > 1) & (period % 3 == 0)
     outcome = motions["outcome"].where(chosen, flag("outcome", "absent"))

@@ -41,7 +41,7 @@ def quiet_motions(response, free):
 
 
 def suppression_band(datasets, name):
-    """Return the `Band` of a curve: it has no violent motion and ends with the free resonance.
+    """Return the `Band` of a curve, without violent motions; it ends where the free resonance ends.
 
     The resolution is 0 if a branch of orbits ends at `lower`, else at most one frequency step.
     """

@@ -1,6 +1,6 @@
 """Branches of exact periodic orbits, cut into pieces and evaluated at any frequency.
 
-`free`: branches without damper. High (violent): max |Z1| above half of the free resonance at W.
+`free` are branches without damper. A high (violent) orbit exceeds half of the free resonance.
 """
 
 import numpy as np
@@ -25,7 +25,7 @@ def free_of(datasets, data):
 
 
 def of_curve(datasets, name):
-    """Return the branches `name` and those of the oscillator without damper, or raise Missing."""
+    """Return the branches of the dataset `name`, and those without damper, or raise Missing."""
     branches = reading.get(datasets, "branches", name)
     return branches, free_of(datasets, branches)
 

@@ -20,8 +20,8 @@ class Stage(NamedTuple):
     together: bool = False  # whether one job computes all entries, to save starts of jobs
     # 2 for jobs for which other jobs wait, 1 for the longest jobs, which should not start last.
     priority: int = 0
-    paper: bool = True  # whether `snakemake` without a target computes it
-    page: bool = False  # whether each entry has a page
+    paper: bool = True  # whether `snakemake` without a target computes the stage
+    page: bool = False  # whether each entry has its own page
 
 
 def stage(function, message, **options):
@@ -41,7 +41,7 @@ class Shown:
     name: str
     chapter: str
     module: str  # name in the package `tables` or `figures`, or full name
-    stages: tuple[str, ...]  # stages read; an entry of `curves` must have the first one
+    stages: tuple[str, ...]  # stages read; a drawn entry of `curves` must have the first one
 
     room: ClassVar[str]
 

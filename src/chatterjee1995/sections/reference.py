@@ -35,7 +35,7 @@ def _table(model, keys=None):
 
 
 def _rows(prefix, fields):
-    """Yield a line for each field; the lines of its own fields replace a section."""
+    """Yield a line for each field; for a section, yield the lines of the section's fields."""
     for key, field in fields.items():
         kind, key = field.annotation, prefix + key
         if get_origin(kind) is dict:

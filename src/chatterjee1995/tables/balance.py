@@ -150,7 +150,7 @@ def _answers(meaning):
 
 
 def _cells(question, balance, truth, count, total):
-    """Return a row: a count of cells, its share, and Wilson's interval for random samples."""
+    """Return a row: a count of cells, its share, and the Wilson interval for a random sample."""
     share, lower, upper = wilson(int(count), int(total))
     return {
         "question": question,

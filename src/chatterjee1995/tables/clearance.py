@@ -8,7 +8,7 @@ from chatterjee1995.reading import datasets as reading
 from chatterjee1995.tables.columns import parameter_columns
 from impact_damper.data.datasets import damper_of, decode, oscillator_of, parameters_of
 
-WITHIN = (1, 10)  # largest errors in per cent of predicted optima that are counted
+WITHIN = (1, 10)  # error bounds in per cent; the table counts the optima predicted within each
 # Rule -> value of rm W^2 d0 that the rule gives, or model from which the rule follows.
 RULE_NAMES = {
     "balance": "(18): 1",

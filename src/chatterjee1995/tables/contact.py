@@ -89,7 +89,7 @@ VERDICTS = {
 
 
 def _needed(own):
-    """Return the least stiffness at which rigid walls are accurate, or why it is unknown."""
+    """Return the stiffness above which rigid walls are accurate, or why none is known."""
     columns = {}
     for k, level in enumerate(own.threshold.values):
         value = float(own.needed_stiffness[k])

@@ -21,7 +21,7 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return for each scene (test case) and method the cheapest accurate or most accurate run."""
+    """Return by scene (test case) and method the cheapest accurate, else the most accurate run."""
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
         asked = parameters_of(data)["accuracy"]
@@ -67,7 +67,7 @@ def cheapest(data, labels):
 
 
 def _most_accurate(data, method):
-    """Return the run of a method with the least error (or None), if no run is accurate."""
+    """Return the index of a method's run with the least error; None if the method has no run."""
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
         return None

@@ -8,7 +8,7 @@ from impact_damper.data.whole_files import whole
 
 
 def make_table(name, given, datasets, path) -> None:
-    """Write a table from `selection.table_values` in both formats, and its caption, to `path`."""
+    """Save a table of `selection.table_values` as CSV and Markdown, and the caption."""
     from chatterjee1995.tables import files as table_files
 
     module = import_module(given["module"])
@@ -23,7 +23,7 @@ def make_table(name, given, datasets, path) -> None:
 
 
 def draw_figure(given, datasets, path) -> None:
-    """Draw a figure from `selection.figure_values` as PDF and PNG, and its caption, to `path`."""
+    """Save a figure of `selection.figure_values` as PDF and PNG, and the caption."""
     from impact_damper.plot.style import save_figure
 
     drawn = given["drawn"].items()

@@ -50,7 +50,7 @@ def imported(name):
 
 
 def made(value):
-    """Return a parameter of a job, in which functions of MADE have replaced such dictionaries."""
+    """Return a parameter of a job after calling the functions of MADE that the parameter names."""
     if isinstance(value, list):
         return [made(each) for each in value]
     if not isinstance(value, dict):
@@ -70,7 +70,7 @@ def counts(first, last, points):
 
 
 class Job:
-    """A job of the variable `snakemake` of a script. Its process ends soon after Snakemake ends."""
+    """A job, described by the variable `snakemake` of its script. It ends soon after Snakemake."""
 
     def __init__(self, snakemake):
         self.snakemake = snakemake
@@ -99,7 +99,7 @@ class Job:
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Return the result of the stage's function, which accepts some values of `offered`."""
+        """Return the result of the stage's function; it gets what it accepts of `offered`."""
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}
@@ -117,7 +117,7 @@ class Job:
 
     @cached_property
     def datasets(self):
-        """All datasets among the inputs, keyed by stage and entry; the entry is their `name`."""
+        """All input datasets, keyed by stage and entry; their attribute `name` is the entry."""
         from impact_damper.data.datasets import load
 
         found = {}
@@ -187,7 +187,7 @@ def _write_timing(path):
 
 
 def peak_memory() -> float:
-    """Return this process's peak memory in MB; `ru_maxrss`, the last resort, includes parents."""
+    """Return the peak memory of this process in MB; `ru_maxrss`, read last, includes a parent's."""
     status = Path("/proc/self/status")
     if status.exists():
         lines = status.read_text().splitlines()
