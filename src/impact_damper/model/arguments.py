@@ -1,4 +1,4 @@
-"""Arguments of the public functions: read and checked once, in the unit of the user."""
+"""Read and check the arguments of the public functions, which are in the user's units."""
 
 import math
 from dataclasses import replace
@@ -55,7 +55,7 @@ class Model(NamedTuple):
 def read_system(system, damper=None, *, needs_damper=False) -> Model:
     """Return the model of the arguments `system` and `damper`; with `needs_damper` None is refused.
 
-    TypeError or ValueError if one has another type, or the damper does not fit the machine.
+    Raise TypeError if an argument has another type, ValueError if the damper does not fit.
     """
     if isinstance(system, Machine):
         damper, scaled = _read_machine_damper(system, damper, needs_damper)
@@ -64,7 +64,7 @@ def read_system(system, damper=None, *, needs_damper=False) -> Model:
         raise TypeError(f"system = {shown(system)}: must be an Oscillator or a Machine")
     if not isinstance(damper, Damper) and (needs_damper or damper is not None):
         raise TypeError(f"damper = {shown(damper)}: must be a Damper")
-    # Arguments beside the oscillator of a machine are dimensionless.
+    # For an oscillator made by a machine, all other arguments are dimensionless.
     return Model(replace(system, scales=UNITLESS), damper)
 
 
@@ -81,7 +81,7 @@ def read_forced(system, damper, frequency, *, needs_damper=False) -> Model:
 
 
 def _read_machine_damper(machine, damper, needs_damper):
-    """Return a damper in SI units and in the scales of its machine, or None twice."""
+    """Return a damper in SI units and the dimensionless damper, or None for both."""
     if damper is None and not needs_damper:
         return None, None
     if not isinstance(damper, MachineDamper):
@@ -93,7 +93,7 @@ def _read_machine_damper(machine, damper, needs_damper):
 def read_swept_damper(system, damper, frequency) -> Model:
     """Return the model for a sweep of the clearance; the clearance of the damper is not used.
 
-    Beside an `Oscillator` the damper may be a dictionary without the clearance.
+    With an `Oscillator` the damper may be a dictionary without the clearance.
     """
     if isinstance(system, Oscillator) and isinstance(damper, dict):
         allowed = {"mass_ratio", "restitution", "contact_stiffness"}
@@ -163,7 +163,7 @@ def read_pair(scales, name, values) -> np.ndarray:
 
 
 def _components(scales, name, values, kinds, words):
-    """Return displacements and velocities as dimensionless numbers; there must be `words`."""
+    """Return dimensionless displacements and velocities; `words` says which are needed."""
     numbered = list(_numbered(values))
     if len(numbered) != len(kinds):
         raise ValueError(f"{name} = {shown(values)}: must be {words}")
@@ -179,8 +179,8 @@ def _components(scales, name, values, kinds, words):
 def read_state(model, state) -> np.ndarray:
     """Return the argument `state` of a public function as Z1, Z1', Z2, Z2', shape (4,).
 
-    Without a damper two numbers suffice; then Z2 = Z1 and Z2' = Z1'. UserWarning if the penetration
-    of a wall exceeds the clearance.
+    Without a damper two numbers are enough, with Z2 = Z1 and Z2' = Z1'. Warn the user if the
+    penetration of a wall exceeds the clearance.
     """
     scales, damper = model.scales, model.damper
     if hasattr(state, "coords"):
@@ -229,8 +229,8 @@ def carried_phase(state):
 def read_start(model, state, start) -> float:
     """Return the time T of a state, from the argument `start` of a public function.
 
-    If this is None, it follows from the phase of a state of a dataset, or is 0. A `start` with
-    another phase is an error.
+    If `start` is None, T follows from the phase that a state of a dataset has, or is 0. A `start`
+    with another phase is an error.
     """
     phase, frequency = carried_phase(state), model.frequency
     if start is None:

@@ -1,4 +1,4 @@
-"""Ranges of parameters and arguments, within which every run comes to an end, and their checks.
+"""Ranges of parameters and arguments, and checks of values; within the ranges every run ends.
 
 A range is a dictionary of keyword arguments of `check_number` or `check_count`.
 """
@@ -33,14 +33,14 @@ PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "motions rarely settle in 
 LIMIT_RANGE = {"least": 100, "most": 10**8}
 WATCHED_RANGE = {"least": 1, "most": 10**6}
 FURTHER_RANGE = {"least": 0, "most": 10**7}
-# Largest number of runs of one call, whose results are all in memory.
+# Largest number of runs of one call. The results of all runs are in memory.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# Forcing cycles of a run, and of a run that measures the lifetime of a chaotic transient.
+# Number of forcing cycles of a run, and of a run for the lifetime of a chaotic transient.
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest displacement and velocity of an initial state; beyond, a forcing cycle takes minutes.
+# Largest displacement and velocity of an initial state. Beyond them a cycle takes minutes.
 FARTHEST, FASTEST = 1e3, 1e6
 # Highest harmonic N of a harmonic balance, whose memory grows as N^2 and computing time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
@@ -52,7 +52,7 @@ METHOD_TOLERANCE_RANGE = TOLERANCE_RANGE | {"most": 0.1}
 
 
 def warn(text) -> None:
-    """Warn at the line that called the library."""
+    """Issue a warning for the user's line that called this package."""
     frame, level = sys._getframe(1), 2
     while frame and frame.f_globals.get("__name__", "").startswith(PACKAGE):
         frame, level = frame.f_back, level + 1
@@ -60,7 +60,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return the number in an array without dimensions and unit, and other values unchanged."""
+    """Return the number in an array without dimensions and unit; return other values unchanged."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")
@@ -79,8 +79,8 @@ def check_number(
 ) -> float:
     """Return `value` as a float, or raise an error that names the allowed range.
 
-    `why` is the reason for the bounds, and `given` replaces the value in the message. TypeError if
-    it is not a real number, ValueError if it is not finite or outside the bounds.
+    `why` is the reason for the bounds, and `given` replaces the value in the message. Raise
+    TypeError for a value that is no real number, ValueError if it is not finite or out of bounds.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -128,7 +128,7 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Raise unless all of `points` grid points together have at most MOST_RUNS starts."""
+    """Raise an error if `points` grid points with `starts` each need more than MOST_RUNS runs."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 
@@ -140,9 +140,9 @@ def nearest(name, known) -> str:
 
 
 def names_arguments(function):
-    """Decorate a public function or class: a wrong argument is answered with the known ones.
+    """Decorate a public function or class; the error for a wrong argument lists the known ones.
 
-    The fields of a dataclass are described in its docstring by their metadata.
+    The docstring of a dataclass gets a description of its fields from their metadata.
     """
     call = function.__init__ if inspect.isclass(function) else function
     signature = inspect.signature(call)

@@ -1,17 +1,17 @@
-"""The two rules for the end of a contact, and the damping that a restitution means under each.
+"""The two rules for the end of a contact, and the damping for a restitution under each rule.
 
 The penetration of a free contact obeys u'' + 2 z u' + u = 0 in natural units of time, with the
 damping ratio z, and the wall pushes with u + 2 z u'. Under `zero_penetration`, the paper's rule
-(25), a contact ends when u = 0, and the wall pulls before. Under `no_tension` it ends when the
-force is 0; with z = sin(A) the restitution is then exp(-(pi - 2 A) tan A) (Schwager and Poeschel,
-Physical Review E 78, 2008, 051304), and with z = cosh B > 1 it is exp(-2 B coth B).
+(25), a contact ends when u = 0; before its end the wall pulls. Under `no_tension` a contact ends
+when the force is 0. The restitution is exp(-(pi - 2 A) tan A) with z = sin(A) (Schwager and
+Poeschel, Physical Review E 78, 2008, 051304), and exp(-2 B coth B) with z = cosh B > 1.
 """
 
 import math
 from functools import cache
 
 ZERO_PENETRATION, NO_TENSION = EXIT_RULES = ("zero_penetration", "no_tension")
-# Angles or arguments up to this distance from critical damping count as critical.
+# Largest |z - 1| at which the damping is treated as critical.
 CRITICAL = 1e-6
 
 

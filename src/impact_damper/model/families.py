@@ -20,7 +20,7 @@ FORCING = {"force": FORCE, "unbalance": UNBALANCE}
 
 
 def facts_of(parameter) -> tuple:
-    """Return name for a machine, kind and bounds of a parameter."""
+    """Return the name that a parameter has for machines, its kind and its bounds."""
     owner = PARAMETERS[parameter]
     if owner is None:
         return parameter, "frequency", FREQUENCY_RANGE
@@ -31,7 +31,7 @@ def facts_of(parameter) -> tuple:
 def read_followed(model, parameter, span) -> tuple:
     """Return the arguments `parameter` and `span` of a branch, dimensionless.
 
-    A machine has its own names of PARAMETERS. The span must hold the value of the model.
+    For machines some PARAMETERS have other names. The span must contain the model's own value.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}
@@ -51,10 +51,10 @@ def read_followed(model, parameter, span) -> tuple:
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
-    """Return the packed parameters as a function of the coordinate of one parameter.
+    """Return a function that maps the coordinate of one parameter to the packed parameters.
 
-    Also return the coordinate of the given system, and those of the ends of the span. ValueError if
-    the contact is too stiff at an end.
+    Also return the coordinate of the given system, and the coordinates of both ends of the span.
+    Raise ValueError if the contact is too stiff at an end.
     """
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)

@@ -14,8 +14,8 @@ from impact_damper.model.units import convert, optional, physical
 # Duration of an impact, in units of the largest compression divided by the speed:
 # (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
 DURATION = 2.9432752
-# Pressure p0 of a ball at which a material begins to yield, in units of its yield strength, for
-# nu = 0.3 (Johnson, section 6.1).
+# Largest pressure p0 under a ball at which a material begins to yield, in units of its yield
+# strength, for nu = 0.3 (Johnson, section 6.1).
 YIELD = 1.6
 POISSON_RANGE = {"least": 0, "most": 0.5}
 WALLS = "of the walls, if they are of another material"
@@ -32,10 +32,10 @@ class Impact(NamedTuple):
 @names_arguments
 @dataclass(frozen=True)
 class HertzContact:
-    """Contact of a loose mass that is a ball, or has a rounded face, with the walls of its gap.
+    """Contact between a loose mass, a ball or a body with a rounded face, and the walls of its gap.
 
     Each value is a number in the SI unit, text with units, or a quantity of pint. For curved walls
-    1/radius is the sum of the curvatures.
+    1/radius is the sum of the curvatures of loose mass and wall.
 
     Raises
     ------
@@ -99,17 +99,17 @@ class HertzContact:
     def compression(self, speed, mass) -> float:
         """Return the largest compression q of an elastic impact, m, from (2/5) K q^(5/2) = m v^2/2.
 
-        The speed v (m/s) is relative, the mass m (kg) m1 m2/(m1 + m2).
+        v (m/s) is the relative speed, and m (kg) the reduced mass m1 m2/(m1 + m2).
         """
         return (5 * mass * speed**2 / (4 * self.coefficient)) ** 0.4
 
     def impact(self, speed, mass) -> Impact:
-        """Return an elastic impact; the arguments are as in `compression`."""
+        """Return the largest values of an elastic impact; the arguments are as in `compression`."""
         q = self.compression(speed, mass)
         return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
 
     def stiffness(self, speed, mass) -> float:
-        """Return the stiffness, N/m, of the linear spring with equal compression in an impact.
+        """Return the stiffness, N/m, of the linear spring that an impact compresses equally.
 
         The spring stores the same energy; its largest force is 4/5 of the largest force of Hertz.
         """

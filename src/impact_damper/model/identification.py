@@ -1,4 +1,4 @@
-"""Machines from measured curves, by least squares.
+"""Machines that fit measured curves by least squares.
 
 NumPy and SciPy are imported in functions, because Snakemake reads this module at every dry run.
 """
@@ -11,20 +11,20 @@ from typing import NamedTuple
 from impact_damper.model.bounds import names_arguments, shown
 from impact_damper.model.units import QUANTITIES, check_si
 
-# A column of a CSV file: its name and its unit, such as "time_s" or "displacement [mm]".
+# Title of a column in a CSV file: name and unit, such as "time_s" or "displacement [mm]".
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# Smallest derivative of the balance, which is 0 at a fold, and how often it is computed again.
+# Smallest derivative of the balance that is used (at a fold it is 0), and number of fits in turn.
 FOLD, PASSES = 0.1, 6
 
 
 class Identified(NamedTuple):
-    """A machine found by a fit, and how sure its values are.
+    """A machine found by a fit, and the uncertainties of its values.
 
-    `uncertainties` are standard uncertainties in SI units, keyed by field of the machine, if the
-    errors of samples are independent and alike. `noise` is the r.m.s. residual: m for a free decay,
-    a fraction of the amplitude for a response. `ended` says how the fit ended.
+    `uncertainties`, keyed by field of the machine, are standard uncertainties in SI units; they
+    assume independent errors of equal size. `noise` is the r.m.s. residual, in m for a free decay,
+    and as a fraction of the amplitude for a response. `ended` says how the fit ended.
     """
 
     machine: object
@@ -51,7 +51,7 @@ def from_ring_down(cls, data, *, mass, **excitation) -> Identified:
     Raises
     ------
     TypeError, ValueError
-        If the data are not such a record; names file, line and column.
+        If the data are not such a record. The message names file, line and column.
 
     Examples
     --------
@@ -80,10 +80,10 @@ def from_ring_down(cls, data, *, mass, **excitation) -> Identified:
 def from_response(cls, data, *, force) -> Identified:
     """Return the machine whose response to a known force is nearest to a measured curve.
 
-    On all branches the first harmonic balance holds, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2 =
-    F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). Its residual, divided by its
-    derivative, is the relative error of an amplitude. Where 3/4 k3 a^2 exceeds a tenth of k, the
-    missing harmonics bias the values by about a per cent.
+    All branches obey the balance of the first harmonic, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2
+    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). The residual of the balance
+    divided by its derivative is the relative error of an amplitude. If 3/4 k3 a^2 exceeds a tenth
+    of k, the neglected harmonics bias the values by about a per cent.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def from_response(cls, data, *, force) -> Identified:
     Raises
     ------
     TypeError, ValueError
-        If the data are not such a curve; names file, line and column.
+        If the data are not such a curve. The message names file, line and column.
 
     Examples
     --------
@@ -132,7 +132,7 @@ def from_response(cls, data, *, force) -> Identified:
 
 
 def _fit(residuals, guess, scale):
-    """Return the parameters of least squares, their errors, the r.m.s. residual and the end.
+    """Return the fitted parameters, their errors, the r.m.s. residual and the solver's message.
 
     `residuals` takes parameters of shape (p, n) and returns an array of shape (samples, n).
     """

@@ -1,4 +1,4 @@
-"""A machine on a spring with its excitation, and its impact damper, in SI units."""
+"""A machine on a spring with its excitation, its impact damper, and an absorber, in SI units."""
 
 import math
 from dataclasses import asdict, dataclass, fields, replace
@@ -24,7 +24,7 @@ MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """A value of a machine that was computed from others; a changed copy computes it again."""
+    """A value that a machine computed from other values; a changed copy computes it again."""
 
 
 @bounds.names_arguments
@@ -52,8 +52,8 @@ class MachineDamper:
     def check_for(self, machine):
         """Raise ValueError, with the range allowed, if the damper does not fit a machine.
 
-        The gap must be larger than the static play: the compression of both contacts under the
-        fraction m2/(m1 + m2) of the machine's static force, which accelerates the loose mass m2.
+        The gap must exceed the static play, the compression of both contacts under the force on the
+        loose mass m2. This force is the fraction m2/(m1 + m2) of the machine's static force.
         """
         scales = machine.scales
         gaps = scales.range_to_si(bounds.CLEARANCE_RANGE, "gap")
@@ -94,11 +94,11 @@ class Machine:
     Each value is a number in the SI unit, text with units such as "12 kg", or a quantity of pint;
     the fields hold numbers. The restoring force at the deflection x is
     linear_stiffness x + cubic_stiffness x^3. The natural frequency may be given in place of the
-    linear stiffness, and the damping as damping ratio, quality factor or damping. Give one
-    excitation. Functions that take a machine take frequencies in Hz, states in m and m/s, and
-    return datasets in mm, Hz, N, m/s and s. The force of an unbalance is unbalance w^2. On a moving
-    base displacements of the machine are relative to the base, and both masses feel its
-    acceleration. The spring is measured about rest, under the weight of the machine.
+    linear stiffness. Give one of damping_ratio, quality_factor and damping, and one excitation.
+    Functions that take a machine take frequencies in Hz and states in m and m/s, and return
+    datasets in mm, Hz, N, m/s and s. The force of an unbalance is unbalance w^2. On a moving base
+    displacements of the machine are relative to the base, whose acceleration acts on both masses.
+    The deflection is measured from rest under the weight of the machine.
 
     Raises
     ------
@@ -236,8 +236,8 @@ class Machine:
     def scales(self) -> Scales:
         """Scales with which the dimensionless equations describe the machine.
 
-        The length is the geometric mean of the static deflection and the displacement at resonance,
-        so small and large motions and useful gaps are of the order 1, and omega_l^2 + |k3| = 1.
+        The length is the geometric mean of the static deflection and the displacement at resonance.
+        Therefore motions and useful gaps are of the order 1. With the time, omega_l^2 + |k3| = 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -247,7 +247,7 @@ class Machine:
     def _static_deflection(self):
         """Return the deflection under the excitation, m.
 
-        Without excitation both parts of the spring's force are equal there, or it is 1 mm.
+        Without excitation linear and cubic force are equal at it; if one of them is 0, it is 1 mm.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
@@ -264,8 +264,8 @@ class Machine:
     def resonant_displacement(self) -> float:
         """Static deflection times m w/c, but at least this deflection, m.
 
-        For a linear machine this is the displacement at resonance; w^2 is the stiffness at the
-        static deflection divided by the mass.
+        It is the displacement of a linear machine at resonance. w^2 is the stiffness at the static
+        deflection divided by the mass.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -364,7 +364,7 @@ def mounting(
     `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
     default 0; `normal_force` (N) presses the loose mass on its floor, by default the weight
     normal to the gap. Gravity or friction may be given in place of the values they follow from.
-    ValueError if two values exclude each other.
+    Raise ValueError if two values exclude each other.
     """
     mass = check_si("mass", mass, "mass", above=0)
     coefficient = check_si("friction_coefficient", friction_coefficient, "number", **FRICTIONS)

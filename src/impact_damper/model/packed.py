@@ -13,10 +13,10 @@ from impact_damper.model.parameters import (
 )
 from impact_damper.model.text import number
 
-# W, the fields of `Oscillator` in their order, with omega_l^2 in place of omega_l, and then d0, r1,
-# 1/rm, the coefficient of the dashpot, the LAG of the rule by which a contact ends (0, or DASHPOT /
-# CONTACT_STIFFNESS for walls that never pull), component of gravity along the gap, and
-# the acceleration of the loose mass by friction.
+# The numbers in their order: W; the fields of `Oscillator`, but omega_l^2 in place of omega_l; d0;
+# r1; 1/rm; coefficient of the dashpot; LAG of the rule for the end of a contact (0, or DASHPOT /
+# CONTACT_STIFFNESS for walls that never pull); component of gravity along the gap; largest
+# acceleration of the loose mass by friction.
 FIELDS = [each.name for each in parameters_in(Oscillator)]
 NAMES = (
     "FREQUENCY",
@@ -38,9 +38,9 @@ LAG, GRAVITY, FRICTION = range(COUNT - 3, COUNT)
 def pack(oscillator, damper, frequency) -> np.ndarray:
     """Return the parameters as the array that kernels read, shape (COUNT,).
 
-    Without a damper (None) the clearance is infinite and the contact's parameters are 0. TypeError
-    if an argument has the wrong type, ValueError if W is out of range, or the natural frequency of
-    the contact exceeds MOST_STIFF W.
+    Without a damper (None) the clearance is infinite and the contact's parameters are 0. Raise
+    TypeError if an argument has the wrong type. Raise ValueError if W is out of range, or if the
+    natural frequency of the contact exceeds MOST_STIFF W.
     """
     p = np.zeros(COUNT)
     p[FREQUENCY] = frequency = check_frequency(frequency)

@@ -16,8 +16,8 @@ from impact_damper.model.units import UNITLESS, Scales
 def parameter(limits, kind, symbol, meaning, *, machine=None, power=None, **default):
     """Return a dataclass field for a dimensionless number, with all facts about it.
 
-    `kind` is a key of `units.QUANTITIES`, `machine` the name for a machine if it differs, and
-    `power` the power of Z1 if the parameter is the coefficient of a nonlinear term of the spring.
+    `kind` is a key of `units.QUANTITIES`. `machine` is the name for machines if it differs. `power`
+    is the power of Z1 if the parameter is the coefficient of a nonlinear term of the spring.
     """
     facts = {"bounds": limits, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
     return field(metadata=facts | {"meaning": f"{symbol}, {meaning}"}, **default)
@@ -49,9 +49,9 @@ def check_damper(damper):
 class Oscillator:
     """Harmonically forced Duffing oscillator, equation (3) without the damper, dimensionless.
 
-    Its force has the amplitude F + U W^2. U stands for a rotating unbalance, or for a moving base
-    with a constant displacement. On a moving base Z1 is the displacement relative to the base, the
-    force is the force of inertia, and `base` is 1, because the loose mass feels it too.
+    The forcing has the amplitude F + U W^2. U stands for a rotating unbalance, or for a moving base
+    with a constant amplitude. On a moving base Z1 is the displacement relative to the base, and the
+    forcing is the force of inertia. This force acts on the loose mass too, so `base` is 1.
 
     Raises
     ------
@@ -158,8 +158,8 @@ class Oscillator:
 class Damper:
     """Loose mass in a gap whose walls have a spring and a dashpot (figures 1 and 9 of the paper).
 
-    A contact ends by `exit_rule`: "zero_penetration" is the paper's rule, in which the walls may
-    pull, and with "no_tension" they never do (`exit_rules`).
+    `exit_rule` decides when a contact ends (`exit_rules`). With "zero_penetration", the paper's
+    rule, the walls may pull. With "no_tension" the walls never pull.
 
     Raises
     ------
@@ -229,7 +229,7 @@ class Damper:
 
 
 def check_closed_form(oscillator, damper):
-    """Raise TypeError or ValueError if closed forms do not know a damper of an oscillator."""
+    """Raise TypeError or ValueError if closed forms do not hold for a damper of an oscillator."""
     check_damper(damper)
     told = oscillator.scales.told
     why = "must be 0 in closed forms and harmonic balance with a damper; simulate it instead"
@@ -247,7 +247,7 @@ def parameters_in(part) -> list:
     return [each for each in fields(part) if "symbol" in each.metadata]
 
 
-# The nonlinear terms of the spring's force: power of Z1 by name; and the highest power.
+# Powers of Z1 in the nonlinear terms of the spring's force, keyed by name; the highest power.
 NONLINEAR = {
     each.name: each.metadata["power"]
     for each in parameters_in(Oscillator)
@@ -263,7 +263,7 @@ SYMBOLS = {
 
 
 def describe(*parts) -> dict:
-    """Return the parameters in several dataclasses as one dictionary; a part None has none."""
+    """Return the parameters of several dataclasses, some of which may be None, in a dictionary."""
     return {
         each.name: getattr(part, each.name)
         for part in parts

@@ -1,4 +1,4 @@
-"""Settings that state how long and how accurately motions are run.
+"""Settings for the length and the accuracy of the runs of motions.
 
 This module imports no NumPy, because Snakemake reads it at every dry run.
 """
@@ -12,24 +12,24 @@ from impact_damper.model.bounds import check_count, check_number, names_argument
 @names_arguments
 @dataclass(frozen=True)
 class Settling:
-    """How long motions are run to find out whether they settle to an orbit, and how accurately.
+    """Length and accuracy of the runs that show whether motions settle to an orbit.
 
     Attributes
     ----------
     tolerance : float
         Largest local error in a step of the integrator, dimensionless.
     patience : int
-        Forcing cycles after which a motion is stopped if it is certainly chaotic, or if the loose
-        mass hardly moves and has touched no wall during these cycles.
+        Number of forcing cycles after which a motion is stopped if it is certainly chaotic, or if
+        the loose mass hardly moves and has touched no wall during these cycles.
     limit : int
-        Forcing cycles after which every motion is stopped. It is then chaotic if it certainly is,
-        drifting if the loose mass has touched no wall for `patience` cycles, otherwise undecided.
+        Number of forcing cycles after which every motion is stopped. It is chaotic if that is
+        certain, drifting if the mass touched no wall for `patience` cycles, otherwise undecided.
     watched : int
-        Further forcing cycles in which the displacement of a motion that has not settled is
-        measured.
+        Number of further forcing cycles in which the displacement of a motion that has not settled
+        is measured.
     further : int
-        Largest number of further forcing cycles of an undecided motion, to find out whether it is
-        quasi-periodic, periodic with a long period, or chaotic; if it is none, it is unresolved.
+        Largest number of further forcing cycles that show whether an undecided motion is
+        quasi-periodic, periodic with a long period, or chaotic. Otherwise it is unresolved.
 
     Raises
     ------

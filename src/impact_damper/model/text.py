@@ -1,4 +1,4 @@
-"""Numbers as text for people: only here are they rounded, and missing ones named.
+"""Numbers as text for people; only this module rounds numbers and names missing numbers.
 
 This module imports no NumPy, because Snakemake reads it at every dry run.
 """
@@ -38,7 +38,7 @@ def with_unit(value, unit, digits=6) -> str:
 
 
 def plain(value) -> str:
-    """Return a number with at most six digits if these are exact, otherwise with all digits."""
+    """Return a number as text: with at most six digits if they are exact, else with all."""
     value = float(value)
     if not math.isfinite(value):
         return repr(value)

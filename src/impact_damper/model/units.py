@@ -1,7 +1,7 @@
-"""Physical quantities in SI units, and the scales in which the equations are dimensionless.
+"""Physical quantities in SI units, and the scales that make the equations dimensionless.
 
-pint takes a third of a second to import, so it is imported where a text or a quantity of pint is
-given.
+The import of pint takes a third of a second. Therefore pint is imported only when a value is text
+or a quantity of pint.
 """
 
 import math
@@ -16,9 +16,9 @@ from impact_damper.model.text import number, with_unit
 
 
 class Quantity(NamedTuple):
-    """A kind of physical quantity: unit of plain numbers, and exponents of its dimensions.
+    """A kind of physical quantity: the SI unit of its numbers, and exponents of its dimensions.
 
-    Datasets show it in the unit `shown` if this differs; `factor` is 1 `unit` in this unit.
+    Datasets use the unit `shown`, if there is one; 1 `unit` is `factor` times the unit `shown`.
     """
 
     unit: str
@@ -34,7 +34,7 @@ class Quantity(NamedTuple):
         return self.shown or self.unit or "1"
 
 
-# Keyed by name. The field `quantity` of a registered variable is one of these names.
+# Keyed by name. The field `kind` of a registered variable can be one of these names.
 QUANTITIES = {
     "number": Quantity(""),
     "angle": Quantity("radian"),
@@ -56,7 +56,7 @@ QUANTITIES = {
     "impulse": Quantity("N s", length=1, time=-1, mass=1),
     "power": Quantity("W", length=2, time=-3, mass=1),
 }
-# Text holds a number and units with powers: pint would evaluate any expression, however long.
+# A text may only hold a number and units with powers. pint would evaluate any long expression.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
 TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")
@@ -66,11 +66,11 @@ CALCULATION = re.compile(r"\s*[\d.][^*/·+]*[*/·+]\s*[\d.].*")
 
 
 def si_value(name, value, quantity) -> float:
-    """Return a physical quantity, a key of QUANTITIES, as a number in its SI unit.
+    """Return a value as a number in the SI unit of its `quantity`, a key of QUANTITIES.
 
     The value is a number in the SI unit, text with units, a quantity of any registry of pint, or a
     single value of a dataset. Angular frequencies ("188 rad/s", "1800 rpm") are divided by 2 pi,
-    which pint does not do. TypeError, or ValueError for a value not finite or of another quantity.
+    which pint does not do. Raise TypeError, or ValueError for infinity, NaN or a wrong unit.
     """
     value = _from_dataset(value)
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
@@ -94,7 +94,7 @@ def si_value(name, value, quantity) -> float:
 
 
 def _wrong_unit(value, text, unit):
-    """Return a remark in brackets on the wrong unit of a value, or "" if nothing is to be said."""
+    """Return a remark in brackets on the wrong unit of a value, or "" for no remark."""
     if text is None:
         product = len(value) <= LONGEST_TEXT and CALCULATION.fullmatch(value)
         return " (write the result of the calculation, as one number with a unit)" * bool(product)
@@ -116,7 +116,7 @@ def _from_dataset(value):
 
 @cache
 def _factor(text, unit):
-    """Return the factor from a unit to an SI unit; None if unknown or of another quantity."""
+    """Return the factor from the unit `text` to an SI unit; None if there is no such factor."""
     import pint
 
     registry = _registry()
@@ -145,7 +145,7 @@ def check_si(name, value, quantity, **bounds) -> float:
 
 
 def absolute_value(value, quantity) -> float | None:
-    """Return a deviation with the unit of a quantity in its SI unit; None if it is relative."""
+    """Return a deviation in the SI unit of a quantity; None if the deviation is a fraction."""
     if quantity is None or not (isinstance(value, str) or hasattr(value, "units")):
         return None
     try:
@@ -166,7 +166,7 @@ optional = partial(physical, default=None)
 
 
 def convert(part) -> None:
-    """Convert the fields of a frozen dataclass made by `physical` to SI, except None by default."""
+    """Convert the `physical` fields of a frozen dataclass to SI units; a default None stays."""
     for each in fields(part):
         value = getattr(part, each.name)
         if "quantity" in each.metadata and not (value is None and each.default is None):
@@ -177,7 +177,7 @@ def convert(part) -> None:
 class Scales(NamedTuple):
     """Scales of a machine in SI units: length x0, time 1/w0, mass m1; all 1 for an `Oscillator`.
 
-    If `si`, users give values, and read errors and results, in SI units.
+    If `si` is true, users give values in SI units, and messages and results are in SI units.
     """
 
     length: float = 1.0
@@ -186,9 +186,9 @@ class Scales(NamedTuple):
     si: bool = False
 
     def unit(self, kind) -> float:
-        """Return the SI value of the dimensionless 1 of a key of QUANTITIES.
+        """Return the SI value of the dimensionless number 1 of a kind, a key of QUANTITIES.
 
-        W is 2 pi times Hz, and a gap twice the dimensionless clearance.
+        A frequency in Hz is W/(2 pi), and a gap is twice the clearance.
         """
         if not self.si:
             return 1.0
