@@ -15,7 +15,8 @@ from scipy.optimize import brentq
 from scipy.stats import binom
 
 import impact_damper as idm
-from impact_damper.design.confirm import find_gap
+from impact_damper.design.promise import Promise
+from impact_damper.design.task import NOMINAL
 from impact_damper.motions.start_states import random_starts
 
 PROGRAM = Path(__file__).parents[2] / "references" / "built.c"
@@ -29,12 +30,17 @@ BOARD = idm.Machine(
     base_displacement="0.2 mm",
 )
 BUILT = {
-    "vertical": (PUMP, {"inclination": "90 deg", "friction_coefficient": 0.2, "normal_force": 2}),
-    "inclined": (PUMP, {"inclination": "30 deg", "friction_coefficient": 0.05}),
-    "on a base": (BOARD, {}),
+    "vertical": (
+        PUMP,
+        {"inclination": "90 deg", "friction_coefficient": 0.2, "normal_force": 2},
+        4e-3,
+    ),
+    "inclined": (PUMP, {"inclination": "30 deg", "friction_coefficient": 0.05}, 4e-3),
+    "on a base": (BOARD, {}, 3e-3),
 }
-# New starts of each design, forcing cycles of a run, and cycles before it is measured.
-NEW, CYCLES, LEAD = 400, 500, 300
+# New starts of each design, forcing cycles of a run, and cycles before it is measured, after most
+# chaotic transients.
+NEW, CYCLES, LEAD = 400, 700, 600
 
 
 @functools.cache
@@ -55,7 +61,7 @@ def dashpot(restitution):
     return math.sin(brentq(lambda a: (math.pi - 2 * a) * math.tan(a) + logarithm, 0, 1.5))
 
 
-def by_program(machine, damper, hertz, state, cycles, lead, steps=200):
+def by_program(machine, damper, hertz, state, cycles, lead, steps=120):
     """Return the largest displacement, m, from a state in SI units at W T = 0 on."""
     angular = 2 * math.pi * hertz
     reduced = machine.mass * damper.mass / (machine.mass + damper.mass)
@@ -82,7 +88,7 @@ def by_program(machine, damper, hertz, state, cycles, lead, steps=200):
 @needs_compiler
 @pytest.mark.parametrize("name", BUILT)
 def test_both_programs_compute_the_same_motion(name):
-    machine, mount = BUILT[name]
+    machine, mount, _ = BUILT[name]
     damper = machine.damper(
         mass=0.6, gap="8 mm", restitution=0.6, contact_stiffness=1e6, mount=mount
     )
@@ -97,30 +103,18 @@ def test_both_programs_compute_the_same_motion(name):
 @needs_compiler
 @pytest.mark.parametrize("name", BUILT)
 def test_new_starts_keep_the_promise(name):
-    """At the worst frequency, at the nominal gap and at the deviating one that is worst."""
-    machine, mount = BUILT[name]
-    made = task(
-        machine=machine,
-        mass=1.2,
-        restitution=0.6,
-        contact=1e6,
-        mount=mount,
-        band=(20.3, 20.7),
-        tolerances={"gap": 0.05},
-        frequencies=5,
-        candidates=8,
-        starts=93,
-    )
-    found = find_gap(made)
-    gap, promised = 1e-3 * found["design_gap"].item(), found["promised_displacement"].item()
-    worst, sets = found["promised_frequency"].item(), found["promise_factor"].values
-    assert promised < 0.5 * made.bare.max()
-    exceeded = 0
-    for k, factors in enumerate((sets[0], sets[int(found["promised_set"])])):
-        system = made.system(gap, worst, tuple(factors))
-        states, _ = random_starts(*system, NEW // 2, [33, k], made.effort.settling)
-        states *= [made.scales.to_si(1.0, kind) for kind in ("displacement", "velocity")] * 2
-        damper = made.damper(gap, tuple(factors))
-        runs = (by_program(machine, damper, worst, each, CYCLES, LEAD) for each in states)
-        exceeded += sum(1e3 * size > promised for size in runs)
-    assert exceeded <= binom.ppf(0.999, NEW, 0.05)
+    """At the frequency and the deviation of the gap at which the machine moves most."""
+    machine, mount, gap = BUILT[name]
+    damper = {"mass": 1.2, "restitution": 0.6, "contact": 1e6, "mount": mount}
+    made = task(machine=machine, **damper, band=(20.3, 20.7), frequencies=3, starts=59)
+    sets = np.ones((2, len(NOMINAL)))
+    sets[1, 0] = 0.95
+    promise = Promise(made, gap, sets, ("confirmed", 0))
+    k, worst = promise.worst
+    states, _ = random_starts(*made.system(gap, worst, sets[k]), NEW, 33, made.effort.settling)
+    states *= [made.scales.to_si(1.0, kind) for kind in ("displacement", "velocity")] * 2
+    damper = made.damper(gap, tuple(sets[k]))
+    runs = [1e3 * by_program(machine, damper, worst, each, CYCLES, LEAD) for each in states]
+    assert promise.size < 0.5 * made.bare.max()
+    assert sum(size > promise.size for size in runs) <= binom.ppf(0.999, NEW, 0.05)
+    assert max(runs) > 0.5 * promise.size
