@@ -2,7 +2,7 @@
 
 Frequencies r are divided by the natural frequency of the machine, and s = r^2. The machine has the
 damping ratio z1. The absorber has the mass ratio m, the tuning f (its natural frequency divided by
-the machine's) and the damping ratio z. The square of a linear machine's displacement, in the unit
+the machine's) and the damping ratio z. The squared displacement of a linear machine, in the unit
 of the table, is g(s) N(s)/D(s) with
 
     N = (b f^2 - s)^2 + 4 z^2 b^2 f^2 s
@@ -15,7 +15,7 @@ of the table, is g(s) N(s)/D(s) with
     acceleration B of the base        B/w1^2                  1      1 + m
 
 m1, k and w1 are mass, stiffness and natural frequency (rad/s) of the machine. A moving base
-accelerates both masses, and displacements are relative to it.
+accelerates both masses, and displacements are relative to the base.
 """
 
 import math
@@ -31,11 +31,11 @@ from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 from impact_damper.theory.tuned_mass_damper import Tuning, exact_optimum
 
-# A root counts as real if its imaginary part is at most REAL times the width of the resonance.
+# Largest imaginary part of a root that is taken as real, divided by the width of the resonance.
 REAL = 1e-6
-# Grid around the closed form `exact_optimum` on which the optimum is found before it is refined:
-# logarithms of tunings differ by NARROW square roots of the mass ratio up to WIDE, in STEPS steps;
-# damping ratios are multiplied by DAMPINGS. A band adds PLACES tunings and BAND_DAMPINGS.
+# Grid of the first search for the optimum, around the closed form `exact_optimum`. On each side lie
+# STEPS tunings, whose logarithms differ from the closed form by NARROW sqrt(mass ratio) to WIDE.
+# DAMPINGS multiply its damping ratio. A band adds PLACES tunings and the ratios BAND_DAMPINGS.
 STEPS, NARROW, WIDE = 10, 0.1, 0.4
 DAMPINGS = np.geomspace(0.3, 10, 12)
 PLACES = 9
@@ -43,13 +43,13 @@ BAND_DAMPINGS = np.geomspace(1e-3, 0.3, 10)
 # Tolerances of the logarithms of tuning and damping ratio when the optimum is refined.
 TUNING_TOLERANCE, DAMPING_TOLERANCE = 1e-11, 1e-10
 COMPETITORS = ("bare", "tuned", "own")
-# Force shares: factors of the machine's excitation, from a quarter to four.
+# Force shares (factors of the machine's excitation), from a quarter to four.
 SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
 DETUNINGS = (-0.1, 0.0, 0.1)
 
 
 class LinearMachine(NamedTuple):
-    """Numbers of a linear machine: z1, coefficients of g(s), unit (m), natural frequency (Hz)."""
+    """Linear machine: z1, coefficients of g(s), base moves or not, unit (m), natural frequency."""
 
     damping_ratio: float
     forcing: np.ndarray
@@ -61,11 +61,11 @@ class LinearMachine(NamedTuple):
 def absorber_responses(
     machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None, own=None
 ):
-    """Return the displacements (mm) of a machine alone, with a tuned absorber, and with its `own`.
+    """Return a dataset of displacements (mm): machine alone, with a tuned absorber, with `own`.
 
-    The masses are in kg, frequencies in Hz; `force_shares` multiply the excitation, `detunings` are
-    relative changes of the absorber's stiffness, and it is tuned over `band`. The values "exact"
-    hold for a linear machine; with a cubic spring they are the balance of one harmonic.
+    `mass` (kg) is the mass of the tuned absorber, `band` (Hz) the range over which it is tuned.
+    `force_shares` multiply the excitation. `detunings` are relative changes of the absorber's
+    stiffness. The status "exact" means a linear machine, "one_harmonic" a cubic spring.
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)
@@ -102,9 +102,9 @@ def absorber_responses(
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
     """Return the absorber that minimises the largest displacement of the linear machine.
 
-    Its cubic stiffness is ignored. The masses are in kg, `band` in Hz; without a band all
-    frequencies count. At the optimum the two highest maxima, or a maximum and an end of the band,
-    are equally high.
+    The cubic stiffness of the machine is ignored. `mass` is in kg and `band` in Hz, by default all
+    frequencies. At the optimum two points are equally high: the two highest maxima, or the highest
+    maximum and an end of the band.
     """
     ratio, linear = mass / machine.mass, linear_machine(machine)
     limits = (0.0, math.inf) if band is None else tuple(f / linear.natural_frequency for f in band)
@@ -114,7 +114,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
         return maxima(linear, tuning, limits)[1].max()
 
     def best_tuning(log_damping):
-        # At the optimum two maxima cross. A method that fits parabolas would stop too early there.
+        # At the optimum two maxima cross in a kink. A fit of parabolas would stop too early there.
         return minimize_scalar(
             highest, bracket=tunings, args=(log_damping,), method="golden", tol=TUNING_TOLERANCE
         )
@@ -130,7 +130,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
 
 
 def linear_machine(machine) -> LinearMachine:
-    """Return the numbers of a machine that has a linear stiffness; its cubic one is ignored."""
+    """Return the `LinearMachine` of a machine, whose cubic stiffness is ignored."""
     stiffness, mass = machine.linear_stiffness, machine.mass
     if stiffness == 0:
         raise ValueError(
@@ -146,10 +146,10 @@ def linear_machine(machine) -> LinearMachine:
 
 
 def maxima(linear, tuning, band):
-    """Return r and squared displacements at the stationary points in a band and at its ends.
+    """Return r and squared displacement of each stationary point in a band and of the band's ends.
 
-    The polynomial is written in t with s = 1 + w t, where w is the width of the resonance. In s the
-    roots for a light absorber would be so close together that rounding errors merge them.
+    Stationary points are roots of a polynomial in t, with s = 1 + w t and the width w of the
+    resonance. In s the roots for a light absorber would lie so close that rounding merges them.
     """
     (mass, f, z), z1 = tuning, linear.damping_ratio
     width = min(math.sqrt(mass) + z1, 1.0)
@@ -157,7 +157,7 @@ def maxima(linear, tuning, band):
     carried = (4 * z1 * z * f + mass * f**2) * s
     real = np.convolve(host, own) - np.append(carried, 0.0)
     imaginary = 2 * (z1 * own + z * f * host - mass * z * f * s)
-    # On a moving base the absorber feels the acceleration too, and its link passes the force on.
+    # A moving base also loads the absorber. Its spring and dashpot pass this load to the machine.
     load = 1 + mass if linear.based else 1.0
     passed = np.array([load * f**2 - 1, -width])
     above = np.convolve(passed, passed) + np.append((2 * z * f * load) ** 2 * s, 0.0)
@@ -178,11 +178,11 @@ def maxima(linear, tuning, band):
 
 
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
-    """Return the largest amplitude, m, shape (frequencies, force shares); infinite if it escapes.
+    """Return largest amplitudes (m) at frequencies (Hz), shape (frequencies, force shares).
 
-    It is exact for a linear machine. With a cubic spring it is the balance of one harmonic: the
-    largest amplitude that is stable against folds and, with a softening spring, below the barrier.
-    Other instabilities and other motions are not seen. Frequencies are in Hz.
+    They are exact for a linear machine. With a cubic spring they are solutions of the balance of
+    one harmonic: the largest that is stable against folds and below the barrier of a softening
+    spring, or infinity if there is none. Other instabilities and other motions are not found.
     """
     scales = machine.scales
     sizes = np.empty((len(frequencies), len(force_shares)))
@@ -202,7 +202,7 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
 
 
 def _amplitude(oscillator, stiffness, force):
-    """Return the amplitude a of |stiffness + (3/4) k3 a^2| a = force that `response` describes."""
+    """Return the solution a of |stiffness + (3/4) k3 a^2| a = force that `response` describes."""
     hardening = oscillator.hardening
     if hardening == 0:
         return force / abs(stiffness)
@@ -220,7 +220,7 @@ def _amplitude(oscillator, stiffness, force):
 
 
 def _squared(linear, tuning, frequency):
-    """Return the squared displacement of a linear machine in its unit, at frequencies r."""
+    """Return g(s) N(s)/D(s), the squared displacement of a linear machine, at frequencies r."""
     s = np.square(frequency)
     forcing = polynomial.polyval(s, linear.forcing)
     (mass, f, z), z1 = tuning, linear.damping_ratio
@@ -241,7 +241,7 @@ def _composed(coefficients, inner):
 
 
 def _absorber(machine, tuning):
-    """Return the absorber in SI units with a given dimensionless tuning on a machine."""
+    """Return the absorber in SI units for a machine and a dimensionless `Tuning`."""
     mass = tuning.mass_ratio * machine.mass
     own = 2 * math.pi * linear_machine(machine).natural_frequency * tuning.frequency
     return TunedAbsorber(

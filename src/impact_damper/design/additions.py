@@ -1,4 +1,4 @@
-"""Additions to a decision, each a function of the task and the dataset of the decision."""
+"""Additions to the decision of a design: functions of the task and of the decision's dataset."""
 
 from dataclasses import replace
 
@@ -18,16 +18,16 @@ from impact_damper.design.task import NOMINAL, VARIED, labelled
 from impact_damper.design.transients import transients
 from impact_damper.motions.strobe_map import strobe_time
 
-# Largest number of frequencies of the map over the force.
+# Number of frequencies in `force_map`, besides the resonances.
 FREQUENCIES = 9
-# Other mass divided by the nominal one.
+# Loose mass of the heavier damper, divided by the loose mass of the task.
 HEAVIER = 2.0
-# Cycles over which the contact force of a motion that is not periodic is measured.
+# Cycles over which the contact force is measured if a motion is not periodic.
 WATCHED = 100
 
 
 def force_map(task, decision, progress=None) -> xr.Dataset:
-    """Return the promised displacement, at nominal values, over frequency and force."""
+    """Return a dataset of promised displacements over frequency and force, at nominal values."""
     frequencies, shares = task.few(FREQUENCIES), np.array(SHARES)
     sets = np.tile(NOMINAL, (len(shares), 1))
     sets[:, VARIED.index("force")] = shares
@@ -40,9 +40,9 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 
 
 def other_masses(task, decision, progress=None) -> xr.Dataset:
-    """Return this damper and a heavier one, if this one fails and the other is a damper at all.
+    """Return a dataset of the damper and a heavier one, empty if the damper is good enough.
 
-    The search for the gap of the other is short; its promise is from the whole grid.
+    The gap of the heavier one is from a short search. It must not be heavier than the machine.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"
@@ -64,7 +64,7 @@ def other_masses(task, decision, progress=None) -> xr.Dataset:
 
 
 def _force(task, gap, frequency):
-    """Return the contact force (N) of the largest motion at a gap (mm) and frequency (Hz)."""
+    """Return the largest contact force (N) in the largest motion at a gap (mm), frequency (Hz)."""
     cell = Cell(1e-3 * gap, frequency)
     motions = run(task, [cell], task.effort.starts, ("masses",))
     k, p = int(np.argmax(motions.peaks[0])), task.packed(*cell)
@@ -76,7 +76,7 @@ def _force(task, gap, frequency):
 
 
 def competitors(task, decision, progress=None) -> xr.Dataset:
-    """Return the responses of the machine alone and with a tuned absorber of the same mass."""
+    """Return a dataset of responses without a damper and with absorbers, one of the same mass."""
     band = task.absorber_band
     found = absorber_responses(
         task.machine, task.mass, task.grid, SHARES, band=band, own=task.absorber

@@ -1,8 +1,8 @@
 """Motions from random starts at cells, and the displacement that bounds a share of all starts.
 
-A cell is a gap, a forcing frequency and factors of the values that may deviate. The displacement
-of a motion on an orbit is the largest of the orbit; of one that does not settle, the record
-(largest so far) of its regime, which grows as it runs on: docs/explanation/promise.md.
+A cell is a gap, a forcing frequency and factors of the values that may deviate. A record is the
+largest displacement of a motion so far. A regime is a set of motions of one cell that do not settle
+and have similar records. Its displacement is extrapolated: docs/explanation/promise.md.
 """
 
 from dataclasses import dataclass, fields
@@ -16,29 +16,28 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETTLED, follow_peaks
 from impact_damper.motions.start_states import random_starts
 
-# Outcomes of motions whose largest displacement is known.
+# Outcomes with which a displacement is known: LASTING in the first run, KEPT in further runs.
 LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)
 KEPT = (SETTLED, NON_COLLIDING, AT_REST)
-# Purposes for which starts are drawn. The index is part of the seed, so that no start is used both
-# for a choice and for its confirmation.
+# Purposes for which starts are drawn. The index of a purpose is part of the seed. A choice and its
+# confirmation therefore have different starts.
 STREAMS = ("search", "compared", "confirmed", "orbit", "forces", "masses", "repeated")
-# Cells for which a thread draws starts at once, motions that a thread follows at once, and cells
-# that are followed before bounds are compared again.
+# Number of cells for which a thread draws starts at once, of motions that a thread runs at once,
+# and of cells whose motions are run further before bounds are compared again.
 DRAWN, FOLLOWED, TOGETHER = 4, 8, 8
-# Motions that do not settle belong to one regime if their records, in order of size, differ by a
-# factor of at most APART from one to the next.
+# Largest ratio of neighbouring records in a regime, in order of size.
 APART = 1.3
-# A regime's displacement is exceeded once in HORIZON cycles, by extrapolation from the TAIL largest
-# peaks, each of BLOCK cycles. All its motions together are run for POOLED cycles at least and for
-# MOST_POOLED at most.
+# A peak is the largest displacement in BLOCK cycles. From the TAIL largest peaks of a regime the
+# displacement is extrapolated that the regime exceeds once in HORIZON cycles.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
+# Least and largest number of cycles of all motions of a regime together.
 POOLED, MOST_POOLED = 25_000, 200_000
-# A record over fewer than POOLED cycles may grow by MISSING with each doubling.
+# Relative growth of a record that is assumed for each doubling of the cycles up to POOLED.
 MISSING = 0.03
-# If the records of the four quarters of a run differ by at most STEADY, the regime is a torus.
-# A motion that approaches an orbit may exceed it by as much as SLACK.
+# STEADY: largest relative difference between the records of four quarters of a run on a torus.
+# SLACK: largest relative amount by which a motion exceeds the orbit that it approaches.
 STEADY, SLACK = 0.002, 0.001
-# A followed motion is on an orbit if it settles within CHECKED cycles.
+# Number of cycles in which a motion must settle to be taken as an orbit, before it is run further.
 CHECKED = 100
 
 
@@ -51,9 +50,9 @@ class Cell(NamedTuple):
 
 
 def draw_starts(task, cells, count, stream) -> np.ndarray:
-    """Return random starts, shape (cells, count, 4), as large as the motions without the damper.
+    """Return random starts, shape (cells, count, 4), scaled by the motions without the damper.
 
-    `stream` is one of STREAMS and, if it is used several times, a number.
+    `stream` is a name in STREAMS, with numbers after it if the name is used several times.
     """
     states, stop = np.empty((len(cells), count, 4)), np.zeros(1, bool)
     name, *turn = stream
@@ -77,15 +76,15 @@ class Motions:
     ----------
     parameters : array, shape (m, packed.COUNT)
     records : array of records.MOTION, shape (m, n)
-        As they were when the motions settled or were stopped first.
+        Results of the first run, in which each motion settles or is stopped.
     states : array, shape (m, n, 4)
-        At the last strobe.
+        States at the last strobe (the phase of the forcing at which cycles are compared).
     settled : array of bool, shape (m, n)
-        Whether the motion is on an orbit.
+        Whether the largest displacement of the motion is known.
     peaks : array, shape (m, n)
-        Largest displacement of the orbit, or so far.
+        Largest displacement of the orbit, or record of a motion that has not settled.
     blocks : array of arrays, shape (m,)
-        Peaks of motions that are followed: each of shape (n, blocks), one for BLOCK cycles.
+        Peaks of each cell, shape (n, blocks): one for BLOCK cycles, NaN if a motion was not run.
     """
 
     task: object
@@ -97,7 +96,7 @@ class Motions:
     blocks: np.ndarray
 
     def regimes(self, k) -> list:
-        """Return the regimes of cell k, each as an array of places of motions not settled."""
+        """Return the regimes of cell k, each as an array of the indices of its motions."""
         places = np.flatnonzero(~self.settled[k])
         order = places[np.argsort(self.peaks[k, places], kind="stable")]
         sizes = self.peaks[k, order]
@@ -105,7 +104,7 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime) -> tuple:
-        """Return the displacement of a regime, whether it is known, and whether it was tested."""
+        """Return a regime's displacement, whether it is known, and whether later peaks agree."""
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
         pooled = BLOCK * np.isfinite(peaks).sum()
@@ -123,14 +122,14 @@ class Motions:
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
     def numbers(self, k) -> tuple:
-        """Return the displacement of each start of cell k, and whether it is known."""
+        """Return the displacements of all starts of cell k, and which of them are known."""
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
             sizes[regime], known[regime], _ = self.measured(k, regime)
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return displacement and index of the start of a rank in each cell, and if it is known."""
+        """Return the `rank`-th largest displacement of each cell, its start, and if it is known."""
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)
@@ -139,14 +138,14 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether a record of cell k exceeded its extrapolation after MOST_POOLED cycles."""
+        """Return whether a regime of cell k exceeds its extrapolation after MOST_POOLED cycles."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 
     def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
-        """Follow motions until a largest bound above `least` is known; return all bounds.
+        """Run motions further until the largest bound above `least` is known; return all bounds.
 
-        Cells `left_out` are not followed.
+        Cells in `left_out` are neither run nor compared.
         """
         while True:
             bounds, places, known = self.bounds(rank)
@@ -160,9 +159,9 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Run the motions of a regime of cell k as long again, or at first for half of POOLED.
+        """Double the cycles of the motions of a regime of cell k, from half of POOLED on.
 
-        What was measured before they were followed is forgotten, as it may include transients.
+        Records of the first run are forgotten, because they may include transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):
@@ -176,7 +175,7 @@ class Motions:
         self.peaks[k, loud] = np.maximum(before, peaks[loud].max(axis=1))
 
     def _run(self, k, places, number):
-        """Return the peaks of motions of cell k in a number of blocks, shape (motions, number)."""
+        """Run motions of cell k for a number of blocks; return peaks, shape (motions, number)."""
         tolerance, stop = self.task.effort.settling.tolerance, np.zeros(1, bool)
         states, peaks = self.states[k, places], np.zeros((number, len(places)))
         parameters = np.repeat(self.parameters[k : k + 1], len(places), axis=0)
@@ -190,7 +189,7 @@ class Motions:
         return peaks.T
 
     def _settle(self, k, places):
-        """Return which motions of cell k have settled meanwhile."""
+        """Mark the motions of cell k that have settled meanwhile, and return their mask."""
         effort = self.task.effort
         found = ensemble.settle(
             np.repeat(self.parameters[k : k + 1], len(places), axis=0),
@@ -206,7 +205,7 @@ class Motions:
         return on
 
     def join(self, other) -> "Motions":
-        """Return these motions and others, in this order."""
+        """Return the motions of this object and then those of the `other`."""
         pairs = {
             each.name: np.concatenate([getattr(self, each.name), getattr(other, each.name)])
             for each in fields(self)
@@ -244,9 +243,9 @@ def run(task, cells, count, stream, progress=None) -> Motions:
 def return_level(peaks) -> float:
     """Return the displacement that motions exceed once in HORIZON cycles, from peaks of blocks.
 
-    The excesses over a high level are taken as exponential (S. Coles, An Introduction to
-    Statistical Modeling of Extreme Values, 2001, chapter 4). The tail of a bounded motion is
-    shorter, so that the level is rather too large.
+    The excesses over a high level are assumed to be distributed exponentially (S. Coles, An
+    Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). A bounded motion has a
+    shorter tail. Its displacement is therefore too large rather than too small.
     """
     peaks = np.sort(peaks[np.isfinite(peaks)])
     tops = peaks[-TAIL - 1 :]

@@ -1,4 +1,4 @@
-"""Motions with the chosen gap over the band: response, largest motions, and their costs."""
+"""Motions with the chosen gap over the band, and costs (impacts, forces, losses) of the largest."""
 
 from dataclasses import replace
 
@@ -16,12 +16,12 @@ from impact_damper.motions import traces
 from impact_damper.motions.response import frequency_response
 from impact_damper.motions.strobe_map import strobe_time
 
-# States in a forcing cycle from which a motion is measured, and number of cycles over which a
-# motion that is not periodic is measured.
+# Number of states in a forcing cycle at which a motion is measured, and number of cycles over
+# which a motion that is not periodic is measured.
 SAMPLES, WATCHED = 64, 200
-# Largest number of cycles for which an undecided motion is run further, to name it.
+# Largest number of further cycles for a motion that has not settled, to classify the motion.
 FURTHER = 1500
-# Variables of the dataset, with the name of the cost (`costs.measured_costs`) and its quantity.
+# Variable of the dataset -> name of the cost in `costs.measured_costs`, physical quantity.
 COSTS = {
     "impact_rate_by_frequency": ("impact_rate", "rate"),
     "contact_force_by_frequency": ("contact_force", "force"),
@@ -34,26 +34,26 @@ COSTS = {
 
 
 def response_and_costs(task, decision, progress=None) -> xr.Dataset:
-    """Return the response with the chosen damper, and the costs of the largest motions."""
-    # Motions that have not settled after the largest number of cycles are run further, to name
-    # them. The search for the gap does not do this, to save time.
+    """Return a dataset of the response with the chosen damper and of its largest motions' costs."""
+    # Motions that have not settled are run further, to classify them. The search for the gap does
+    # not run them further, to save time.
     effort = task.effort
     settling = replace(effort.settling, further=FURTHER)
     searched = {"starts": effort.starts, "seed": effort.seed, "settling": settling}
     searched |= {"workers": effort.workers, "progress": progress}
     damper = task.damper(1e-3 * float(decision["design_gap"]))
     motions = frequency_response(task.machine, damper, task.grid, **searched)
-    # All steps get the same coordinate `frequency`.
+    # The datasets of all steps have the same coordinate `frequency`.
     motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
     return motions.merge(reached_motions(task, decision, motions))
 
 
 def reached_motions(task, choice, response) -> xr.Dataset:
-    """Return the largest motion to which starts lead at each frequency of the band, with its costs.
+    """Return a dataset of the largest motion reached at each frequency, with its costs.
 
-    A motion in which the loose mass touches no wall lasts only if the loose mass does not drift at
-    all. It counts as reached only if random starts lead to it. The largest one that does not count
-    is stored as `untouched_displacement`.
+    A motion without contacts lasts only if the loose mass does not drift at all. Such a motion is
+    reached only if random starts lead to it. `untouched_displacement` is the displacement of the
+    largest motion without contacts that is not reached.
     """
     sizes = response["maximum_displacement"].values
     placed = response["origin"].values == flag("origin", "placed_start")
@@ -77,8 +77,8 @@ def reached_motions(task, choice, response) -> xr.Dataset:
 def _measured(task, case, size, state, periods):
     """Return the measured numbers of one motion, keyed by the name of the dataset variable.
 
-    `size` is the largest displacement that earlier runs found (mm), infinite after an escape.
-    `state` is a state of the motion at the strobe.
+    `size` is the largest displacement in earlier runs (mm), infinite after an escape. `state` is
+    a state of the motion at the strobe (the phase of the forcing at which cycles are compared).
     """
     if not np.isfinite(size):
         return dict.fromkeys(("pressure_by_frequency", *COSTS), np.nan) | {

@@ -1,4 +1,4 @@
-"""The confirmation of a gap with new starts, and the decision."""
+"""The confirmation of a gap with new starts, and the decision whether to build the damper."""
 
 from typing import NamedTuple
 
@@ -13,22 +13,22 @@ from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import Curve, score, search, search_around
 from impact_damper.design.task import NOMINAL, SIDES, VARIED, Task, labelled
 
-# A promised displacement is confirmed once it is at most CONFIRMED times the value of any other gap
-# in the search. At most ROUNDS gaps are tried.
+# Largest ratio of the promised displacement to the least one in the search, up to which a gap is
+# confirmed, and largest number of gaps that are tried.
 CONFIRMED, ROUNDS = 1.1, 4
-# If a promised displacement exceeds SURPRISE times that of the search, nearby gaps are run.
+# Ratio of a promised displacement to that of the search, above which nearby gaps are run again.
 SURPRISE = 1.1
 
 
 class Tried(NamedTuple):
-    """A gap (mm) with its `Promise`."""
+    """A gap (mm) that was tried, with its `Promise` (bounds of the displacement)."""
 
     gap: float
     promise: Promise
 
     @property
     def harmful(self) -> np.ndarray:
-        """Nominal factors, and the worst set with the nominal gap."""
+        """Sets of factors with the nominal gap: the nominal set and the worst one."""
         worst = self.promise.sets[self.promise.worst[0]].copy()
         worst[0] = 1
         return np.unique([NOMINAL, worst], axis=0)
@@ -41,7 +41,7 @@ class Tried(NamedTuple):
 
 
 def find_gap(task: Task, progress=None) -> xr.Dataset:
-    """Return the decision on the best gap, with the search and the confirmation."""
+    """Return the dataset of the decision on the best gap, with the search and the confirmation."""
     curve, tried, status = search(task, progress), [], "rounds_ended"
     for turn in range(ROUNDS):
         choice = curve.choose()
@@ -62,7 +62,7 @@ def find_gap(task: Task, progress=None) -> xr.Dataset:
 
 
 def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
-    """Return the decision on the gap of the task."""
+    """Return the dataset of the decision on the gap of the task."""
     gap = 1e3 * task.gap
     found = confirm(task, gap, 0, factor_sets(task, gap), progress)
     curve = search_around(task, gap, found.harmful, progress)
@@ -70,13 +70,13 @@ def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
 
 
 def confirm(task, gap, turn, sets, progress=None) -> Tried:
-    """Return the promise of a gap (mm) from new starts."""
+    """Return a gap (mm) with its promise from new starts."""
     stream = "confirmed", turn
     return Tried(gap, Promise(task, 1e-3 * gap, sets, stream, progress=progress).refined())
 
 
 def learn(task, tried, turn, curve, progress=None) -> None:
-    """Put the sizes of a promise into the curve; run nearby gaps if it is above expectation."""
+    """Put a promise into the curve, and run nearby gaps if it exceeds the curve by far."""
     gap, promise = tried.gap, tried.promise
     sizes, factors = promise.by_set(), promise.sets[:, 0]
     expected = curve.within(*np.array(task.gap_ends(gap))[:, None])[0]
@@ -88,7 +88,7 @@ def learn(task, tried, turn, curve, progress=None) -> None:
         k = int(np.argmax(np.where(factors == factor, sizes, -np.inf)))
         curve.put([gap * factor], [sizes[k]], [worst[k]], replace=True)
     if promise.size > SURPRISE * expected:
-        # The worst frequency lies between those of the search, or few starts lead to the motion.
+        # The search missed a motion: between its frequencies, or because few starts lead there.
         reach = SURPRISE * factors.max()
         near = curve.gaps[(curve.gaps > gap / reach) & (curve.gaps < gap * reach)]
         given = np.unique(worst), starts_needed(task.share), ("compared", 100 + turn), progress
@@ -96,7 +96,7 @@ def learn(task, tried, turn, curve, progress=None) -> None:
 
 
 def conclude(task, found, curve, status) -> xr.Dataset:
-    """Return the decision and everything it was drawn from."""
+    """Return the dataset of the decision and of all numbers behind the decision."""
     promise = found.promise
     frequencies = np.unique([f for _, f in promise.cells])
     table = np.full((len(promise.sets), len(frequencies)), np.nan)
@@ -105,7 +105,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
     worst_set, worst_frequency = promise.worst
     bare = task.bare_at(frequencies)
     most = float(task.bare.max())
-    ratio = np.where(np.isfinite(bare), table[0] / bare, 0.0)  # without damper it escapes
+    ratio = np.where(np.isfinite(bare), table[0] / bare, 0.0)  # 0: the bare machine escapes
     k = int(np.nanargmax(ratio))
     limit = np.nan if task.displacement_limit is None else 1e3 * task.displacement_limit
     ends, beyond = curve.keeping(found.gap, KEEPS * promise.size)
@@ -169,10 +169,10 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return the largest displacement with a tuned absorber of the same mass, and with it detuned.
+    """Return a dataset of the largest displacements with absorbers: tuned, detuned, the task's own.
 
-    The last number is for the task's absorber, NaN without one. The others are NaN if the machine
-    has no linear stiffness to which an absorber can be tuned.
+    The first two have the loose mass. They are NaN if the machine has no linear stiffness to which
+    an absorber can be tuned. The third one is NaN if the task has no absorber.
     """
     band = task.absorber_band
     found = absorber_responses(
@@ -191,7 +191,7 @@ def rivals(task) -> xr.Dataset:
 
 
 def _end(beyond, size):
-    """Return the name of the flag `keeping_end` for the displacement beyond an end."""
+    """Return the name of the flag `keeping_end` for the displacement (mm) beyond an end."""
     if np.isnan(beyond):
         return "search_ends"
     return "jump" if beyond > 1.5 * KEEPS * size else "growth"

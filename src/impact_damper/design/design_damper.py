@@ -16,7 +16,7 @@ from impact_damper.model.arguments import read_system
 from impact_damper.model.bounds import names_arguments, shown
 from impact_damper.model.machine import Machine, describe_si
 
-# Numerical errors, which end an addition (see `answer`) but not the design.
+# Numerical errors. An addition to the decision (see `answer`) may fail with one of these errors.
 NUMERICAL = (ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError)
 
 
@@ -39,53 +39,53 @@ def design_damper(
 ):
     """Find the gap with which a machine moves least, and say how far it moves.
 
-    The promised displacement of a gap is the bound below which the machine stays from at least a
-    share of all starts, with 95 % confidence, at each frequency of the band and for the worst
-    values within the tolerances. The gap chosen is confirmed with starts that the search has not
-    used.
+    The promised displacement of a gap is a bound. From at least the share `share` of all starts the
+    machine stays below this bound, with 95 % confidence. The bound holds at each frequency of the
+    band and for the worst values within the tolerances. The chosen gap is confirmed with starts
+    that the search has not used.
 
     Parameters
     ----------
     machine : Machine
     mass : float or str
-        Loose mass, kg, at most the mass of the machine. This and all other physical values are
-        numbers in the SI unit, texts with units such as "0.6 kg", or quantities of pint.
+        Loose mass, kg, at most the mass of the machine. All physical values are numbers in the SI
+        unit, texts with units such as "0.6 kg", or quantities of pint.
     band : sequence of 2 floats or str
-        Least and greatest forcing frequency, Hz; the resonance of the machine lies between them.
+        Least and greatest forcing frequency, Hz. The band must reach into the resonance.
     restitution : float
         Coefficient of restitution, 0.05 to 1.
     contact : float, str or HertzContact
-        Stiffness of the contact, N/m, or the contact of curved bodies. Its stiffness is computed
-        for an impact at the speed with which the loose mass crosses the gap of the paper's rule
-        (18) in half a forcing cycle, and its pressure for the impacts of the design.
+        Stiffness of the contact, N/m, or the contact of curved bodies. The stiffness of curved
+        bodies is computed for the speed with which the loose mass crosses the gap of the paper's
+        rule (18) in half a forcing cycle. Their pressure is computed for the impacts of the design.
     mount : dict, optional
         Arguments of `machine.mounting`: inclination of the gap, such as {"inclination": "90 deg"},
-        friction_coefficient, and normal_force between the loose mass and its floor. Left out, the
+        friction_coefficient, and normal_force between the loose mass and its floor. By default the
         gap is horizontal and without friction.
     tolerances : dict, optional
-        Largest relative deviations of gap, restitution, contact_stiffness, gravity, friction,
-        stiffness, damping and force, such as {"gap": "10 %"}, or absolute ones with a unit, such as
-        {"gap": "0.2 mm"}; by default 20 % of the gap.
+        Largest deviations of gap, restitution, contact_stiffness, gravity, friction, stiffness,
+        damping and force. A deviation is relative, such as {"gap": "10 %"}, or absolute with a
+        unit, such as {"gap": "0.2 mm"}. By default only the gap deviates, by 20 %.
     displacement_limit : float or str, optional
-        Displacement of the machine, m, with which the promised one is compared.
+        Largest displacement that is allowed, m. The promised one is compared with this limit.
     share : float
-        Share of the starts for which the displacement is promised.
+        Share of all starts for which the promised displacement holds.
     absorber : dict, optional
-        A tuned absorber to compare with beside the optimum one: its `mass`, `stiffness` and
-        `damping`, in kg, N/m and N s/m.
+        A second tuned absorber for the comparison, besides the optimum one: its `mass` (kg),
+        `stiffness` (N/m) and `damping` (N s/m).
     effort : Effort, optional
         How many frequencies, gaps and starts are computed, and with how many threads.
     folder : str or pathlib.Path, optional
-        Folder for the results of finished steps, from which an interrupted design continues.
+        Folder for the results of finished steps. An interrupted design continues from them.
     progress : bool
         Whether progress bars are shown.
 
     Returns
     -------
     xarray.Dataset
-        Each variable has the unit in its attribute `units`, such as mm, Hz or N. `design_gap` is
-        the gap, `promised_displacement` the number, and `decision` what follows (see `decode`).
-        `plot.conclusion` says the same in sentences, and `plot.design` draws it.
+        The attribute `units` of a variable is its unit, such as mm, Hz or N. `design_gap` is the
+        gap. `promised_displacement` is the bound. `decision` is a flag that `decode` translates.
+        `plot.conclusion` gives the result in sentences, and `plot.design` draws the result.
 
     Raises
     ------
@@ -135,13 +135,13 @@ def evaluate_damper(
     folder=None,
     progress=False,
 ):
-    """Say how far a machine moves with a damper that exists, as `design_damper` does for its gap.
+    """Say how far a machine moves with an existing damper: the promise of `design_damper`.
 
     Parameters
     ----------
     machine : Machine
     damper : MachineDamper
-        By `Machine.damper`.
+        A result of `Machine.damper`.
     band, tolerances, displacement_limit, share, absorber, effort, folder, progress
         As for `design_damper`.
 
@@ -185,7 +185,7 @@ def evaluate_damper(
 
 
 def answer(task, decide, title, folder, progress) -> xr.Dataset:
-    """Return the decision of a task with its additions.
+    """Return the dataset of the decision of a task and of its additions.
 
     An addition that fails with a numerical error is left out, and flagged in `addition_status`.
     """
@@ -217,19 +217,19 @@ def answer(task, decide, title, folder, progress) -> xr.Dataset:
 
 
 class Steps:
-    """Runs steps of a design, and keeps the dataset of each in a file of a folder, if given one."""
+    """Runs the steps of a design. With a folder, the dataset of each step is kept in a file."""
 
     def __init__(self, folder, progress):
         self.folder, self.progress = None if folder is None else Path(folder), progress
         self.made = ""
 
     def made_from(self, inputs):
-        """Return the method `step` for a design from these inputs and these source files."""
+        """Return the method `step` for a design from `inputs` by the present source files."""
         self.made = json.dumps(inputs | {"sources": _sources()}, sort_keys=True)
         return self.step
 
     def step(self, name, compute, *given):
-        """Return the dataset that a function computes, or its file if made from the same inputs."""
+        """Return the dataset of `compute`, read from its file if made from the same inputs."""
         title = name.capitalize() if self.progress else None
         if self.folder is None:
             return compute(*given, progress=title)

@@ -1,7 +1,7 @@
-"""Migration as a design: gaps and frequencies at which a release of the damper is sure to succeed.
+"""Design for migration: gaps and frequencies at which a release of the damper is sure to succeed.
 
-On a machine with a cubic spring a damper may be switched on and off to move the machine from its
-large free motion to its small one (`motions.migration`).
+A release switches the damper off after a time with it. The release succeeds if it moves a machine
+with a cubic spring from its large free motion to its small one (`motions.migration`).
 """
 
 import json
@@ -37,18 +37,18 @@ def migration(
 ):
     """Find gaps and frequencies at which releasing a damper leads to the small free motion.
 
-    Each release is a run of `migrate`: during the large free motion the damper is switched on at a
-    random phase, with the loose mass at a random place, and off at a random phase after the motion
-    has settled, or after `longest_hold` cycles. `share` of the releases must succeed. The gaps (m)
-    are by default spread over those that the machine can touch. The other arguments are as for
-    `design_damper`; `effort` has the numbers of frequencies, gaps (`candidates`) and releases at
-    each (`starts`).
+    Each release is a run of `migrate`. During the large free motion the damper is switched on at a
+    random phase, with the loose mass at a random place. The damper is switched off at a random
+    phase after the motion has settled, or after `longest_hold` cycles. At least the share `share`
+    of all releases must succeed. By default the gaps (m) cover those that the machine can touch.
+    `effort` has the numbers of frequencies, of gaps (`candidates`) and of releases for each gap and
+    frequency (`starts`). The other arguments are as for `design_damper`.
 
-    The dataset has over gap and frequency the share of releases that succeed, their median time,
-    and `migration_bound`: the time within which `share` of all releases succeed, at 95 %
-    confidence, or infinity. For each gap it has `sure_frequency`, the lowest one from which this
-    time is finite at all higher ones, and for the gap with the lowest one `migration_gap`.
-    ValueError if the machine has nowhere a second motion without damper.
+    The dataset has, for each gap and frequency, the share of releases that succeed, their median
+    time and `migration_bound`: the time in which the share `share` of all releases succeed, at 95 %
+    confidence, or infinity. From the `sure_frequency` of a gap on, this time is finite at all
+    higher frequencies. `migration_gap` is the gap with the lowest `sure_frequency`. A ValueError is
+    raised if the machine without damper has one motion at each frequency.
     """
     effort = Effort() if effort is None else effort
     task = Task(
@@ -89,7 +89,7 @@ def migration(
 
 
 def _case(task, gap, frequency):
-    """Return the `ReleaseCase` at a frequency, Hz, or None without a second motion."""
+    """Return the `ReleaseCase` at a frequency, Hz, or None if there is only one free motion."""
     oscillator, damper, turning = task.system(gap, frequency)
     try:
         return release_case(oscillator, damper, turning, task.effort.settling)
@@ -98,7 +98,7 @@ def _case(task, gap, frequency):
 
 
 def release_time(case, seed, longest_hold, settling, stop) -> float:
-    """Return the cycles from switching the damper on to the small motion; infinite if missed."""
+    """Return the cycles from switching on the damper to the small motion, infinite if missed."""
     draws = np.random.default_rng(seed).random((1, 3))
     _, log = control(case, draws, longest_hold, settling, 0, None, stop)
     reached = log["destination"][0] == FREE_MOTION["non_resonance"]
@@ -106,12 +106,12 @@ def release_time(case, seed, longest_hold, settling, stop) -> float:
 
 
 def _table(task, gaps, times, longest_hold) -> xr.Dataset:
-    """Return the dataset from the times (s) of releases; NaN where there is one free motion."""
+    """Return the dataset of releases from their times (s), NaN if there is only one free motion."""
     rank = bounding_rank(task.share, times.shape[-1])
     bounds = -np.sort(-times, axis=-1)[..., rank - 1]
     one = np.isnan(times[..., 0])
     sure = np.isfinite(bounds)
-    # Above the last frequency with two motions the machine is on its small one anyway.
+    # Above the last frequency with two motions the machine has only the small motion.
     last = int(np.flatnonzero(~one.all(axis=0))[-1])
     lowest = np.full(len(gaps), np.nan)
     for i, row in enumerate(sure[:, : last + 1]):

@@ -1,4 +1,4 @@
-"""The promised displacement of a gap: over the band and within all tolerances."""
+"""The promised displacement of a gap: a bound over the band and within all tolerances."""
 
 import itertools
 
@@ -9,37 +9,37 @@ from impact_damper.data.shares import DOUBT, bounding_rank
 from impact_damper.design.cells import STREAMS, Cell, run
 from impact_damper.design.task import VARIED
 
-# Largest number of corners of the tolerances; of more, some are drawn.
+# Largest number of corners (sets with all values at ends of their tolerances), drawn at random.
 CORNERS = 8
-# A set of factors is refined over the frequency if its largest displacement is at least NEAR times
-# that of all sets. A peak is known if the last splitting of the intervals beside it raised it by
-# at most PEAK, and a parabola through it and its neighbours exceeds it by at most as much.
+# Frequencies are added beside the peak of each set of factors whose peak is at least NEAR times the
+# largest one, SPLITS times at most. A peak is known if the last ones raised it by at most the
+# fraction PEAK, and a parabola through the peak and its neighbours raises it by at most PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-# Sets of factors after the first one begin with half of the grid, or FEWEST frequencies.
+# Least number of frequencies at which a set that deviates is run first; otherwise half of the grid.
 FEWEST = 9
-# A cell has rare motions if its bound is above RARE times the displacement that twice the allowed
-# share of its starts exceeds. SOME such cells at once are run with MORE times as many starts, until
-# the new bound of one is above KEPT times the old.
+# A cell has rare motions if its bound exceeds RARE times the displacement that twice the allowed
+# share of its starts exceed. SOME such cells at a time are run again with MORE times as many
+# starts. No more cells follow if a new bound exceeds KEPT times the least old one.
 RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
 class Promise:
-    """Motions of a gap (m) at sets of factors, over the grid and refined where they are largest.
+    """Motions with a gap (m) for sets of factors, over a grid of frequencies refined at peaks.
 
     Attributes
     ----------
     sets : array, shape (s, len(VARIED))
     cells : list of tuple
-        Index of the set, and frequency (Hz), in the order of `motions`.
+        Index of the set and frequency (Hz) of each cell, in the order of `motions`.
     bounds : array, shape (cells,)
         Displacement, mm, below which the machine stays from at least `task.share` of the starts.
     peak_known, grows : bool
         Whether the peak over the frequency is known within PEAK, and whether motions that do not
         settle exceeded their extrapolation.
 
-    If the worst of the true quantiles of the cells exceeded the largest bound, the bound of this
-    one cell would be below its own quantile, which has a probability of at most 5 %. Many cells
-    therefore need no correction.
+    Suppose that the largest true quantile of all cells exceeds the largest bound. Then the bound of
+    the cell with this quantile is below its own quantile. The probability of such a bound is at
+    most 5 %. The number of cells therefore needs no correction.
     """
 
     def __init__(self, task, gap, sets, stream, count=None, frequencies=None, progress=None):
@@ -55,7 +55,7 @@ class Promise:
         self.add([(0, f) for f in full] + deviating)
 
     def add(self, cells) -> None:
-        """Run cells, and bound the displacements of all."""
+        """Run further cells, and compute the bounds of all cells."""
         stream = (*self.stream, len(self.cells))
         motions = run(self.task, self._made(cells), self.count, stream, self.progress)
         self.motions = motions if self.motions is None else self.motions.join(motions)
@@ -74,7 +74,7 @@ class Promise:
     def _repeat_rare(self) -> None:
         """Run cells that have rare motions again, with more starts.
 
-        Together both bounds of a cell are wrong with a probability of at most DOUBT.
+        The probability that one of the two bounds of a cell is wrong is at most DOUBT.
         """
         allowed = int(2 * (1 - self.task.share) * self.count) + 1
         usual, bounds = (self.motions.bounds(rank)[0] for rank in (allowed, self.rank))
@@ -97,7 +97,7 @@ class Promise:
                 return
 
     def refined(self) -> "Promise":
-        """Run further frequencies until the largest displacement between them is known."""
+        """Run further frequencies until the peak over the frequency is known; return the object."""
         before = {}
         for _ in range(SPLITS):
             cells = []
@@ -136,9 +136,9 @@ class Promise:
 
 
 def is_peak_known(frequencies, bounds, before) -> bool:
-    """Return whether the largest of `bounds` is the peak between the frequencies, up to PEAK.
+    """Return whether the largest of `bounds` is the peak over the frequency within PEAK.
 
-    `before` is the largest bound before the intervals beside it were split, 0 if they were not.
+    `before` is the largest bound before the last frequencies were added, 0 if none were added.
     """
     k = int(np.argmax(bounds))
     if np.isinf(bounds[k]):
@@ -153,14 +153,14 @@ def is_peak_known(frequencies, bounds, before) -> bool:
 
 
 def beside_peak(frequencies, bounds) -> list:
-    """Return the middles of the intervals beside the largest of `bounds`."""
+    """Return the middles of the frequency intervals on both sides of the largest of `bounds`."""
     k = int(np.argmax(bounds))
     ends = frequencies[max(k - 1, 0) : k + 2]
     return [float(middle) for middle in (ends[1:] + ends[:-1]) / 2]
 
 
 def factor_sets(task, gap) -> np.ndarray:
-    """Return factors at a gap (mm): nominal, at the ends of the gap, at corners of tolerances."""
+    """Return sets of factors at a gap (mm): nominal, both ends of its tolerance, the corners."""
     widths = task.deviations(gap)
     signs = [(-1, 1) if width else (0,) for width in widths]
     corners = np.array(list(itertools.product(*signs)), float)
@@ -176,7 +176,7 @@ def factor_sets(task, gap) -> np.ndarray:
 
 
 def other_sets(task, gap) -> np.ndarray:
-    """Return the `factor_sets` of all other values, with the nominal gap."""
+    """Return the different `factor_sets` of the other values, with the nominal gap."""
     rows = factor_sets(task, gap)
     rows[:, 0] = 1
     return np.unique(rows, axis=0)

@@ -1,4 +1,4 @@
-"""The quiet orbit of a design over the gap."""
+"""The quiet orbit of a design (symmetric, one contact at each wall in a cycle) over the gap."""
 
 import numpy as np
 import xarray as xr
@@ -17,9 +17,9 @@ GAP_SPAN = (0.4, 2.0)
 
 
 def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
-    """Return the quiet orbit over the gap.
+    """Return a dataset of the quiet orbit over the gap.
 
-    `choice` is the dataset of the decision; the orbit has its `branch_frequency`.
+    `choice` is the dataset of the decision. Its `branch_frequency` is the forcing frequency.
     """
     gap, frequency = float(choice["design_gap"]), float(choice["branch_frequency"])
     orbit = quiet_orbit(task, gap, frequency)
@@ -27,7 +27,7 @@ def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
 
 
 def quiet_orbit(task, gap, frequency) -> Orbit | None:
-    """Return the smallest quiet orbit to which starts lead at a gap (mm) and frequency (Hz)."""
+    """Return the smallest quiet orbit that starts reach at a gap (mm), frequency (Hz), or None."""
     cell = Cell(1e-3 * gap, frequency)
     records = run(task, [cell], task.effort.starts, ("orbit",)).records[0]
     pairs = records[is_symmetric_pair(records)]
@@ -39,7 +39,7 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, keeping) -> xr.Dataset:
-    """Return the branch of a quiet orbit over the gap, and its smallest stable orbit."""
+    """Return a dataset of the branch of a quiet orbit over the gap, with the best stable orbit."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)
