@@ -1,1 +1,1 @@
-"""Claims of the paper, each with the numbers (measures) that decide it and its verdict."""
+"""Claims of the paper, their deciding numbers and verdicts; (7) to (19) are its equations."""

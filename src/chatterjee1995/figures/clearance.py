@@ -12,7 +12,7 @@ from impact_damper.plot.sweeps import OPTIMUM
 from impact_damper.plot.sweeps import sweep as sweep_plot
 
 UNSTABLE = style.markers("optimum with an unstable motion", style.BLACK, "x", markersize=5.5)
-# Parameters that a dataset can sweep, with the scale of their axis.
+# Parameter that a dataset can sweep -> scale of the axis.
 SWEPT = {"restitution": "linear", "contact_stiffness": "log", "frequency": "linear"}
 TITLES = {
     "displacement": "optimum of the largest displacement",

@@ -9,7 +9,7 @@ from impact_damper.data.datasets import decode
 from impact_damper.plot import style
 from impact_damper.plot.maps import marked, mesh
 
-# Rules for the end of a contact, and titles of their panels.
+# Rule for the end of a contact -> title of the panel.
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
 LEVELS = 0.01, 0.05  # errors with a contour line
 LINEAR = 1e-3  # the load axis is linear below this value and logarithmic above

@@ -36,7 +36,7 @@ def pieces(branches) -> pd.DataFrame:
     `lower` and `upper` are the ends in W. `size` is max |Z1| in the middle. `amplitude` and `loose`
     are the complex first harmonic of Z1 there, with the phase relative to Z2 and to x2. A name with
     `_change` holds the difference between the ends. `fewest` and `contacts` are the least and most
-    contacts of the orbits at the ends, `restitution` their least ratio of speeds in a contact.
+    contacts of both orbits. `restitution` is their least ratio of departure to approach speed.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -164,7 +164,7 @@ def smallest_quiet(branches, free, frequency):
 
 
 def high_counterparts(design, branches, free) -> pd.DataFrame:
-    """Return `crossings` of the exact orbits nearest to the stable violent solutions of (7).
+    """Return the rows of `crossings` that are nearest to the stable violent solutions of (7).
 
     Only symmetric orbits of period 1 with two contacts are taken: (7) approximates no others.
     """

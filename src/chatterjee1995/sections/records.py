@@ -25,7 +25,7 @@ class Stage(NamedTuple):
 
 
 def stage(function, message, **options):
-    """Mark a method of a section's class as the job of a stage; both have the same name."""
+    """Mark a method of a section as the job of a stage, which gets the method's name by default."""
 
     def mark(job):
         job.stage = {"name": job.__name__, "function": function, "message": message} | options

@@ -120,7 +120,7 @@ def chapter_modules(config, chapter) -> list:
 
 
 def _case(config, section, name):
-    """Return the parameters of an entry as text; nothing for a schematic or a machine."""
+    """Return the parameters of an entry as texts; an empty list for a schematic or a machine."""
     if section in (None, "machines"):
         return []
     entry = getattr(config, section)[name]

@@ -1,4 +1,4 @@
-"""Tables of harmonic balance: designs, convergence with harmonics, and maps of its stability."""
+"""Tables of harmonic balance: designs, convergence with harmonics, and maps of errors."""
 
 import numpy as np
 import pandas as pd
@@ -13,7 +13,7 @@ from impact_damper.data.shares import wilson
 NEAR = 0.2
 # Errors of the amplitude for which the table lists the harmonics needed.
 ACCURACIES = {0.01: "1 %", 1e-3: "1e-3", 1e-6: "1e-6"}
-# What is asked about each cell of a map, and the variable that holds the answer as a flag.
+# Question about each cell of a map -> variable with a flag that is the answer.
 QUESTIONS = {
     "quiet motion": "quiet_verdict",
     "start at the quiet solution": "quiet_run_motion",

@@ -111,7 +111,7 @@ def chaos(datasets) -> pd.DataFrame:
 
 
 def _motions(data, chosen):
-    """Yield the motions of a response in a mask, each as a dataset."""
+    """Yield each motion of a response that a mask selects, as a dataset."""
     for k, j in np.argwhere(chosen.transpose("frequency", "motion").values):
         yield data.isel(frequency=k, motion=j)
 

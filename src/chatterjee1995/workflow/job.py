@@ -143,8 +143,7 @@ def _report_file_errors():
     terminal, show = sys.stderr, sys.excepthook
 
     def report(kind, error, trace):
-        # On a full disk, closing the file of a figure may raise a second error that hides the
-        # first.
+        # On a full disk, closing a figure's file may raise a second error that hides the first.
         cause = error
         while not isinstance(cause, OSError) and cause is not None:
             cause = cause.__cause__ or cause.__context__
