@@ -254,6 +254,8 @@ static real first_event(const Run *run, const Series *s, real length, int *wall,
     }
     if (run->side) {
         push(run, s, run->side, c);
+        /* Where a contact begins at a depth, a rising push below zero is a rounding error. */
+        if (c[0] < 0 && c[1] > 0) c[0] = 0;
         if (roots(c, length, 1, &found, 1)) {
             *wall = 0;
             length = found;
