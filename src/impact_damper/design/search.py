@@ -1,6 +1,6 @@
 """The search for the gap: a curve of largest displacements over the gap, refined where it is small.
 
-Few starts at few frequencies give the curve. Near the best gaps, the other values deviate too. The
+Few starts at few frequencies give the first curve. Near the best gaps other values deviate too. The
 value of a nominal gap is the largest displacement within the tolerance of the gap.
 """
 
@@ -13,28 +13,28 @@ from impact_damper.design.cells import Cell, run
 from impact_damper.design.promise import other_sets
 from impact_damper.design.task import NOMINAL, Task
 
-# First search over all gaps: largest number of gaps, of frequencies, and starts.
+# First search over all gaps: largest number of gaps, numbers of frequencies and of starts.
 GAPS, FREQUENCIES, STARTS = 40, 9, 12
-# Comparison near the best gaps: frequencies, starts, and rounds of at most `candidates` gaps.
+# Comparison near the best gaps: numbers of frequencies, of starts, and of rounds of `candidates`.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
-# Typical level of a regime (`cells.return_level`) divided by a record of few motions.
+# Typical ratio of `cells.return_level` to the largest displacement of few unsettled motions.
 RECORD = 1.2
-# Neighbouring displacements with a larger ratio are a jump. Intervals between gaps, as logarithms,
-# are split down to SMOOTH, or FINE at a jump.
+# JUMP: ratio of neighbouring displacements above which they are a jump. SMOOTH and FINE: largest
+# intervals of the logarithm of the gap that are not split, in general and at a jump.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
-# Ranges of gaps whose value is at most CANDIDATE times the best are candidates. The widest
-# range within ALIKE times the best is chosen, and in it the middle of the gaps within LEVEL times
-# its least value.
+# Gaps with at most CANDIDATE times the least value of all gaps form candidate ranges. A range ends
+# at LEVEL times its own least value. The widest range is chosen of those whose least value is at
+# most ALIKE times the least value of all gaps.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
-# Significant digits of a gap: usual number, and largest number.
+# Significant digits of a gap: least number, and number from which a gap is not rounded.
 DIGITS, MOST_DIGITS = 3, 9
 # Displacement in place of infinity, mm.
 HUGE = 1e9
 
 
 class Range(NamedTuple):
-    """Nominal gaps that do nearly as well: ends and middle, mm, and the least value, mm."""
+    """Range of nominal gaps with similar values: ends, a gap near the middle, least value, mm."""
 
     low: float
     high: float
@@ -43,16 +43,16 @@ class Range(NamedTuple):
 
 
 class Curve:
-    """Largest displacements over the gap: ascending gaps (mm), displacements (mm), frequencies."""
+    """Largest displacements (mm) at ascending gaps (mm), and the frequencies where they occur."""
 
     def __init__(self, task: Task):
         self.task = task
         self.gaps, self.sizes, self.worst = np.empty((3, 0))
         self.close = np.empty(0, bool)
-        self.sets = [NOMINAL]  # factors of the other values that harm most near the best gaps
+        self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add values at gaps; at a known gap the larger value stays unless replaced."""
+        """Add displacements at gaps. Without `replace` the larger one is kept at a known gap."""
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
             if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
@@ -68,7 +68,7 @@ class Curve:
     def within(self, lows, highs) -> np.ndarray:
         """Return the largest displacement between each pair of gaps.
 
-        Next to a jump it is the larger of the displacements on both sides.
+        The curve is interpolated, and at a jump replaced by the larger displacement of both sides.
         """
         logs, values = np.log(self.gaps), np.log(self.sizes)
         found = np.full(len(lows), -np.inf)
@@ -92,7 +92,7 @@ class Curve:
         return gaps, self.within(*self.task.gap_ends(gaps))
 
     def ranges(self) -> list:
-        """Return the candidates, `Range`s of nominal gaps that do nearly as well as the best."""
+        """Return the candidates: each `Range` of nominal gaps with values near the least one."""
         gaps, values = self.nominal()
         found = []
         for first, after in runs_of_true(values <= CANDIDATE * values.min()):
@@ -104,16 +104,16 @@ class Curve:
         return found
 
     def choose(self) -> Range:
-        """Return the widest range among those nearly as good as the best."""
+        """Return the widest of the ranges with values close to the least one."""
         ranges = self.ranges()
         best = min(each.size for each in ranges)
         good = [each for each in ranges if each.size <= ALIKE * best]
         return max(good, key=lambda each: each.high / each.low)
 
     def keeping(self, gap, size) -> tuple:
-        """Return the ends of the range around `gap` with at most `size`, and the sizes beyond.
+        """Return the ends of the gaps around `gap` that keep to `size`, and displacements beyond.
 
-        It includes the tolerance of the gap.
+        The range of gaps always includes the tolerance of `gap`.
         """
         ends, beyond = [], []
         for end, step in zip(self.task.gap_ends(gap), (-1, 1), strict=True):
@@ -125,7 +125,7 @@ class Curve:
         return ends, beyond
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return factor sets with the worst gap tolerated, none if an end or `gap` is as bad."""
+        """Return sets of factors with the worst gap tolerated, none if it is `gap` or an end."""
         low, high = self.task.gap_ends(gap)
         inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
         known = np.array([low, gap, high])
@@ -136,11 +136,11 @@ class Curve:
         return rows
 
     def critical(self) -> np.ndarray:
-        """Return the worst frequencies at gaps that do nearly as well as the best."""
+        """Return frequencies of the largest displacements at gaps with values near the least."""
         return np.unique(self.worst[self.sizes <= CANDIDATE * self.nominal()[1].min()])
 
     def unclear(self) -> np.ndarray:
-        """Return gaps at which the curve is to be computed next, those that matter most first."""
+        """Return gaps at which the curve must be computed next, in descending importance."""
         gaps, values = self.nominal()
         good = values <= CANDIDATE * values.min()
         low, high = self.task.gap_ends(gaps[good])
@@ -173,11 +173,11 @@ def middle_gap(first, last) -> float:
 
 
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
-    """Return displacements (mm) at gaps (mm), and their frequency and set of factors.
+    """Return displacements (mm) at gaps (mm), and the frequency and set of factors of each one.
 
-    A displacement is the largest over frequencies and sets; in each, half of the starts that may
-    exceed it, the largest, are left out. The displacement of a motion that has not settled is
-    RECORD times the largest so far.
+    Each is the largest one over frequencies and sets. At each frequency and set the largest motions
+    are left out, half as many as the share of the task allows. The displacement of a motion that
+    has not settled is RECORD times its largest displacement so far.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
@@ -209,7 +209,7 @@ def search(task, progress=None, rounds=ROUNDS) -> Curve:
 
 
 def search_around(task, gap, sets, progress=None) -> Curve:
-    """Return a curve around a gap (mm) that is given, with sets of factors of other values."""
+    """Return a curve around a given gap (mm) for sets of factors of the other values."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = gap * np.geomspace(0.5, 2, 2 * task.effort.candidates + 1)
     curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress, sets)[:2])

@@ -1,4 +1,4 @@
-"""A task: machine, loose mass, contact, band of frequencies, tolerances, confidence, effort.
+"""The task of a design: machine, loose mass, contact, band of frequencies, tolerances, effort.
 
 All values are in SI units. Rule (18) of the paper is m2 w^2 (gap/2) = F, with the loose mass m2,
 the angular forcing frequency w and the amplitude F of the force.
@@ -31,14 +31,14 @@ from impact_damper.model.text import with_unit
 from impact_damper.model.units import absolute_value, check_si
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 
-# Values that may deviate from their nominal ones; the last three belong to the machine. NOMINAL:
-# their factors without a deviation. TOLERANCES: largest relative deviations by default.
+# VARIED: values that may deviate; the last three belong to the machine. NOMINAL: factors of values
+# that do not deviate. TOLERANCES: largest relative deviations by default.
 VARIED = tuple("gap restitution contact_stiffness gravity friction stiffness damping force".split())
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
-# Ends of a range or of a confidence interval.
+# Labels of the ends of a range or of a confidence interval.
 SIDES = ["lower", "upper"]
-# Largest relative deviation, and quantities of absolute ones. The excitation has its own quantity.
+# Largest relative deviation, and quantities of absolute deviations, except of the excitation.
 MOST_DEVIATION = 0.9
 ABSOLUTE = {
     "gap": "displacement",
@@ -46,24 +46,24 @@ ABSOLUTE = {
     "stiffness": "stiffness",
     "damping": "damping",
 }
-# Least gap that a design considers: a fraction of the gap of rule (18), and of the gap that the
-# machine without damper no longer touches, twice its largest displacement.
+# Least gap that a design considers, divided by the gap of rule (18) or by the greatest gap,
+# whichever is smaller.
 LEAST_GAP = 0.15
 # Greatest gap, divided by the gap of rule (18), if the machine without damper escapes.
 ESCAPING = 4.0
-# An absorber to compare with is tuned over the range from ABSORBED[0] times the lowest frequency of
-# band and resonance to ABSORBED[1] times the highest.
+# Ends of the range over which an absorber is tuned for comparison, divided by the lowest and by the
+# highest frequency of band and resonance.
 ABSORBED = 0.5, 2.0
-# Comparisons of many gaps stop a chaotic motion after PATIENT decay times of the machine and any
-# other motion after LONG times as long, but not before LEAST_PATIENCE and LEAST_LIMIT cycles.
+# Comparisons of many gaps stop a chaotic motion after PATIENT decay times of the machine, at least
+# LEAST_PATIENCE cycles. Other motions stop after LONG PATIENT decay times, at least LEAST_LIMIT.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
-# Cycles over which a motion that has not settled is first measured.
+# Least number of cycles over which a motion that has not settled is measured.
 WATCHED = 100
 
 
 def labelled(values, **coordinates) -> xr.Dataset:
-    """Return a dataset of registered variables; displacements are in mm, all else in SI units."""
+    """Return a dataset of registered variables. Displacements are in mm, others in SI units."""
     made = {name: shown_variable(name, value) for name, value in values.items()}
     known = {name: shown_variable(name, value) for name, value in coordinates.items()}
     return xr.Dataset(made, known, {"source": SOURCE})
@@ -77,9 +77,9 @@ class Effort:
     Attributes
     ----------
     frequencies : int
-        Number of frequencies over the band; the resonances in it are added.
+        Number of frequencies over the band. Those nearest to resonances are moved onto them.
     candidates : int
-        Number of gaps that are compared with more starts than in the first search over all gaps.
+        Largest number of gaps in each comparison after the first search over all gaps.
     starts : int
         Random starts (initial states of machine and loose mass) at each gap and frequency.
     seed : int
@@ -87,7 +87,7 @@ class Effort:
     settling : Settling, optional
         How long motions are run, and how accurately.
     workers : int
-        Threads; the result does not depend on it.
+        Number of threads. The result does not depend on this number.
 
     Raises
     ------
@@ -123,9 +123,9 @@ class Effort:
 class Task:
     """A task of `design_damper` or `evaluate_damper`, checked before anything is computed.
 
-    `gap` (m) is of a damper that exists, or None if it is to be found. `contact` is the stiffness
-    (N/m) or the contact from which `contact_stiffness` follows, and `mount` has arguments of
-    `machine.mounting`, from which `gravity` along the gap (m/s^2) and `friction` (N) follow.
+    `gap` (m) is the gap of an existing damper, or None if a gap is to be found. `contact_stiffness`
+    (N/m) follows from `contact`. `gravity` along the gap (m/s^2) and `friction` (N) follow from
+    `mount`, the arguments of `machine.mounting`.
     """
 
     machine: Machine
@@ -188,7 +188,7 @@ class Task:
         object.__setattr__(self, name, value)
 
     def _check_length(self, name, most, why):
-        """Check a length, at most `most` m; infinite if the machine without damper escapes."""
+        """Check a length (m). It may be at most `most`, infinite if the bare machine escapes."""
         limits = {"most": most, "why": why} if math.isfinite(most) else {}
         length = check_si(name, getattr(self, name), "displacement", above=0, **limits)
         self._set(name, length)
@@ -196,8 +196,8 @@ class Task:
     def _stiffness(self):
         """Return the stiffness of the contact.
 
-        By Hertz's law it grows with the speed of impact. Here the loose mass crosses the gap of
-        rule (18) in half a cycle, at the middle frequency of the band.
+        By Hertz's law the stiffness grows with the speed of impact. The loose mass is assumed to
+        cross the gap of rule (18) in half a cycle, at the middle frequency of the band.
         """
         limits = self.scales.range_to_si(bounds.STIFFNESS_RANGE, "stiffness")
         stiffness = self.contact
@@ -215,7 +215,7 @@ class Task:
             )
 
     def _check_deviations(self):
-        """Raise ValueError if a damper within the tolerances is not allowed."""
+        """Raise a ValueError if the tolerances include a damper that is not allowed."""
         gap = self.gap or 1e-3 * self.gap_span[0]
         widths = self.deviations(1e3 * gap)
         least = self.restitution * (1 - self.tolerances.get("restitution", 0.0))
@@ -231,7 +231,7 @@ class Task:
                 self.packed(gap, frequency, factors)
 
     def _checked_tolerances(self):
-        """Return the largest relative deviations as numbers, and of the gap an absolute as text."""
+        """Return relative deviations as numbers. An absolute one of the gap is a text in m."""
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
@@ -262,7 +262,7 @@ class Task:
 
     @cached_property
     def gap_tolerance(self) -> tuple[float, float]:
-        """Largest deviation of the gap as a fraction of it and in mm, one of them 0."""
+        """Largest deviation of the gap, as a fraction of the gap and in mm; one of the two is 0."""
         value = self.tolerances.get("gap", 0.0)
         return (value, 0.0) if isinstance(value, float) else (0.0, 1e3 * float(value.split()[0]))
 
@@ -282,7 +282,7 @@ class Task:
     def gap_span(self) -> tuple[float, float]:
         """Least and greatest gap that a design considers, mm.
 
-        A loose mass at rest in a greater gap is not touched by the machine without damper.
+        In a greater gap the machine without damper would not touch a loose mass at rest.
         """
         rules = np.array([1e3 * self.rule_gap(f) for f in self.grid])
         sizes = self.bare[np.isfinite(self.bare)]
@@ -303,7 +303,7 @@ class Task:
     def hurried(self) -> Settling:
         """Settling for comparisons of many gaps: runs of a few decay times of the machine.
 
-        A motion that settles later is found where it decides the promise (`cells.Motions.follow`).
+        Motions that settle later are run further if the promised displacement depends on them.
         """
         full = self.effort.settling
         # Decay time of the machine in forcing cycles.
@@ -314,14 +314,14 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances in the band, Hz: without the loose mass, and with it fixed on."""
+        """Resonances in the band, Hz: without the loose mass, and with the loose mass fixed."""
         ratio = math.sqrt(1 + self.mass / self.machine.mass)
         found = [each for end in self.resonance for each in (end / ratio, end)]
         return [each for each in found if self.band[0] < each < self.band[1]]
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Frequencies over the band, Hz: evenly spaced, but the nearest ones on the resonances."""
+        """Frequencies over the band, Hz: evenly spaced, the nearest ones moved to resonances."""
         values = np.linspace(*self.band, self.effort.frequencies)
         for frequency in self.resonances:
             values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
@@ -333,7 +333,7 @@ class Task:
         return self.bare_at(self.grid)
 
     def bare_at(self, frequencies) -> np.ndarray:
-        """Return the largest displacement without damper by harmonic balance, mm."""
+        """Return the largest displacements (mm) without damper by harmonic balance."""
         turning = self.scales.from_si(np.asarray(frequencies), "frequency")
         oscillator = self.machine.oscillator()
         sizes = [balance_amplitudes(oscillator, w) for w in turning]
@@ -349,7 +349,7 @@ class Task:
 
     @property
     def absorber_band(self) -> tuple[float, float]:
-        """Range of frequencies over which an absorber to compare with is tuned, Hz."""
+        """Range of frequencies (Hz) over which an absorber is tuned for comparison."""
         low, high = self.resonance
         return ABSORBED[0] * min(low, self.band[0]), ABSORBED[1] * max(high, self.band[1])
 
@@ -359,7 +359,7 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return `count` frequencies of `grid`, Hz, with the worst one, resonances and `others`."""
+        """Return `count` frequencies of `grid` (Hz), and the worst one, resonances, `others`."""
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(self.grid[places], [self.worst_frequency, *resonances, *others])
@@ -377,7 +377,7 @@ class Task:
         return 2 * self.scales.to_si(force, "force") / (self.mass * (2 * math.pi * frequency) ** 2)
 
     def damper(self, gap, factors=NOMINAL) -> MachineDamper:
-        """Return the damper with a gap (m), its values multiplied by factors in order of VARIED.
+        """Return the damper with a gap (m) and values multiplied by factors, ordered as VARIED.
 
         A restitution above 1 becomes 1.
         """
@@ -439,7 +439,7 @@ class Task:
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the ends of natural frequency, peak of one harmonic, and folds of a cubic spring."""
+    """Return the least and greatest of natural frequency, peak of one harmonic, and folds, Hz."""
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
     found = [point.frequency for point in free_folds(oscillator)]
@@ -454,7 +454,7 @@ def resonance_of(machine) -> tuple[float, float]:
 
 
 def checked_band(machine, band, resonance) -> tuple[float, float]:
-    """Return the ends of a band, Hz; it must reach into the range `resonance`."""
+    """Return the ends of a band, Hz. The band must reach into the range `resonance`."""
     if not isinstance(band, Sequence | np.ndarray) or isinstance(band, str) or len(band) != 2:
         raise ValueError(
             f"band = {bounds.shown(band)}: must be least and greatest frequency (how many "

@@ -1,8 +1,8 @@
 """Transients of a machine with and without its damper: a swept sine, and the unforced decay.
 
-The integrator requires a fixed frequency, so each forcing cycle of a sweep has the mean frequency
-of this cycle in the continuous sweep, whose phase it follows within pi/4 times the relative change
-of the frequency in the cycle.
+The integrator requires a fixed frequency. Each forcing cycle of a sweep therefore has the mean
+frequency of the same cycle of a continuous sweep. The two phases differ by at most pi/4 times the
+relative change of the frequency in the cycle.
 """
 
 import math
@@ -22,28 +22,28 @@ from impact_damper.motions.records import envelope
 EQUIPMENT = ("bare", "damped")
 # Largest local error of an integration step.
 TOLERANCE = 1e-10
-# A swept sine changes the frequency at the rate SWEEP (damping ratio x natural frequency in Hz)^2
-# Hz/s, or faster if it would last longer than MOST_SWEPT cycles. The resonance peak of a linear
-# machine is then 6 % lower than in steady state.
+# A sweep has the rate SWEEP (damping ratio x natural frequency in Hz)^2 Hz/s. The resonance peak of
+# a linear machine is 6 % lower at this rate than in steady state. A sweep of more than MOST_SWEPT
+# cycles is made faster.
 SWEEP, MOST_SWEPT = 4.0, 6000
 # Largest relative change of the frequency in a forcing cycle.
 STEEPEST = 0.01
-# The first frequency is held until the transients of the machine without the damper have decayed to
-# SETTLED times their first size, but at most for HELD forcing cycles.
+# Before a sweep the first frequency is held until transients without the damper have decayed to the
+# fraction SETTLED, but for at most HELD forcing cycles.
 SETTLED, HELD = 0.01, 10**5
-# A decay ends when the energy has fallen to the energy at REST times the first displacement, or
-# after MOST_WINDOWS windows. A window is a period of the unforced vibration, at most LONGEST
-# periods of small vibrations: with a softening spring the period is infinite at the barrier.
+# A decay ends at the energy of REST times the first displacement, or after MOST_WINDOWS windows. A
+# window is a period of the unforced vibration, at most LONGEST periods of small vibrations. With a
+# softening spring the period is infinite at the barrier.
 REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
 
 def transients(task, choice, progress=None) -> xr.Dataset:
-    """Return a swept sine and an unforced decay, each with and without the chosen damper.
+    """Return a dataset of a swept sine and an unforced decay, with and without the chosen damper.
 
     `choice` is the dataset of the decision.
     """
     machine, damper = task.machine, task.damper(1e-3 * float(choice["design_gap"]))
-    # A sweep over a nonlinear machine leads to its large motions only if it passes all its
+    # A sweep leads to the large motions of a nonlinear machine only if the sweep passes all
     # resonances, which may lie outside the band.
     low = min(task.band[0], task.resonance[0])
     high = max(task.band[1], task.resonance[1])
@@ -55,10 +55,10 @@ def transients(task, choice, progress=None) -> xr.Dataset:
 
 
 def swept_sine(machine, damper, band, rate) -> xr.Dataset:
-    """Sweep the frequency over a band (Hz) up and down at a rate (Hz/s), from steady state.
+    """Return a dataset of sweeps up and down over a band (Hz) at a rate (Hz/s), from steady state.
 
-    The envelope is the largest displacement in each cycle: infinite in a cycle in which the motion
-    escapes over the barrier of a softening spring, and NaN later.
+    The envelope is the largest displacement in each cycle. It is infinite in the cycle in which the
+    motion escapes over the barrier of a softening spring, and NaN in later cycles.
     """
     least, most = band
     count = int((most**2 - least**2) / (2 * rate))
@@ -77,7 +77,7 @@ def swept_sine(machine, damper, band, rate) -> xr.Dataset:
 
 
 def _swept(machine, damper, first, frequencies):
-    """Return the largest displacement (m) in each cycle, after the first frequency was held."""
+    """Return the largest displacement (m) in each cycle of a sweep, without the cycles held."""
     decay_rate = machine.viscous_damping / (2 * machine.mass)
     held = min(math.ceil(-math.log(SETTLED) * first / decay_rate), HELD)
     rows = forced(machine, damper, np.concatenate([np.full(held, first), frequencies]))
@@ -86,7 +86,7 @@ def _swept(machine, damper, first, frequencies):
 
 
 def sweep_periods(first, slope, count):
-    """Return when the cycles of a continuous sweep begin (s), and their mean frequencies (Hz).
+    """Return the beginnings (s) and the mean frequencies (Hz) of the cycles of a continuous sweep.
 
     At these times the phase in cycles, first t + slope t^2/2, is a whole number.
     """
@@ -107,7 +107,7 @@ def forced(machine, damper, frequencies):
 
 
 def ring_down(machine, damper, displacement) -> xr.Dataset:
-    """Return the unforced decay from a displacement (m) at rest, loose mass in mid-gap."""
+    """Return a dataset of the unforced decay from a displacement (m), loose mass in mid-gap."""
     runs, status = zip(
         *(decay(machine, each, displacement) for each in (None, damper)), strict=True
     )
@@ -125,7 +125,7 @@ def ring_down(machine, damper, displacement) -> xr.Dataset:
 def decay(machine, damper, displacement):
     """Return the unforced decay from a displacement (m), and how it ends.
 
-    The rows are windows: time at the middle (s), inverse of the length (Hz), largest displacement
+    Each row is a window: time at its middle (s), inverse of its length (Hz), largest displacement
     (m), and number of contacts. The end is "at_rest", "escaped" or "limit".
     """
     scales = machine.scales
@@ -151,7 +151,7 @@ def decay(machine, damper, displacement):
 
 
 def _window(p, left):
-    """Return the length of a window: the undamped period at the energy `left`, up to LONGEST."""
+    """Return the length of a window: the undamped period at the energy `left`, within LONGEST."""
     stiffness, cubic = cubic_spring(p)
     period = unforced_period(stiffness, cubic, unforced_amplitude(stiffness, cubic, left))
     if cubic >= 0:
@@ -162,7 +162,7 @@ def _window(p, left):
 def unforced_amplitude(stiffness, cubic, stored) -> float:
     """Return the amplitude A of x'' + a x + b x^3 = 0 with the energy a A^2/2 + b A^4/4.
 
-    It is infinite if a softening spring cannot store the energy.
+    The amplitude is infinite if a softening spring cannot store the energy.
     """
     square = stiffness**2 + 4 * cubic * stored
     if square <= 0:

@@ -1,6 +1,6 @@
 """Plots of results, such as `impact_damper.plot.response(data)`.
 
-Each function draws on `axes`, to which `axes.legend()` adds a legend, or on a new figure with one.
+Each function draws on `axes` (`axes.legend()` adds a legend), or on a new figure with a legend.
 """
 
 from impact_damper.plot.basin_plane import basins

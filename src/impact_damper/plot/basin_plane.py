@@ -8,10 +8,10 @@ from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.plot import style
 from impact_damper.plot.sheets import dataset_in, sheet
 
-# Colours of attractors in the order of rising displacement; the largest has the last colour.
+# Colours of attractors by ascending displacement. The last colour is for the largest attractor.
 COLOURS = (style.SKY, style.VERMILION, style.PURPLE, "#F7E7A6")
 CHAOS = style.ORANGE
-# Colours of labels from -6 (quasi-periodic) to -1 (unresolved), before those of the attractors.
+# Colours of the labels -6 (quasi-periodic) to -1 (unresolved) of states without an attractor.
 WITHOUT_ATTRACTOR = (style.GREY, style.GREY, style.WHITE, CHAOS, style.WHITE, style.PALE)
 AREA = {"edgecolor": style.BLACK, "linewidth": 0.4}
 POINTS = {"linestyle": "none", "marker": "o", "markeredgecolor": style.BLACK, "markersize": 4.5}
@@ -21,8 +21,8 @@ SADDLES = style.markers("unstable orbit", style.BLACK, "x", markersize=5)
 def basins(data, axes=None):
     """Draw basins of attraction: the motion to which each state of a plane leads.
 
-    With a damper a state may lead to several motions. The shade is then the share of places of the
-    loose mass that lead to the smallest motion. The axes get a legend below.
+    With a damper the motion also depends on the place of the loose mass. The shade is the share of
+    places that lead to the smallest motion. A legend is drawn below the axes.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def basins(data, axes=None):
 
 
 def _draw_labels(axes, data, colours):
-    """Colour each state by its motion, with entries in the legend."""
+    """Colour each state by the motion to which it leads, and add legend entries."""
     labels = data["basin_label"].values
     palette = ListedColormap([*WITHOUT_ATTRACTOR, *colours])
     low, high = -len(WITHOUT_ATTRACTOR) - 0.5, len(colours) - 0.5
@@ -71,7 +71,7 @@ def _draw_labels(axes, data, colours):
 
 
 def _draw_shares(axes, data, colours):
-    """Colour states by the share of places of the loose mass, with entries in the legend."""
+    """Shade states by the share of places that lead to the smallest motion; add legend entries."""
     shades = LinearSegmentedColormap.from_list("shares", [style.WHITE, style.SKY])
     drawn = _fill(axes, data, data["basin_share"][0], cmap=shades, vmin=0, vmax=1)
     words = "share of places of the loose mass"
@@ -93,7 +93,7 @@ def _fill(axes, data, values, **look):
 
 
 def _name(axes, data):
-    """Label the axes; the title has frequency, phase and, without units, the damper."""
+    """Label the axes. The title has frequency, phase and, for data without units, the damper."""
     frequency = data["frequency"]
     if frequency.attrs["units"] == "1":
         names = ("mass_ratio", "clearance") if has_damper(data) else ()

@@ -19,13 +19,13 @@ EVENTS = {
 # Ends beyond which a branch continues, and their marker.
 OPEN_ENDS = ("lost", "point_limit", "unstable")
 OPEN = {"marker": "x", "color": style.BLACK, "markersize": 4.5, "linestyle": "none", "zorder": 3.1}
-# Label, colour, opacity of unstable orbits, and test of the period.
+# Columns: label, colour, opacity of unstable orbits, test of the period.
 PERIODS = [
     ("period 1", style.BLUE, 1.0, lambda period: period == 1),
     ("period 3", style.PURPLE, 1.0, lambda period: period == 3),
     ("other periods", style.ORANGE, 0.4, lambda period: period not in (1, 3)),
 ]
-# Roles without a damper: stable and unstable orbits, and test of the period.
+# Columns: keys in `style.ROLES` of stable and unstable orbits without a damper, test of the period.
 FREE = [
     ("free_stable", "free_unstable", lambda period: period == 1),
     ("subharmonic_free", "subharmonic_unstable", lambda period: period == 3),
@@ -36,8 +36,8 @@ FREE = [
 def branch(data, axes=None):
     """Draw the largest displacement in periodic orbits against the parameter that varies.
 
-    Stable orbits are solid lines, unstable ones dotted lines. Colours distinguish periods;
-    markers are bifurcations and changes of contact of stable orbits.
+    Stable orbits are solid lines, unstable ones dotted lines. Colours distinguish periods.
+    Markers show bifurcations and changes of contact of stable orbits.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield value, size and stability of each stable or unstable part of branches.
+    """Yield parameter values, displacements and stability of each part of branches.
 
     `chosen` maps the period of a branch to True if the branch is wanted.
     """
@@ -100,24 +100,24 @@ def runs(data, chosen):
 
 
 def parts_by_stability(value, size, stable):
-    """Yield value, size and stability of each part of a branch that is all stable or unstable."""
+    """Split a branch where its stability changes; yield values, sizes, stability of each part."""
     edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
     for first, last in zip(edges, edges[1:], strict=False):
         if last > first:
-            # includes the first orbit of the next part, so that the lines of both parts join
+            # A part includes the first orbit of the next part, so that the two lines join.
             part = slice(first, last + 1)
             yield value[part], size[part], bool(stable[first])
 
 
 def draw_free_orbits(axes, data):
-    """Draw orbits without a damper; period (1, 3, others) and stability set colour and line."""
+    """Draw orbits without a damper. Colour and line depend on period and stability."""
     for role, unstable, chosen in FREE:
         for value, size, stable in runs(data, chosen):
             style.draw(axes, value, size, **style.ROLES[role if stable else unstable])
 
 
 def _mark_open_ends(axes, data):
-    """Mark with a cross each end beyond which a branch continues but was not followed."""
+    """Mark with a cross each end beyond which a branch continues but was not computed."""
     chosen = [flag("branch_end", name) for name in OPEN_ENDS]
     number = data["orbit_branch"].values
     for each, ends in enumerate(data["branch_end"].values):

@@ -36,10 +36,10 @@ def design(data, axes=None):
 
 
 def conclusion(data) -> list[str]:
-    """Return the answer of a design: four paragraphs, and one for each exception that is true.
+    """Return the conclusion of a design: four paragraphs, and one for each exception that holds.
 
-    They say what to build, what the machine then does, how sure this is, and the condition that
-    matters most. The sentences stand in a template, for which Jinja2 must be installed.
+    The paragraphs say what to build, how far the machine moves with the damper, how sure this is,
+    and which condition matters most. Jinja2 must be installed.
 
     Parameters
     ----------

@@ -10,7 +10,7 @@ from impact_damper.data.datasets import decode, is_settled, parameters_of
 from impact_damper.plot import style
 from impact_damper.plot.branches import parts_by_stability
 
-# Displacements from ENDLESS on, in mm, are those of motions that escape.
+# Least displacement, mm, that stands for a motion that escapes.
 ENDLESS = 1e9
 BARE = style.line("without damper", style.BLACK, linewidth=1.2)
 TUNED = style.line("tuned absorber", style.GREEN, linewidth=1.1, linestyle=style.DASHED)
@@ -45,7 +45,7 @@ def draw_answer(data):
 
 
 def frequency_panel(axes, data):
-    """Draw displacements against the forcing frequency, and the single motions."""
+    """Draw displacements against the forcing frequency: curves, and points for single motions."""
     frequency = data["promise_frequency"].values
     plot_sizes(axes, frequency, data["promise_bare_displacement"].values, **BARE)
     if "competitor_displacement" in data:
@@ -68,9 +68,9 @@ def frequency_panel(axes, data):
 
 
 def over_frequency(data) -> tuple:
-    """Return the promised displacement for nominal values, and the largest of all sets of values.
+    """Return displacements over frequency: for nominal values, and the largest of all sets.
 
-    A set that was not run at a frequency is interpolated.
+    Sets of values are interpolated between the frequencies at which they were run.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []
@@ -81,7 +81,7 @@ def over_frequency(data) -> tuple:
 
 
 def gap_panel(axes, data):
-    """Draw the displacement against the gap: of the search, within the tolerance, of the orbit."""
+    """Draw displacements against the gap: at the gap, within its tolerance, of the quiet orbit."""
     gap = float(data["design_gap"])
     tolerance = parameters_of(data)["tolerances"].get("gap", 0.0)
     axes.axvspan(gap * (1 - tolerance), gap * (1 + tolerance), **TOLERATED)
@@ -115,7 +115,7 @@ def gap_panel(axes, data):
 
 @style.context()
 def draw_forces(data):
-    """Return a figure of displacement against excitation: with damper, absorber and neither."""
+    """Return a figure of displacement over excitation: with damper, with absorber, with neither."""
     if not {"force_map_displacement", "competitor_displacement"} <= set(data):
         return None
     drawn = style.figure("double", 2.8)
@@ -143,7 +143,7 @@ def draw_forces(data):
 
 @style.context()
 def draw_transients(data):
-    """Return a figure of the displacement per cycle of two sweeps and the unforced decay."""
+    """Return a figure of the largest displacement in each cycle: two sweeps, an unforced decay."""
     if "sweep_envelope" not in data:
         return None
     drawn = style.figure("double", 2.8)
@@ -195,13 +195,13 @@ def draw_machines(*, machines):
 
 
 def finite(values):
-    """Return values with NaN in place of the size of a motion that escapes."""
+    """Return displacements, with NaN for motions that escape."""
     values = np.asarray(values, float)
     return np.where(values < ENDLESS, values, np.nan)
 
 
 def plot_sizes(axes, x, sizes, **look):
-    """Plot sizes of motions, if there are any; motions that escape are marked at the upper edge."""
+    """Plot displacements of motions. Motions that escape get a marker at the upper edge."""
     sizes = np.asarray(sizes, float)
     if np.isfinite(finite(sizes)).any():
         axes.plot(x, finite(sizes), **look)
@@ -231,5 +231,5 @@ def name_numbers(axis, low, high):
     axis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:.0e}"[0] in digits else "")
 
 
-# Figures of the page of a machine by name. A function returns None if its addition failed.
+# Figure on the page of a machine -> function that draws it, or returns None if data are missing.
 FIGURES = {"answer": draw_answer, "forces": draw_forces, "transients": draw_transients}

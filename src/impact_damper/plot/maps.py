@@ -10,7 +10,7 @@ from impact_damper.plot import style
 
 
 def mesh(axes, x, y, values, norm, absent=None):
-    """Draw cells coloured by value, and return the mesh; NaN is hatched, `absent` in the legend."""
+    """Draw and return cells coloured by value. NaN is hatched; the legend calls it `absent`."""
     back = {"facecolor": style.PALE, "hatch": "////", "edgecolor": style.GREY}
     axes.patch.set(linewidth=0, **back)
     if absent:
@@ -46,7 +46,7 @@ def edges_of(centres):
 
 
 def edges(values):
-    """Return cell edges midway between logarithmic centres; a single cell is a decade wide."""
+    """Return the edges of cells on a logarithmic axis. A single cell is a decade wide."""
     if len(values) == 1:
         return np.asarray(values) * np.sqrt([0.1, 10])
     return np.exp(edges_of(np.log(values)))

@@ -1,4 +1,4 @@
-"""The plot of migration as a design: shares of releases that succeed, over frequency and gap."""
+"""Plot of a design for migration: share of releases that succeed, over frequency and gap."""
 
 import numpy as np
 from matplotlib.colors import Normalize

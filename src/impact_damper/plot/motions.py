@@ -16,7 +16,7 @@ SWITCHED = {
     "on_time": style.line("switched on", style.VERMILION),
     "off_time": style.line("switched off", style.BLUE, linestyle=(0, (3, 1.5))),
 }
-# Lines of a run of migration control; the thin one is for at least MANY times.
+# Lines of a run of migration control. The thin line is for runs of at least MANY times.
 MANY = 2500
 LINE, THIN = {"linewidth": 0.8}, {"linewidth": 0.3, "alpha": 0.7, "rasterized": True}
 
@@ -27,7 +27,7 @@ def orbit(data, axes=None):
     Parameters
     ----------
     data : xarray.Dataset
-        A result of `simulate`. For a steady motion or a periodic orbit, simulate it from its state.
+        A result of `simulate`. Simulate a steady motion or a periodic orbit from its state first.
     axes : sequence of 2 matplotlib.axes.Axes, optional
 
     Returns
@@ -49,7 +49,7 @@ def orbit(data, axes=None):
 
 
 def phase_panel(axes, run):
-    """Draw velocity against displacement of the primary mass, thick in contact."""
+    """Draw velocity against displacement of the primary mass. The line is thick in contact."""
     axes.plot(run["displacement"], run["velocity"], color=style.BLACK, linewidth=0.8)
     for wall, look in WALLS.items():
         axes.plot(run["displacement"], run["velocity"].where(_in_contact(run, wall)), **look)
@@ -57,7 +57,7 @@ def phase_panel(axes, run):
 
 
 def _time_panel(axes, run):
-    """Draw both displacements against time; the line of the relative one is thick in contact."""
+    """Draw both displacements against time. The relative one has a thick line in contact."""
     time, relative = run["time"], run["relative_displacement"]
     axes.plot(time, run["displacement"], color=style.BLACK, label="primary mass, $Z_1$")
     if len(run["contact_wall"]):
@@ -73,7 +73,7 @@ def _time_panel(axes, run):
 
 
 def _in_contact(run, wall):
-    """Return the mask of the times in contact with a wall; a contact without an end lasts on."""
+    """Return the mask of times in contact with a wall. A contact whose end is NaN lasts on."""
     contacts = run[["contact_begin", "contact_end"]].isel(
         contact=run["contact_wall"].values == wall
     )
@@ -90,7 +90,7 @@ def migration(data, axes=None, span=None):
         A result of `migrate`.
     axes : matplotlib.axes.Axes, optional
     span : (float, float), optional
-        First and last time to draw; otherwise the whole run.
+        First and last time to draw, by default those of the run.
 
     Returns
     -------

@@ -21,7 +21,7 @@ FREE = {
 SETTLED = style.ROLES["period_1"] | JOINED | {"label": "settled"}
 STILL = style.ROLES["non_colliding"] | {"label": "no contact"}
 UNSETTLED = style.ROLES["chaotic"] | {"label": "not settled"}
-# Displacements of datasets, and labels that replace the description of their axis.
+# Variable with displacements -> label of the axis, or None for the variable's own description.
 SIZES = {
     "maximum_displacement": None,
     "orbit_displacement": None,
@@ -32,7 +32,7 @@ SIZES = {
 def response(data, axes=None):
     """Draw displacement against forcing frequency.
 
-    Stable orbits with a damper are drawn unless such motions are given.
+    Stable orbits with a damper are left out if motions with a damper are given.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def response(data, axes=None):
 
 
 def _kind(data):
-    """Return the kind of response that a dataset holds, or ""."""
+    """Return the kind of response in a dataset, or "" for other datasets."""
     if "followed_value" in data and parameters_of(data).get("parameter") == "frequency":
         return "orbits"
     if "free_amplitude" in data:
@@ -87,7 +87,7 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw free orbits; with a damper, unstable ones of period 1 and, if `stable`, stable ones."""
+    """Draw free orbits; with a damper, unstable orbits of period 1, stable ones if `stable`."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return
@@ -100,7 +100,7 @@ def _draw_orbits(axes, orbits, stable):
 
 
 def _draw_balance(axes, balance, free):
-    """Draw the band, the stable solutions with contact and, if `free`, those without a damper."""
+    """Draw the suppression band, stable solutions with contact and, if `free`, without a damper."""
     if "band_status" in balance and balance["band_status"] == flag("band_status", "found"):
         axes.axvspan(*balance["edge_frequency"].values, **style.ROLES["band"])
     if free:
@@ -114,14 +114,14 @@ def _draw_balance(axes, balance, free):
 
 
 def _draw_solutions(axes, amplitude, role):
-    """Draw the amplitudes of solutions, NaN where not wanted, shape (frequency, solution)."""
+    """Draw amplitudes, shape (frequency, solution). Solutions with NaN are left out."""
     for branch in np.abs(amplitude.values).T:
         if np.isfinite(branch).any():
             style.draw(axes, amplitude["frequency"], branch, **style.ROLES[role])
 
 
 def _draw_unstable(axes, balance):
-    """Draw the unstable solutions without a damper up to the folds, in the order of their phase."""
+    """Draw the unstable solutions without a damper as one line, in the order of their phase."""
     phase = balance["free_phase"].values
     order = np.argsort(phase, axis=None)[: np.isfinite(phase).sum()]
     frequency, amplitude, stability = (
@@ -134,7 +134,7 @@ def _draw_unstable(axes, balance):
 
 
 def _draw_motions(axes, motions):
-    """Draw motions from random starts: settled ones joined along branches, others as points."""
+    """Draw motions from random starts: lines join settled ones, and points show other ones."""
     period, settled = motions["period"].values, is_settled(motions)
     if has_damper(motions):
         settled = settled & (motions["contacts"].values > 0)
@@ -154,7 +154,7 @@ def _draw_motions(axes, motions):
 
 
 def _branch_lines(motions, chosen):
-    """Yield frequency and size of each branch and period, extended to the ends of the branch."""
+    """Yield frequencies and displacements for each branch and period, with the branch's ends."""
     branch, period = motions["branch"].values, motions["period"].values
     names = ("end_branch", "end_direction", "end_value", "end_displacement")
     ends = list(zip(*(motions[name].values for name in names), strict=True))
@@ -171,7 +171,7 @@ def _branch_lines(motions, chosen):
 
 
 def _draw_unsettled(axes, motions, looks):
-    """Draw other motions as points by outcome; chaos is a transient where one of its runs ended."""
+    """Draw other motions as points by outcome. Chaos that ended in one of its runs is transient."""
     for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)
@@ -185,7 +185,7 @@ def _draw_unsettled(axes, motions, looks):
 
 
 def _draw_steady(axes, motions):
-    """Draw steady motions, the settled ones joined in the order in which they are given."""
+    """Draw steady motions. A line joins the settled ones in the order of the datasets."""
     frequency, size, outcome = (
         np.concatenate([np.ravel(each[name]) for each in motions])
         for name in ("frequency", "maximum_displacement", "outcome")
@@ -198,7 +198,7 @@ def _draw_steady(axes, motions):
 
 
 def _label(axes, given):
-    """Label the axes by the first dataset; with amplitudes only, the ordinate is an amplitude."""
+    """Label the axes. The ordinate is an amplitude only if no dataset has largest displacements."""
     first = given[0]
     axes.set_xlabel(
         style.axis_label(first["frequency"])

@@ -14,8 +14,8 @@ from impact_damper.plot import style
 def datasets_in(data, takes, words) -> list[xr.Dataset]:
     """Return one or several datasets as a list.
 
-    A TypeError is raised unless `takes` accepts each; it names the functions that return such
-    datasets, `words`.
+    A TypeError is raised unless `takes` accepts each dataset. Its message has `words`, the names of
+    the functions that return such datasets.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:
@@ -30,7 +30,7 @@ def datasets_in(data, takes, words) -> list[xr.Dataset]:
 
 
 def dataset_in(data, takes, words) -> xr.Dataset:
-    """Return the single dataset given, checked as by `datasets_in`."""
+    """Return a single dataset, checked as by `datasets_in`."""
     found = datasets_in(data, takes, words)
     if len(found) > 1:
         raise TypeError(f"data = {len(found)} datasets: must be one result of {words}")
@@ -41,7 +41,7 @@ def dataset_in(data, takes, words) -> xr.Dataset:
 def sheet(axes, count=1, height=3.6, columns=3):
     """Return a context that yields the given axes, or those of a new figure in the common style.
 
-    A new figure is `height` inches high and gets a legend with `columns` columns, or none with 0.
+    A new figure is `height` inches high. Its legend has `columns` columns; 0 means no legend.
     """
     if axes is not None:
         given = list(np.ravel(np.array(axes, object)))
@@ -55,6 +55,6 @@ def sheet(axes, count=1, height=3.6, columns=3):
         yield list(panels[0])
         if columns:
             style.legend(drawn, columns)
-        # In a notebook the first figure makes matplotlib interactive, which must outlive the style.
+        # In a notebook the first figure turns on interactive mode, which must stay on afterwards.
         interactive = matplotlib.is_interactive()
     matplotlib.interactive(interactive)

@@ -10,7 +10,7 @@ from impact_damper.plot import style
 from impact_damper.plot.maps import edges_of
 from impact_damper.plot.sheets import dataset_in, sheet
 
-# Kinds of motions from below: label, colour and hatching.
+# Kind of motion, from bottom to top -> colour, hatching.
 LOOKS = {
     "period 1": (style.BLUE, ""),
     "period 2": (style.GREEN, "////"),
@@ -22,7 +22,7 @@ LOOKS = {
     "chaotic": (style.ORANGE, "...."),
     "others": (style.BLACK, ""),
 }
-# Kinds of motions that have not settled, by outcome.
+# Outcome of a motion that has not settled -> kind of motion.
 OUTCOMES = {
     "quasi_periodic": "quasi-periodic",
     "non_colliding": "no contact",
@@ -38,8 +38,8 @@ INTERVAL = {"color": style.BLACK, "linewidth": 0.6}
 def shares(data, axes=None):
     """Draw the shares of random starts that lead to each motion, stacked, with 95 % intervals.
 
-    A motion keeps its colour over all values; further motions of a kind are paler, and
-    of period 1 also hatched.
+    A motion has one colour at all frequencies or clearances. Further motions of the same kind are
+    paler. Further motions of period 1 are also hatched.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def shares(data, axes=None):
 
 
 def _look(kind, rank):
-    """Return the look of a motion, the `rank`-th of its kind counted from 0."""
+    """Return the look of a motion. `rank` counts the motions of a kind from 0."""
     colour, hatch = LOOKS[kind]
     if rank and kind == "period 1":
         hatch = "----"  # pale blue alone resembles another kind
@@ -92,7 +92,7 @@ def _look(kind, rank):
 
 
 def _ranked_motions(data):
-    """Return kind, rank (by starts) and mask of the motions that random starts lead to, by kind."""
+    """Return kind, rank (0 for most starts) and mask of each motion that starts reach, by kind."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:
@@ -107,7 +107,7 @@ def _ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Return the mask of a motion by kind; chaos is a transient where one of its runs ended."""
+    """Return the mask of a motion by kind. Chaos that ended in one of its runs is transient."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0

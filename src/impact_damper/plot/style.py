@@ -1,6 +1,6 @@
 """Common look of all figures: fonts, colours, roles of curves, labels, legends, files.
 
-The palette is the one of Okabe and Ito; roles also differ in marker or line style.
+The palette is the one of Okabe and Ito. Roles also differ in marker or line style.
 """
 
 import re
@@ -32,7 +32,7 @@ STYLE = {
     "legend.frameon": False,
     "legend.handlelength": 2.4,
     "legend.columnspacing": 1.4,
-    # A search for a position clear of the ticks would take a fifth of the drawing time.
+    # Without this fixed position, matplotlib searches for one in a fifth of the drawing time.
     "axes.titley": 1.0,
     "axes.linewidth": 0.6,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
@@ -59,7 +59,7 @@ def line(label, color, **look):
 
 
 def markers(label, color, marker, **look):
-    """Return the look of markers without a line, open unless `look` fills them."""
+    """Return the look of markers without a line. The markers are open unless `look` fills them."""
     look = {"linestyle": "none", "markerfacecolor": "none"} | look
     return {"label": label, "color": color, "marker": marker, **look}
 
@@ -69,7 +69,7 @@ def shading(label, color):
     return {"label": label, "facecolor": color, "linewidth": 0, "zorder": 0}
 
 
-# Look of each role, the meaning of a curve in a frequency response.
+# Look of each role (what a curve in a frequency response means).
 ROLES = {
     "free_stable": line("free, stable", BLACK, zorder=2.2),
     "free_unstable": line("free, unstable", GREY, linestyle=DASHED, zorder=2.1),
@@ -105,7 +105,7 @@ ROLES = {
     "band": shading("suppression band (harmonic balance)", PALE_YELLOW),
 }
 
-# Colour, dashes and marker of curves that differ in the value of a parameter only.
+# Colour, dashes and marker of curves that differ only in the value of a parameter.
 CURVES = [
     (BLUE, "-", "o"),
     (VERMILION, (0, (5, 2)), "s"),
@@ -129,7 +129,7 @@ def figure(column, height) -> Figure:
 
 
 def grid(count, row, rest, columns=2, **shared):
-    """Return a figure and its lettered axes; a row is `row` inches high, all else `rest`."""
+    """Return a figure and its lettered axes. A row is `row` inches high, the rest `rest` inches."""
     columns = min(columns, count)
     rows = -(-count // columns)
     drawn = figure("double", rest + row * rows)
@@ -153,12 +153,12 @@ def points(index) -> dict:
 
 
 def draw(axes, x, y, *, label=None, **look) -> None:
-    """Plot a line, without its label if the axes have it already."""
+    """Plot a line. The label is left out if the axes already have it."""
     axes.plot(x, y, label=once(axes, label), **look)
 
 
 def once(axes, label):
-    """Return a label, or None if an artist of the axes has it: `axes.legend()` lists it once."""
+    """Return a label, or None if the axes already have it. A legend then lists the label once."""
     return None if label in axes.get_legend_handles_labels()[1] else label
 
 
@@ -172,7 +172,7 @@ def parameter_label(parameters, *names, separator=", ") -> str:
 
 
 def axis_label(variable, words=None) -> str:
-    """Return the description (or other `words`), symbol and units of a DataArray as a label."""
+    """Return a label of a DataArray: its description (or `words`), symbol and units."""
     words, units = words or variable.attrs["long_name"], variable.attrs["units"]
     label = words[0].upper() + words[1:]
     if "symbol" in variable.attrs:
@@ -207,8 +207,8 @@ def legend(figure, columns) -> None:
 def save_figure(figure, path) -> None:
     """Write `path`.pdf and `path`.png, each complete or not at all, reproducible to the byte.
 
-    The layout is computed once, so that both files show the same picture. With the layout engine
-    "none" in place of None matplotlib would draw twice for each file.
+    The layout is computed once, so that both files show the same picture. The layout engine is
+    then None. With the engine "none", matplotlib would draw each file twice.
     """
     with context():
         if figure.get_layout_engine() is not None:

@@ -20,15 +20,15 @@ OPTIMUM = style.markers(
 STAR = OPTIMUM | {"markeredgewidth": 0.5, "markersize": 7.5}
 NEAR = style.line("at most 10 % larger", style.GREY, marker="|", linewidth=0.6, zorder=3)
 BALANCE = style.line("lines: $|a|$ by equations (7)", style.GREY)
-# Parameters that the legend names if they differ between the curves; the last one always.
+# Parameters in the legend: the last one always, the others if they differ between the curves.
 VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 
 
 def sweep(data, axes=None):
     """Draw the largest displacement of the quiet motion against clearance, and its minimum.
 
-    Points are the exact motion. The lines are the amplitude by harmonic balance; with inelastic
-    contact, and for a machine, they join the points.
+    Points show the exact motion. Lines show the amplitude by harmonic balance. With inelastic
+    contact, and for a machine, the lines join the points.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def sweep(data, axes=None):
     if len(sweeps) > len(style.CURVES):
         raise TypeError(f"data = {len(sweeps)} datasets: must be at most {len(style.CURVES)}")
     with sheet(axes) as (axes,):
-        # Legend: each curve with its own line; entries that hold for all curves are grey.
+        # The legend has one entry for each curve. Entries that hold for all curves are grey.
         for index, words in enumerate(_titles(sweeps)):
             axes.plot([], [], **style.points(index) | style.curve(index), label=words)
         if any(map(_balanced, sweeps)):
@@ -75,7 +75,7 @@ def _balanced(sweep):
 
 
 def _draw_sweep(axes, sweep, index):
-    """Draw a sweep: points, line with the optimum inserted, and the range of clearances near it."""
+    """Draw a sweep: points, a line with the optimum inserted, and clearances near the optimum."""
     clearance, size = sweep["clearance"].values, sweep["quiet_displacement"].values
     best, least = float(sweep["optimum_clearance"]), float(sweep["optimum_displacement"])
     color = {"color": style.curve(index)["color"], "label": None}
@@ -101,7 +101,7 @@ def _titles(sweeps):
 
 
 def _parameters(sweep):
-    """Return the parameters that may differ between sweeps as text, the damper's mass last."""
+    """Return the parameters that may differ between sweeps as texts. The damper's mass is last."""
     values = parameters_of(sweep)
     if "machine" not in sweep.attrs:
         return [style.parameter_label(values, name) for name in VARIED]

@@ -1,4 +1,4 @@
-"""The numbers of a design that its page and its conclusion show, for the templates."""
+"""Numbers for the templates of the page and of the conclusion of a design."""
 
 import json
 from types import SimpleNamespace
@@ -11,11 +11,11 @@ from impact_damper.data.sweeps import runs_of_true
 from impact_damper.model.text import number, percent, with_unit
 from impact_damper.plot.machine_figures import ENDLESS
 
-# The decay time of an unforced vibration is the time until it has fallen to this fraction.
+# Fraction of the first displacement to which an unforced vibration falls in the decay time.
 DECAY = 0.1
-# A range of gaps that ends this close beyond the tolerance is said to end with it.
+# Relative distance up to which a range of gaps is said to end at the end of the tolerance.
 NEAR = 0.01
-# Additions and quantities as the page calls them.
+# Names on the page of additions to the decision and of quantities.
 ADDITIONS = {
     "response": "motions and forces at the gap",
     "orbits": "the quiet orbit over the gap",
@@ -34,10 +34,10 @@ QUANTITIES = {
     "damping": "damping",
     "force": "excitation",
 }
-# Rows of tables: name of a variable or key, description, unit, factor of the unit, and key of the
-# tolerance.
+# Columns of tables: name of a variable or key, description, unit, factor (GIVEN divides by it,
+# COSTS multiplies by it), key of the tolerance.
 TABLES = {
-    # A loose mass that hits a wall less often in a cycle is ballast.
+    # Number of impacts in a cycle, below which the loose mass is only ballast.
     "HARDLY": 0.2,
     "GIVEN": (
         ("mass", "mass without the loose mass", "kg", 1, None),
@@ -69,7 +69,7 @@ TABLES = {
 
 
 def size(value, unit="mm", digits=3) -> str:
-    """Return a size with its unit; "escapes" for a motion that escapes, "not known" for NaN."""
+    """Return a number with its unit, "escapes" for a motion that escapes, "not known" for NaN."""
     if np.isnan(value):
         return "not known"
     escapes = np.isinf(value) or (unit == "mm" and value >= ENDLESS)
@@ -135,14 +135,14 @@ def numbers_of(data) -> dict:
 
 
 def _hits(data) -> float:
-    """Return the largest number of impacts in a cycle over the band, NaN if it is not known."""
+    """Return the largest number of impacts in a cycle over the band, or NaN if it is unknown."""
     if "impact_rate_by_frequency" not in data:
         return np.nan
     return float((data["impact_rate_by_frequency"] / data["frequency"]).max())
 
 
 def _peak(data, name) -> SimpleNamespace:
-    """Return the largest value of a variable over the band, and its frequency; NaN if unknown."""
+    """Return the largest value of a variable over the band and its frequency, or NaN for both."""
     if name not in data or np.isnan(data[name]).all():
         return SimpleNamespace(size=np.nan, frequency=np.nan)
     k = int(np.nanargmax(data[name].values))
@@ -150,7 +150,7 @@ def _peak(data, name) -> SimpleNamespace:
 
 
 def _worst_values(data):
-    """Return the deviations of the values at which the promised displacement is reached."""
+    """Return texts of the deviations of the values that lead to the promised displacement."""
     factors = data["promise_factor"].values[int(data["promised_set"])]
     return [
         f"{QUANTITIES[str(name)]} {'+' if factor > 1 else '-'}{percent(abs(factor - 1))}"
@@ -160,7 +160,7 @@ def _worst_values(data):
 
 
 def _condition(data, tolerated):
-    """Return what first breaks the promise: the nearest end of its gaps, or another excitation."""
+    """Return the nearest change that breaks the promise: of the gap, or of the excitation."""
     gap, promised = float(data["design_gap"]), float(data["promised_displacement"])
     found = []
     kinds = decode(data["keeping_end"]).values
@@ -206,7 +206,7 @@ def _worse(data, nominal):
 
 
 def _other_mass(data, asked):
-    """Return another mass that meets the limit or is worth building, if this one is not."""
+    """Return another loose mass that meets the limit or is worth building; None if not needed."""
     missed = named(data, "limit_status") == "missed"
     fails = missed or named(data, "decision") == "do_not_build"
     if "other_mass" not in data or not fails:
@@ -222,7 +222,7 @@ def _other_mass(data, asked):
 
 
 def _masses(data, asked):
-    """Return the rows of dampers with other masses."""
+    """Return the table rows of dampers with other loose masses."""
     if "other_mass" not in data:
         return []
     names = ("other_mass", "other_gap", "other_displacement", "other_force")

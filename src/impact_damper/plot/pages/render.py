@@ -18,19 +18,19 @@ from impact_damper.plot.pages.numbers import numbers_of, size
 
 # Dots per inch: 1540 pixels for a figure of 7 inches, so that pages never enlarge it.
 DPI = 220
-# Begin of the line by which a page of this package is recognised.
+# Start of the line of HTML by which a page of this package is recognised.
 GENERATOR = '<meta name="generator" content="impact-damper'
 
 
 def conclusion(data) -> list[str]:
-    """Return the answer of a design in paragraphs, for a result of `design_damper`."""
+    """Return the conclusion of a result of `design_damper` in paragraphs."""
     return _conclusion(numbers_of(data))
 
 
 def write_page(name, data, folder, file=None, date="", figures=FIGURES) -> None:
-    """Write the page of the machine `name`, `index.html`, into a folder.
+    """Write `index.html`, the page of the machine `name`, into a folder.
 
-    `file` is the name of the file of `data`, by default that of the pipeline. `figures` has
+    `file` is the name of the file of `data`, by default `name`.nc. `figures` maps names to
     functions that return a figure of `data` or None.
     """
     drawn = {each: draw(data) for each, draw in figures.items()}
@@ -40,7 +40,7 @@ def write_page(name, data, folder, file=None, date="", figures=FIGURES) -> None:
 
 
 def page_of(name, data, pictures, file=None, date="") -> str:
-    """Return the page in HTML; `pictures` are the figures as PNG by name."""
+    """Return the page in HTML. `pictures` maps names of figures to PNG data."""
     numbers = numbers_of(data)
     numbers |= {
         "title": f"Impact damper for the machine {name.replace('_', ' ')}",
@@ -86,6 +86,6 @@ def _environment(escaping):
 
 
 def _one_line(text):
-    """Return a text in one line; escaped text stays escaped."""
+    """Return a text in one line. Escaped text stays escaped."""
     joined = " ".join(str(text).split())
     return Markup(joined) if isinstance(text, Markup) else joined
