@@ -15,7 +15,19 @@ from impact_damper.data.datasets import flag
 from impact_damper.design.task import labelled
 from impact_damper.kernel.equation import energy
 from impact_damper.model.families import FORCING
-from impact_damper.model.packed import FREQUENCY, cubic_spring, pack
+from impact_damper.model.machine import static_deflection
+from impact_damper.model.packed import (
+    CLEARANCE,
+    CONTACT_STIFFNESS,
+    CUBIC,
+    FREQUENCY,
+    FRICTION,
+    GRAVITY,
+    INVERSE_MASS_RATIO,
+    STIFFNESS,
+    cubic_spring,
+    pack,
+)
 from impact_damper.motions.records import envelope
 
 # The machine without the damper, and with it.
@@ -130,12 +142,13 @@ def decay(machine, damper, displacement):
     """
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
-    p = pack(machine.oscillator(), scaled, 1.0)
+    oscillator = machine.oscillator()
+    p = pack(oscillator, scaled, 1.0)
     p[list(FORCING.values())] = 0.0
     y = np.array([scales.from_si(displacement, "displacement"), 0.0, 0.0, 0.0])
-    rest, rows, begin, end = energy.py_func(p, REST * y), [], 0.0, "limit"
+    rest, rows, begin, end = energy.py_func(pack(oscillator, None, 1.0), REST * y), [], 0.0, "limit"
     while len(rows) < MOST_WINDOWS:
-        left = energy.py_func(p, y)
+        left = energy.py_func(p, y) - lowest_energy(p, y)
         if left <= rest:
             end = "at_rest"
             break
@@ -148,6 +161,18 @@ def decay(machine, damper, displacement):
         begin += length
     units = [scales.to_si(1.0, each) for each in ("time", "frequency", "displacement")]
     return np.array(rows) * [*units, 1.0], end
+
+
+def lowest_energy(p, y) -> float:
+    """Return the energy at rest, with the loose mass where it sticks or gravity holds it."""
+    if not p[INVERSE_MASS_RATIO]:
+        return 0.0
+    weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]
+    x = -math.copysign(static_deflection(abs(weight), p[STIFFNESS], p[CUBIC]), weight)
+    depth = abs(weight) / p[CONTACT_STIFFNESS]
+    z = math.copysign(p[CLEARANCE] + depth, weight) if weight else 0.0
+    z = y[2] if p[FRICTION] and y[3] == 0 else z
+    return energy.py_func(p, [x, 0.0, z, 0.0])
 
 
 def _window(p, left):

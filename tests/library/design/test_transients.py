@@ -182,6 +182,15 @@ def test_a_damper_acts_as_scipy_says():
     assert contacts.sum() > 20
 
 
+@pytest.mark.parametrize("coefficient", [0, 0.5])
+def test_a_vertical_damper_comes_to_rest_under_its_weight(coefficient):
+    """Then the spring carries the loose mass: m2 g/k = 0.029 mm."""
+    mount = {"inclination": "90 deg", "friction_coefficient": coefficient, "normal_force": 2}
+    rows, end = decay(LINEAR, LINEAR.damper(**DAMPER, mount=mount), 0.01)
+    assert end == "at_rest"
+    assert 0.6 * 9.81 / 2e5 < rows[-1, 2] < 0.6 * 9.81 / 2e5 + 2e-5
+
+
 def test_every_end_is_told():
     soft = idm.Machine(**SPRING, cubic_stiffness=-4e9, force=40)
     barrier = math.sqrt(2e5 / 4e9)
