@@ -240,10 +240,9 @@ def tabulate(records):
 def envelope(parameters, lengths, y, tolerance):
     """Run a motion through n windows of time, with packed parameters (n, COUNT) and `lengths` (n,).
 
-    Return the largest |Z1| and the number of contacts begun in each window. They are infinite and
-    NaN in the window of an escape, and NaN in later windows. The last state replaces y. Each window
-    begins at the strobe, where the force is zero, so the frequency can change there. With forcing,
-    a window is one forcing cycle.
+    Return the largest |Z1| and the number of contacts begun in each window: infinite and NaN at an
+    escape, both NaN later. The last state replaces y. A window begins at the strobe, where the
+    force is zero, so the frequency can change there. With forcing a window is one cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)

@@ -37,9 +37,8 @@ CRITICAL, COMPLEX, CLOSE = 0.98, 1e-3, 0.05
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
     """Find all motions along a sweep of one parameter; return a dict of registered variables.
 
-    The rows of packed `parameters` differ in the column `index`; the parameter there is named
-    `dimension`. The dimensions are (dimension, motion) for motions, (dimension, start) for runs,
-    and (end) for ends of branches.
+    The rows of packed `parameters` differ in the column `index`, which is named `dimension`.
+    Motions have dimensions (dimension, motion), runs (dimension, start), ends of branches (end).
     """
     size, starts = search.random.shape[:2]
     rows, states = np.repeat(parameters, starts, axis=0), search.random.reshape(-1, 4)

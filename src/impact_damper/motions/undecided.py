@@ -174,9 +174,8 @@ def _on_orbit(p, record, states, contacts, limit):
 def _quasi_periodic(p, record, states, mean, error):
     """Return QUASI_PERIODIC if the states move along closed curves, otherwise UNRESOLVED.
 
-    `find_rotation` fails on a curve that has corners, where contacts begin or end, and on a curve
-    that does not enclose its centre. So the function tries every curve in the planes of (Z1, Z1')
-    and (Z2, Z2').
+    `find_rotation` fails on a curve that has corners, where contacts begin or end, or does not
+    enclose its centre. So every curve is tried, in the planes (Z1, Z1') and (Z2, Z2').
     """
     if abs(mean) > NEUTRAL * error:
         return records.UNRESOLVED

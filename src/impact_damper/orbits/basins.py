@@ -27,9 +27,9 @@ from impact_damper.orbits.robustness import Labelled, robustness
 WIDTH = 1.5
 # Number of states on each axis of the grid of first guesses for unstable orbits.
 NEWTON = 16
-# Number of states without a known attractor from which further attractors are searched for.
+# Number of unresolved states from which further attractors are searched for.
 TRIED = 64
-# Places of the loose mass over which a plane is averaged, as fractions of the clearance.
+# Z2 of the loose mass, divided by the clearance. Every state of the plane is run with each value.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
 CELLS_RANGE = {"least": 2, "most": 10**4}
 # Default phase W T of the forcing at which the states are given.
@@ -73,34 +73,34 @@ def basins(
         Phase W T of the forcing at which the states are given, radian.
     loose : sequence of float, optional
         With a damper: Z2 and Z2' of all states. By default each state is run five times, with the
-        loose mass at rest relative to the primary at five places in the gap, and gets the share of
-        places from which it leads to each attractor.
+        loose mass at relative rest at five places in the gap. The result is the share of places
+        that lead to each attractor.
     shock : float, optional
-        Impulse on the primary mass, N s for a machine, otherwise divided by this mass; the time is
-        wanted in which a motion returns to each attractor.
+        Impulse on the primary mass, N s for a machine, otherwise divided by the primary mass. The
+        result is the time after which a motion on an attractor has returned to the attractor.
     within : int
-        Forcing cycles of the finite-time basin stability.
+        Time limit of the finite-time basin stability, in forcing cycles.
     settling : Settling, optional
     workers : int
-        Threads; the result does not depend on it.
+        Number of threads. The result does not depend on this number.
     progress : str, optional
         Title of a progress bar.
 
     Returns
     -------
     xarray.Dataset
-        For each state of the grid the number of the attractor to which it leads, or a negative
-        number with the reason why it leads to none, and the convergence time in forcing cycles,
-        after which this is known. For each attractor its period, size, points at the phase of the
-        plane, and share of the states; in the terms of Attractors.jl also
+        For each state of the grid: the number of its attractor, or a negative flag with the reason
+        why there is none; and the convergence time, the forcing cycles until this is known. For
+        each attractor: period, size, points at the phase of the plane, share of the states, and
+        (in the terms of Attractors.jl)
 
-        - the median convergence time, and the longest one after `shock`, infinite if it leads away;
-        - the finite-time basin stability, the share of states that lead to it `within` some cycles;
-        - the minimal critical shock, the smallest impulse at the phase of the plane that leads away
-          or into lasting chaos, by steps of 1/256 of the largest |Z1'| of the plane, then refined.
+        - the median convergence time, and the longest after `shock`, infinite without a return;
+        - the finite-time basin stability: the share of states that converge `within` the limit;
+        - the minimal critical shock: the smallest impulse at the phase of the plane after which the
+          motion does not return. The search begins with 256 steps to the plane's largest |Z1'|.
 
-        Without a damper also unstable orbits with the periods of the attractors, and their stable
-        manifolds, the boundaries of basins.
+        Without a damper: unstable orbits with the periods of the attractors, and the stable
+        manifolds of these orbits, which are the boundaries of basins.
 
     Raises
     ------
@@ -165,9 +165,9 @@ def _sides(scales, sizes, displacement, velocity):
 
 
 def _free(p, plane, window, reach, phase, cells, settling, running):
-    """Return the variables of the plane without a damper, and the labels of its states.
+    """Return the variables of the plane without a damper, and a `Labelled` of its states.
 
-    Stable manifolds are followed within the half widths `reach`.
+    `reach` holds the half widths of the region in which stable manifolds are followed.
     """
     attractors = free_attractors(p, reach / 2, settling)
     limits = settling.tolerance, settling.limit
@@ -192,7 +192,7 @@ def _free(p, plane, window, reach, phase, cells, settling, running):
 
 
 def _joined(p, attractors, more):
-    """Return `attractors` together with the attractors in `more` that are new."""
+    """Return `Attractors` of `attractors` and of those in `more` that are new."""
     new = [
         record
         for index, record in enumerate(more.records)
@@ -235,7 +235,7 @@ def boundary_data(p, attractors, window, reach, phase, cells, settling):
 
 
 def _damped(p, plane, damper, phase, cells, loose, settling, running):
-    """Return the variables of the plane with a damper, and the labels of its states."""
+    """Return the variables of the plane with a damper, and a `Labelled` of its states."""
     if loose is None:
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:
@@ -262,7 +262,7 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
 
 
 def _attractor_data(p, found, phase):
-    """Return the variables of the attractors, from their records and the labels of the states."""
+    """Return the variables of the attractors in a `Labelled`."""
     records = found.records
     shares = [np.mean(found.labels == index) for index in range(len(records))]
     points = np.full((len(records), max(records["period"], default=1), 2), np.nan)

@@ -9,17 +9,16 @@ from scipy.optimize import brentq
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.orbits.continuation import Point, point_at_distance
 
-# A place is a distance along the branch from the beginning of the step.
-# FINE: largest tolerance of the place of a bifurcation, divided by the length of the step.
-# PLACE: tolerance of the place of a change of contact; relative for steps longer than 1.
+# The place of an event is its distance from the beginning of a step, along the branch.
+# Largest tolerance of the place of a bifurcation, divided by the length of the step.
 FINE = 1e-3
+# Tolerance of the place of a change of contact, divided by the length of a step longer than 1.
 PLACE = 1e-12
-# A multiplier is complex if its imaginary part exceeds COMPLEX.
+# Smallest imaginary part of a complex multiplier.
 COMPLEX = 1e-6
-# If the modulus of a multiplier exceeds 1 + NEAR_CIRCLE at a bifurcation, the orbits on both sides
-# are unstable.
+# Largest modulus of a multiplier at a bifurcation, minus 1, for which one side may be stable.
 NEAR_CIRCLE = 1e-3
-# A flight between two contacts is about to vanish if it is shorter than MERGED forcing cycles.
+# Longest flight, in forcing cycles, between two contacts that merge.
 MERGED = 1e-3
 # Largest number of changes of contact that are located on one step.
 MOST_CHANGES = 8
@@ -28,10 +27,10 @@ PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 
 
 class Event(NamedTuple):
-    """An event of a branch, with the walls touched (`Orbit.sequence`) before and after it.
+    """An event of a branch, with the walls touched (`Orbit.sequence`) before and after the event.
 
-    At a grazing a contact appears or vanishes in flight; at a merging two contacts with one wall
-    become one. The other kinds are those of TESTS.
+    At a grazing a contact appears or vanishes in flight. At a merging two contacts with one wall
+    become one, or the reverse. The other kinds are those of TESTS.
     """
 
     kind: str
@@ -41,22 +40,22 @@ class Event(NamedTuple):
 
 
 def _fold(point):
-    """Return the component of the tangent along the parameter, which is zero at a fold."""
+    """Return the parameter's component of the tangent, which is zero at a fold."""
     return point.tangent[-1]
 
 
 def _reversal(point, symmetric):
-    """Return the product of mu + 1 over the multipliers mu of a cycle, or 1 for other orbits.
+    """Return the product of mu + 1 over the multipliers mu of a cycle.
 
-    A multiplier is -1 where a `symmetric` orbit, whose cycle is half its period, loses its
-    symmetry, and where another orbit doubles its period.
+    The cycle of a symmetric orbit is half its period. The orbit loses its symmetry where mu = -1.
+    Another orbit doubles its period there. If the orbit is not of the kind `symmetric`, return 1.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0
 
 
 def _pairs(point):
-    """Return the product of mu_i mu_j - 1 over all pairs: 0 if a conjugate pair has modulus 1."""
+    """Return the product of mu_i mu_j - 1 over all pairs, 0 if a conjugate pair has modulus 1."""
     values = point.orbit.multipliers[: point.orbit.active]
     first, second = PAIRS[len(values)]
     return _product(values[first] * values[second] - 1)
@@ -67,9 +66,9 @@ def _product(values):
     return float((values / np.maximum(1, np.abs(values))).prod().real)
 
 
-# For each kind of bifurcation the test function of a point, which is zero at the bifurcation, and
-# the tolerance of the place of the zero. At a fold the parameter changes with the square of the
-# distance, and Newton's method is nearly singular.
+# For each kind of bifurcation: the function of a point whose zero is the bifurcation, and the
+# tolerance of the place of the zero. The tolerance is larger at a fold: Newton's method is nearly
+# singular there, and the parameter changes with the square of the distance.
 TESTS = {
     "fold": (_fold, 1e-7),
     "symmetry_breaking": (partial(_reversal, symmetric=True), 1e-11),
@@ -79,7 +78,7 @@ TESTS = {
 
 
 def bifurcations_between(point_at, start, end, first, last):
-    """Locate all bifurcations between two points of a branch."""
+    """Locate the bifurcations between two points; return (place, event) pairs and number lost."""
     located, lost = [], 0
     for kind, (test, precision) in TESTS.items():
         if test(start) * test(end) >= 0:
@@ -96,7 +95,7 @@ def bifurcations_between(point_at, start, end, first, last):
             place = brentq(value, first, last, xtol=tolerance)
             point = known[place]
             if not point.orbit.stable and abs(point.orbit.multipliers[0]) < 1 + NEAR_CIRCLE:
-                # The point is moved to the stable side of the bifurcation, if one side is stable.
+                # Move the point to the stable side of the bifurcation, if there is one.
                 sides = (place - 2 * tolerance, place + 2 * tolerance)
                 beside = [point_at(side) for side in sides if (side - first) * (side - last) < 0]
                 point = next((each for each in beside if each.orbit.stable), point)
@@ -110,7 +109,7 @@ def bifurcations_between(point_at, start, end, first, last):
 
 
 def events_between(start, end, length):
-    """Locate all events on a step, at most MOST_CHANGES of them changes of contact."""
+    """Locate the events on a step; return a list of them, and the number of events lost."""
 
     known = {0.0: start, length: end}
 
@@ -133,7 +132,7 @@ def events_between(start, end, length):
 
 
 def _is_complex_pair(multipliers):
-    """Return whether the two multipliers whose product is nearest to 1 are a conjugate pair."""
+    """Return whether those two multipliers with the product nearest to 1 are a conjugate pair."""
     values = multipliers[np.isfinite(multipliers)]
     first, second = PAIRS[len(values)]
     k = np.argmin(np.abs(values[first] * values[second] - 1))
@@ -142,7 +141,7 @@ def _is_complex_pair(multipliers):
 
 
 def _changes_of_contact(point_at, start, end, length):
-    """Return distance and event of each change of the sequence of walls, found by bisection."""
+    """Return (place, event) pairs of the changes of `Orbit.sequence` on a step, by bisection."""
     located, inner, before = [], 0.0, start.orbit.sequence
     while before != end.orbit.sequence and len(located) < MOST_CHANGES:
         outer, after = length, end.orbit
@@ -155,7 +154,7 @@ def _changes_of_contact(point_at, start, end, length):
                 inner = middle
             else:
                 outer, after = middle, orbit
-        # The event is stored with the orbit of the side on which the contact exists.
+        # Store the event with the orbit on the side with more contacts.
         sides = point_at(inner), point_at(outer)
         point = max(sides, key=lambda side: len(side.orbit.sequence))
         kind = _contact_event(point.orbit)
@@ -165,9 +164,9 @@ def _changes_of_contact(point_at, start, end, length):
 
 
 def _contact_event(orbit):
-    """Return the kind of event at which the slowest contact of an orbit appeared.
+    """Return the kind of event at which the slowest contact of an orbit appears.
 
-    It is a merging if a very short flight follows another contact with the same wall.
+    It is a merging if only a very short flight separates the contact from one with the same wall.
     """
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))

@@ -1,6 +1,6 @@
 """Boundaries of the free oscillator's basins, which are stable manifolds of its unstable orbits.
 
-A manifold is computed backwards in time, where all nearby curves approach it, so errors shrink.
+A manifold is computed backwards in time. All nearby curves approach it then, so errors decrease.
 """
 
 import math
@@ -11,15 +11,15 @@ from impact_damper.kernel.batch import advance
 from impact_damper.model.packed import DAMPING, FREQUENCY
 from impact_damper.orbits.shooting import find_orbit
 
-# Distance from the saddle at which the segment begins, in units of Z1 and Z1'.
+# Distance from the saddle at which a manifold begins, in units of Z1 and Z1'.
 NEAR = 1e-5
-# Largest numbers on each side of a saddle: forcing cycles, points within the window, points within
-# the reach, and halvings of an interval between neighbouring points.
+# Largest numbers on each side of a saddle: periods, points within the window, points within the
+# reach, and halvings of an interval between neighbouring points.
 MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
 # Largest distance of neighbouring points outside the window, divided by the reach.
 OUTSIDE = 0.01
-# Two orbits are the same if their states differ by less than SAME.
+# Largest difference between the states of equal orbits.
 SAME = 1e-6
 # Number of states in one call of the kernel. Ctrl-C waits for the end of the call.
 CHUNK = 4096
@@ -47,9 +47,9 @@ def images(orbit):
 
 
 def run_backwards(p, states, phase, tolerance, reach):
-    """Return the states one forcing cycle before the given states; NaN for states beyond the reach.
+    """Return the states one forcing cycle before given states, or NaN for states beyond the reach.
 
-    With reversed velocity, the oscillator obeys the equation with negative damping.
+    Backwards in time, with the velocity reversed, the equation is the same with negative damping.
     """
     reverse = p.copy()
     reverse[DAMPING] = -p[DAMPING]
@@ -68,7 +68,7 @@ def run_backwards(p, states, phase, tolerance, reach):
 
 
 def stable_manifold(orbit, tolerance, window, spacing, reach):
-    """Return the stable manifold of a saddle within a window."""
+    """Return a saddle's stable manifold in a window, in pieces, and whether it is complete."""
     values, vectors = np.linalg.eig(orbit.monodromy[:2, :2])
     k = int(np.argmin(np.abs(values)))
     direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)
@@ -120,7 +120,7 @@ def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
 def _wide(states, window, spacing, reach):
     """Return the mask of the pairs of neighbouring states that are too far apart.
 
-    A pair with an unknown state (NaN) counts only if the known one lies in the window or near it.
+    A pair with an unknown state (NaN) is too far apart if the known one lies in or near the window.
     """
     apart = np.abs(np.diff(states, axis=0))
     inside = np.all(np.abs(states) <= window + 2 * spacing, axis=1)

@@ -13,32 +13,30 @@ from impact_damper.orbits.grazing import through_grazing
 
 # Largest number of orbits in one direction.
 MOST_POINTS = 10_000
-# Orbits at one parameter are the same if their states at W T = pi/2 differ by less than SAME.
+# Largest difference at W T = pi/2 between states of equal orbits.
 SAME = 1e-5
-# `Branch.holds` compares an orbit with a step of the branch only if max |Z1| on the step comes
-# within NEARBY of max |Z1| of the orbit.
+# Largest difference between max |Z1| of an orbit and of a step on which `Branch.holds` searches it.
 NEARBY = 0.02
-# A family without values beyond the span is continued linearly to this distance.
+# Largest distance from the span of the parameter to which a family is continued linearly.
 EXTENDED = 1e-3
-# If a branch cannot be followed further and all speeds at the beginnings of contacts are below
-# WEAK, it has reached a motion without contacts.
+# Largest speed at which a contact begins on the last orbit of a branch that loses its contacts.
 WEAK = 0.02
-# A branch meets a branch of more symmetry at a fold if the largest deviation at the fold is less
-# than VANISHED times that of the point before.
+# Largest ratio of the deviation (`Orbit.deviation`) at a fold to that of the point before, if the
+# branch meets a branch of more symmetry at the fold.
 VANISHED = 0.5
-# If a step shorter than CLOSE_STEP fails, a grazing is searched for within REACH times its length.
+# Longest failed step after which a grazing is searched for; reach of the search, in step lengths.
 CLOSE_STEP, REACH = 2e-3, 8.0
-# A step is halved, down to CLEAR_STEP, if an event on it is not located, if it may hide two
-# bifurcations, or if another branch may cross it unseen.
+# Shortest step that is halved if an event on it is not located, if it may contain two folds, or if
+# it may cross another branch.
 CLEAR_STEP = 1e-4
 
 
 @dataclass(frozen=True)
 class Branch:
-    """A branch of orbits, whose `family` maps the parameter to packed parameters.
+    """A branch of orbits. The function `family` maps the parameter to packed parameters.
 
-    `events` have the index of their point. `ends` are the reasons why the branch ends before the
-    first and after the last point: at an end of the range, as a closed curve, at a branch of more
+    `events` are pairs of the index of a point and an event. `ends` are the reasons why the branch
+    ends at its first and last point: at an end of the range, as a closed curve, at a branch of more
     symmetry (symmetry_breaking, period_doubling), at a motion without contacts (contact_lost),
     where Newton's method fails (lost), or after MOST_POINTS or too many unstable orbits. `lost` is
     the number of events that could not be located.
@@ -61,7 +59,7 @@ class Branch:
         return np.array([point.orbit.record["maximum_displacement"] for point in self.points])
 
     def holds(self, orbit, value) -> bool:
-        """Return whether an orbit lies on the branch, on a step across this value."""
+        """Return whether an orbit at a value of the parameter lies on the branch."""
         if orbit.periods != self.points[0].orbit.periods:
             return False
         away = self.values - value
@@ -78,14 +76,14 @@ class Branch:
 
 
 def between(point, ahead, value):
-    """Return the point at a value on the step between two points; None if Newton's method fails."""
+    """Return the point at a value between two points of a branch; None if Newton's method fails."""
     if np.array_equal(point.problem.phases, ahead.problem.phases):
         return continuation.point_at_value(point, ahead, value)
     return point.problem.at_value(point, value)
 
 
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
-    """Follow a branch from an orbit in both directions of a parameter."""
+    """Follow a branch from an orbit both ways, each up to `beyond` unstable points in a row."""
     family = _extended(family, span)
     problem = continuation.Problem.of(family, orbit)
     walks = []
@@ -108,7 +106,7 @@ def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
 
 
 def _extended(family, span):
-    """Return the family, continued linearly by EXTENDED beyond the bounds of the parameter."""
+    """Return the family, continued linearly by up to EXTENDED beyond bounds of the parameter."""
 
     def extended(value):
         try:
@@ -126,7 +124,7 @@ def _extended(family, span):
 
 
 def _walk(problem, first, span, beyond) -> Branch:
-    """Follow a branch from the point `first` along its tangent; its first end is ""."""
+    """Follow a branch from `first` along its tangent; return a `Branch` with the first end ""."""
     points, events, lost, end, idle = [first], [], 0, "", 0
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
         outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0
@@ -171,10 +169,10 @@ def _walk(problem, first, span, beyond) -> Branch:
 
 
 def _next_pieces(point, span, length, search):
-    """Return the pieces (`_through_grazing`) of the next step; [] if a shorter one must be tried.
+    """Return the pieces (`_through_grazing`) of the next step, [] if it must be shorter.
 
-    The second result is the factor for the length of the following step, the third whether a
-    grazing was searched for, as allowed by `search`.
+    Further results: the factor for the length of the following step, and whether a grazing has been
+    searched for, which `search` allows.
     """
     ahead, factor = continuation.next_point(point, span, length)
     changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
@@ -198,9 +196,9 @@ def _next_pieces(point, span, length, search):
 
 
 def _ending(piece, first, span):
-    """Return why a branch ends on a piece, or "", the events up to there, and if the end's is lost.
+    """Return the reason why a branch ends on a piece, or ""; its events; and the number lost there.
 
-    `first` is the first point of the branch if it may be closed, else None.
+    `first` is the first point of a branch that may be closed, otherwise None.
     """
     start, ahead, located, missed = piece
     met = None
@@ -218,9 +216,9 @@ def _ending(piece, first, span):
 
 
 def _through_grazing(point, reach):
-    """Return the pieces of a branch through the grazing within `reach`; [] if there is none.
+    """Return the pieces of a branch through the grazing within `reach`, [] without a grazing.
 
-    A piece has a point, the next point, the events between them, and the number of lost events.
+    A piece is a point, the next point, the events between them, and the number of lost events.
     """
     passage = through_grazing(point, reach)
     if passage is None:
@@ -240,8 +238,8 @@ def _through_grazing(point, reach):
 def _meeting(events, orbit):
     """Return the index of the event at which a branch meets a branch of more symmetry, or None.
 
-    The deviation vanishes at a meeting, which is a fold of the branch; it may also have turned as a
-    vector, without a meeting. If the meeting was not located, return the number of events.
+    The meeting is a fold of the branch at which the deviation vanishes. The deviation can also turn
+    as a vector without a meeting. If there is no fold, the meeting is lost: return len(events).
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))
@@ -252,7 +250,7 @@ def _meeting(events, orbit):
 
 
 def _loss(last):
-    """Return the reason why a branch ends at its last point, if no next point is found."""
+    """Return the reason why no next point is found after the last point of a branch."""
     orbit = last.orbit
     if orbit.touching and np.max(np.abs(orbit.contacts[:, 3])) < WEAK:
         return "contact_lost"
@@ -260,7 +258,7 @@ def _loss(last):
 
 
 def _passes(point, ahead, first):
-    """Return the first point of a closed branch as found again between two points, or None.
+    """Return the point between two points whose orbit is that of the point `first`, or None.
 
     The parameter must change on the step in the same direction as at the beginning of the branch.
     """

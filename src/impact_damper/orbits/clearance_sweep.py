@@ -54,25 +54,25 @@ def clearance_sweep(
     clearances : sequence of float
         Increasing clearances d0; for a machine on each side, m.
     method : str
-        "simulated", or "harmonic_balance" for the amplitude by (7) and the rules alone, without
-        motions.
+        "simulated" finds the motions. "harmonic_balance" returns only the amplitude by (7) and the
+        rules.
     starts, radius, whole_gap, seed, settling, workers, progress
         As in `frequency_response`, for each clearance.
 
     Returns
     -------
     xarray.Dataset
-        For each (clearance, motion) a motion found, as in a frequency response. For each
-        `clearance` max |Z1| of the quiet motion, of all motions to which starts lead, and the
-        amplitude of the smallest stable solution of (7). Scalars: the optimum of the quiet motion
-        and of (7), and the kind of minimum; the clearances of rules (18) and (19), NaN for (19) if
-        the response without damper has no peak; rm W^2 d0/f at the optimum, and for straight
-        flight. For each `edge` an end of the clearances with max |Z1| within 10 % of its minimum.
+        For each (clearance, motion): a motion, as in a frequency response. For each `clearance`:
+        max |Z1| of the quiet motion, and of all motions to which starts lead; the amplitude of the
+        smallest stable solution of (7). Scalars: the optimum of the quiet motion, its kind, and the
+        optimum of (7); the clearances by rules (18) and (19), NaN for (19) if the response without
+        damper has no peak; rm W^2 d0/f at the optimum, and for straight flight. For each `edge`: an
+        end of the range of clearances in which max |Z1| is within 10 % of its minimum.
 
     Raises
     ------
     TypeError
-        If `damper` is not such a dictionary.
+        If `damper` is neither a damper nor a dictionary of its arguments.
     ValueError
         If clearances are not increasing, or a parameter is out of range.
 
@@ -148,7 +148,7 @@ def clearance_sweep(
 
 
 def _peak_rule(oscillator, mass_ratio):
-    """Return the clearance of rule (19); NaN if the response without damper has no peak."""
+    """Return the clearance by rule (19), or NaN if the response without damper has no peak."""
     try:
         return rule_clearance(oscillator, mass_ratio)
     except ValueError:
@@ -156,10 +156,10 @@ def _peak_rule(oscillator, mass_ratio):
 
 
 def _quiet_motions(data, clearances, rule):
-    """Return state and max |Z1| of the quiet motion at each clearance, NaN without one.
+    """Return states and max |Z1| (NaN if absent) of quiet motions by clearance, and a row or None.
 
-    A quiet motion has period 1, is symmetric and has two contacts per cycle. The branch is the one
-    nearest to the clearance `rule`; the third result is the row nearest to it, or None.
+    A quiet motion has period 1, is symmetric and has two contacts in a cycle. The row is the one
+    with a quiet motion nearest to the clearance `rule`. All quiet motions lie on its branch.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -175,7 +175,7 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return clearances and max |Z1| on the stable part of a branch, and max |Z1| as a function."""
+    """Return clearances and max |Z1| of the stable part of a branch, and max |Z1| as a function."""
 
     def family(clearance):
         changed = p.copy()
@@ -197,10 +197,10 @@ def _stable_part(p, state, span):
     return values, branch.displacements[first:last], size_at
 
 
-# The range of clearances near the minimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
+# Ratio of max |Z1| to its minimum at the ends of the range of clearances near the minimum.
 NEAR_MINIMUM = 1.1
-# Step of the derivative at a smooth minimum, and distance within which it vanishes, divided by the
-# clearance.
+# Step of the difference quotient, and largest distance from the numerical minimum at which its zero
+# is searched for; both divided by the clearance.
 DIFFERENCE, WIDE = 3e-5, 1e-4
 
 
@@ -236,7 +236,7 @@ def minimum_table(values, sizes, size_at, span):
 
 
 def _stationary(size_at, best):
-    """Return the zero of the derivative of max |Z1|, known better than the minimum itself."""
+    """Return the zero of the derivative of max |Z1|, more exact than the minimum `best`."""
     step, reach = DIFFERENCE * best, WIDE * best
 
     def slope(clearance):
@@ -248,9 +248,9 @@ def _stationary(size_at, best):
 
 
 def _kind(size_at, best, least, longest):
-    """Return "smooth" or "kink" for a minimum, from the rise of max |Z1| after a step away from it.
+    """Return "smooth" or "kink" for a minimum, from the rise of max |Z1| over two steps.
 
-    When the step is halved, the rise falls to a quarter at a smooth minimum and to half at a kink.
+    For half the step, the rise is a quarter at a smooth minimum, and half at a kink.
     """
     rises = [
         size_at(best + step) + size_at(best - step) - 2 * least for step in (longest, longest / 2)
@@ -260,7 +260,7 @@ def _kind(size_at, best, least, longest):
 
 
 def _near(values, sizes, size_at, best, least):
-    """Return the clearance where max |Z1| is NEAR_MINIMUM times least, or the last of `values`."""
+    """Return the clearance at which max |Z1| is NEAR_MINIMUM times `least`, else `values[-1]`."""
     level = NEAR_MINIMUM * least
     inside = best
     for value, size in zip(values, sizes, strict=True):

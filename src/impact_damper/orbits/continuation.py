@@ -20,38 +20,38 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
 from impact_damper.orbits.shooting import AMPLIFYING
 
-# Newton's method: largest number of corrections, and largest change of an unknown by one.
+# Newton's method: largest number of corrections, and largest change of an unknown by a correction.
 NEWTON, LARGEST = 10, 0.5
-# It has converged if the residual is small and in addition
+# Newton's method has converged if the residual is a rounding error and in addition
 # - the last correction is below CLOSE, or
-# - it is below ROUNDING and more than half as large as the correction before it, or
+# - the last correction is below ROUNDING and more than half as large as the one before, or
 # - the correction before the last one is below SURE.
-# It has failed if a correction above SURE exceeds SHRINKING times the correction before it.
+# The method has failed if a correction above SURE exceeds SHRINKING times the one before.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
-# The derivative by the parameter is expensive. It is computed again only after a correction below
-# REFINED, if the corrections since its last computation add up to more than UNMOVED.
+# The derivative by the parameter is expensive. It is updated only after a correction below REFINED,
+# if the corrections since the last update add up to more than UNMOVED.
 REFINED, UNMOVED = 1e-4, 5e-6
-# A linear system is nearly singular if its solution exceeds the right side by SINGULAR^-0.5. Then
-# singular values below SINGULAR times the largest one are set to zero.
+# A linear system is nearly singular if the ratio of solution to right side exceeds SINGULAR^-0.5.
+# In this case singular values below SINGULAR times the largest one are set to zero.
 SINGULAR = 1e-8
 # First and shortest step along a branch, as a distance in the metric of `Problem`.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# Longest step, divided by the length of the vector of unknowns (at least SMALLEST), for symmetric
-# or stable orbits and for others.
+# Longest step for symmetric or stable orbits, and for others, divided by the length of the vector
+# of unknowns; smallest length that is used for this vector.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
-# Largest distance of the first guess of `Problem.at_value`.
+# Largest distance of the first guess of `Problem.at_value` from the given point.
 FARTHEST_GUESS = 0.08
-# Corrections that add up to more than ASIDE times the step may have led to another branch. Newton's
-# method stops if the first correction exceeds FAILING times this limit.
+# Largest sum of corrections, divided by the step; a larger sum may lead to another branch. Newton's
+# method stops if the first correction exceeds FAILING times the largest sum.
 ASIDE, FAILING = 0.2, 2.0
 
 
 class Point(NamedTuple):
-    """A point of a branch; vectors have the shape (m n + 1,).
+    """A point of a branch; vectors have the shape (m n + 1,) for m segments.
 
-    The unknowns `x` are Z1, Z1' and, with a damper, Z2, Z2' at the beginning of each segment, and
-    the parameter. The tangent has the length 1 in the metric of the problem. `bend` and `twist` are
-    its first and second derivative by the length of the branch, to guess the next point.
+    The unknowns `x` are the n = 4 components of the state at the beginning of each segment (without
+    a damper n = 2: Z1, Z1'), and the parameter. The `tangent` has the length 1 in the metric of the
+    problem. `bend` and `twist` are its first and second derivative by the length of the branch.
     """
 
     value: float
@@ -65,15 +65,15 @@ class Point(NamedTuple):
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations that the orbits of a branch solve: each segment ends where the next begins.
+    """The equations for the orbits of a branch: each segment ends where the next one begins.
 
-    The square of the distance of two points is the mean over the segments of the squared distance
-    of their states, plus the squared difference of the parameter.
+    The metric: the square of the distance of two points is the mean over the segments of the
+    squared distance of their states, plus the squared difference of the parameter.
 
-    `family` maps the parameter to packed parameters. `loose` is Z2 - Z1 and Z2' - Z1', constant
-    without a damper. If `symmetric`, only symmetric orbits are found, by the map over half the
-    period, which is regular where an orbit loses its symmetry. `rough` is the largest norm of the
-    derivative of a segment when the orbit was cut.
+    The function `family` maps the parameter to packed parameters. `loose` is Z2 - Z1 and Z2' - Z1',
+    constant without a damper. If `symmetric`, the segments cover half the period and all orbits are
+    symmetric; the equations are then regular where an orbit loses its symmetry. `rough` is the
+    largest norm of the derivative of a segment when the orbit was divided, 0 for one segment.
     """
 
     family: Callable[[float], np.ndarray]
@@ -86,7 +86,7 @@ class Problem:
 
     @classmethod
     def of(cls, family, orbit, *, symmetric=None):
-        """Return the problem of an orbit; `symmetric` by default if the orbit is symmetric."""
+        """Return the problem of an orbit. By default `symmetric` is found from the orbit."""
         if symmetric is None:
             symmetric = bool(orbit.record["asymmetry"] < SYMMETRIC)
         cycle = orbit.periods * TURN * (0.5 if symmetric else 1.0)
@@ -153,21 +153,21 @@ class Problem:
         return self._matrix(orbit, self._slopes(orbit, self.rate(x[-1])))
 
     def _slopes(self, orbit, rate):
-        """Return the derivatives of the ends of the segments by the parameter, shape (m, n)."""
+        """Return the derivatives of the segments' end states by the parameter, shape (m, n)."""
         slopes = np.empty((len(orbit.states), self.size))
         given = orbit.p, rate, self.phases, orbit.states, orbit.ends, self.sign
         slopes_of_ends(*given, POLISH_TOLERANCE, slopes)
         return slopes
 
     def _matrix(self, orbit, slopes):
-        """Return the result of `rows`, from the derivatives `slopes` of ends by the parameter."""
+        """Return the result of `rows`, given the result of `_slopes`."""
         n = self.size
         return np.column_stack([segments.cyclic(orbit.factors[:, :n, :n]), slopes.ravel()])
 
     def correct(self, x, border, most=np.inf):
         """Return the point that Newton's method reaches from the unknowns x, or None if it fails.
 
-        The corrections are orthogonal to the vector `border`, and the first at most `most` long.
+        The corrections are orthogonal to the vector `border`. The first one is at most `most` long.
         """
         x, size, moved, row = x.copy(), np.inf, 0.0, self.metric * border
         rate, slopes = None, None
@@ -207,12 +207,12 @@ class Problem:
         return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
     def step(self, point, length):
-        """Return the next point of the branch, at the distance `length`; None if a step fails."""
+        """Return the next point of the branch, at the distance `length`, or None on failure."""
         bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
         return self.near(point.x + length * point.tangent + bent, point.tangent, length)
 
     def near(self, x, border, length):
-        """Return the point close to a guess x, at most about ASIDE steps of `length` away, or None.
+        """Return the point at most about ASIDE * `length` from a guess x, or None.
 
         The corrections are orthogonal to `border`.
         """
@@ -223,8 +223,8 @@ class Problem:
     def at_value(self, point, value):
         """Return the point at a value of the parameter close to the value of a point, or None.
 
-        The first guess lies on the tangent, at most FARTHEST_GUESS away: near a fold it would else
-        be a large state, whose integration takes minutes.
+        The first guess lies on the tangent, at most FARTHEST_GUESS away. Without this limit, the
+        guess near a fold would be a large state, whose integration takes minutes.
         """
         length = (value - point.x[-1]) / (point.tangent[-1] or np.inf)
         x = point.x + np.clip(length, -FARTHEST_GUESS, FARTHEST_GUESS) * point.tangent
@@ -236,13 +236,13 @@ class Problem:
         return near._replace(tangent=near.tangent * turned)
 
     def begin(self, orbit, value, direction):
-        """Return the point of an orbit, or None; `direction` is the parameter's change along it."""
+        """Return the point of an orbit, or None; the tangent has the parameter's `direction`."""
         x = self.unknowns(orbit, value)
         return self.correct(x, direction * np.eye(len(x))[-1])
 
 
 def point_at_distance(origin, point, ahead, distance):
-    """Return the point of a branch at a distance from `origin`; None if Newton's method fails."""
+    """Return the point at a distance from `origin` between two points, or None on failure."""
     row = origin.problem.metric * origin.tangent
     first, last = (row @ (end.x - origin.x) for end in (point, ahead))
     x = _cubic(point, ahead, (distance - first) / (last - first))
@@ -251,13 +251,13 @@ def point_at_distance(origin, point, ahead, distance):
 
 
 def point_at_value(point, ahead, value):
-    """Return the point at a value between two points of one problem, or None if this fails."""
+    """Return the point at a value between two points of the same problem, or None on failure."""
     problem, chord = point.problem, ahead.x - point.x
 
     def beyond(fraction):
         return _cubic(point, ahead, fraction)[-1] - value
 
-    # At an end of the step the value may lie beyond it by a rounding error.
+    # A value at an end of the step may lie beyond the end by a rounding error.
     ends = beyond(0.0), beyond(1.0)
     inside = ends[0] * ends[1] < 0
     fraction = brentq(beyond, 0.0, 1.0) if inside else float(np.argmin(np.abs(ends)))
@@ -271,9 +271,9 @@ def point_at_value(point, ahead, value):
 
 
 def _cubic(point, ahead, fraction):
-    """Return the unknowns on the cubic that passes through two points with their tangents.
+    """Return the unknowns on the cubic curve through two points with the tangents there.
 
-    `fraction` goes from 0 at the first to 1 at the second point, along the tangent at the first.
+    `fraction` is the projection on the tangent at the first point: 0 there, 1 at the second point.
     """
     row = point.problem.metric * point.tangent
     chord = ahead.x - point.x
@@ -284,18 +284,18 @@ def _cubic(point, ahead, fraction):
     return point.x + fraction * length * point.tangent + bent
 
 
-# A step is accepted, since it has not led to another branch, if the angle between the tangents at
-# its ends is below TURNED, and the directions of chord and mean tangent differ by less than SKEW.
+# A step beyond these bounds may lead to another branch and is not accepted: largest angle between
+# the tangents at both ends; largest difference between the unit vectors of chord and mean tangent.
 TURNED, SKEW = 0.5, 0.03
-# The next step aims at the fraction AIM of these bounds. Its length divided by the length before is
-# at most GROWTH, and at least SHRINKAGE after a step that was not accepted.
+# Length of the next step: fraction of TURNED and SKEW at which it aims; largest ratio to the step
+# before; smallest ratio to a step that was not accepted.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
     """Return the next point of a branch, and the factor for the length of the following step.
 
-    The point lies within the range `span` of the parameter. It is None if the step fails.
+    The point lies in the range `span` of the parameter. The point is None if the step fails.
     """
     problem = point.problem
     ahead = problem.step(point, length)
@@ -316,7 +316,7 @@ def next_point(point, span, length):
 
 
 def with_bend(point, ahead):
-    """Return the point `ahead` with `bend` and `twist` (`Point`) from the cubic of the step."""
+    """Return the point `ahead` with `bend` and `twist` from the cubic curve of the step."""
     length = ahead.problem.length(ahead.x - point.x)
     chord = (ahead.x - point.x) / length
     bend = (2 * point.tangent + 4 * ahead.tangent - 6 * chord) / length
@@ -325,11 +325,11 @@ def with_bend(point, ahead):
 
 
 def folds_twice(point, ahead):
-    """Return whether the cubic of the step between two points has two folds."""
+    """Return whether the cubic curve of the step between two points has two folds."""
     length = point.problem.length(ahead.x - point.x)
     first, last = length * point.tangent[-1], length * ahead.tangent[-1]
     chord = ahead.value - point.value
-    # On the cubic the parameter has the derivative first + middle u + bend u^2, for u from 0 to 1.
+    # The parameter has the derivative first + middle u + bend u^2 along the step, 0 < u < 1.
     bend, middle = 3 * (first + last) - 6 * chord, 6 * chord - 4 * first - 2 * last
     if first * last <= 0 or not 0 < -middle * bend < 2 * bend**2:
         return False
@@ -339,20 +339,20 @@ def folds_twice(point, ahead):
 def passes_unseen(point, ahead, located):
     """Return whether a step crosses a branch of more symmetry without a located fold.
 
-    Where the two branches meet, the parameter has an extremum along the branch.
+    Where the two branches meet, the branch of less symmetry has a fold.
     """
     folds = any(event.kind == "fold" for event in located)
     return not folds and point.orbit.deviation @ ahead.orbit.deviation < 0
 
 
-# An orbit is cut into new segments if a contact is closer to a section than NEAR_SECTION (radian),
-# if a segment amplifies ROUGHER times as much as when the orbit was cut, or if the whole orbit
-# amplifies less than MILD * AMPLIFYING.
+# Bounds of an orbit that keeps its segments: smallest distance of an edge of a segment from a
+# contact, radian; largest norm of a segment's derivative, divided by `Problem.rough`; smallest
+# `Orbit.amplification`, divided by AMPLIFYING.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
 def holds_still(point):
-    """Return whether the segments of a point can be kept (see NEAR_SECTION)."""
+    """Return whether the orbit of a point keeps its segments (see NEAR_SECTION)."""
     problem, orbit = point.problem, point.orbit
     if not problem.damped:
         return True
@@ -364,7 +364,7 @@ def holds_still(point):
 
 
 def recut(point, between=()):
-    """Return a point with new segments (`segments.cut`), or the same if Newton's method fails."""
+    """Return the point with new segments (`segments.cut`), unchanged if Newton's method fails."""
     before, orbit = point.problem, point.orbit
     phases, rough = segments.cut(orbit, before.cycle, between), 1.0
     if not between and orbit.amplification <= AMPLIFYING:

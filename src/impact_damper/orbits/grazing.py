@@ -1,7 +1,7 @@
 """Follow a branch through a grazing, at which a contact appears, vanishes, or parts in two.
 
-There the branch turns sharply, but as functions of the height |Z2| - d0 of the extremum of Z2 that
-reaches its wall the orbits are smooth up to a term of power 3/2.
+At a grazing an extremum of Z2 reaches its wall, and the branch turns sharply. The height of the
+extremum is |Z2| - d0. As functions of the height, orbits are smooth except for a term of power 3/2.
 """
 
 from typing import NamedTuple
@@ -14,21 +14,21 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
 
-# On the side with more contacts the heights of successive points are LEAST, RATIO * LEAST, ... up
-# to MOST in modulus.
+# Heights |Z2| - d0 of points on the side with more contacts, in modulus: ratio of successive ones,
+# smallest, largest.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# Largest number of divisions of a step that fails, through a grazing and between its points.
+# Largest number of divisions of a failed step: through a grazing, and between two points there.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# An orbit lies on a branch of more symmetry if `Orbit.deviation` has fallen below this factor.
+# Largest ratio of `Orbit.deviation` to its last value on a step to a branch of more symmetry.
 FALLEN = 0.01
-# Heights of the points on the side with fewer contacts.
+# Heights of points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
 # Newton's method: largest correction, and largest relative and absolute error of the height.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction):
-    """Return the point of a branch at which an extremum has a given height, and the extremum."""
+    """Find from unknowns x the point where an extremum has a height; return both, or None."""
     x = x.copy()
     for _ in range(NEWTON):
         orbit = problem.shoot(x)
@@ -53,10 +53,10 @@ def at_height(problem, x, turn, height, direction):
 
 
 class Passage(NamedTuple):
-    """Points of a branch through a grazing, with the heights and records of the extremum there.
+    """Points of a branch through a grazing, with heights and `Turn`s of the extremum there.
 
-    `grazing` is the index of the point closest to the grazing, on the side with more contacts; the
-    kind is "grazing", or "merging" if a contact parts in two or two become one.
+    `grazing` is the index of the point closest to the grazing, on the side with more contacts.
+    `kind` is "grazing", or "merging" if a contact parts in two or two contacts become one.
     """
 
     points: list
@@ -66,7 +66,7 @@ class Passage(NamedTuple):
     kind: str
 
     def between(self, k):
-        """Return a function that returns the point at a height between points k and k + 1."""
+        """Return a function of the height that finds the point between points k and k + 1."""
         known = [(self.heights[end], self.points[end], self.turns[end]) for end in (k, k + 1)]
         direction = np.sign(self.heights[k + 1] - self.heights[k])
 
@@ -86,12 +86,12 @@ class Passage(NamedTuple):
 
 
 def guess(point, turn, height):
-    """Return the unknowns on the tangent of a point where an extremum has about this height."""
+    """Return the unknowns on the tangent of a point at which an extremum has about a height."""
     return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
 
 
 def through_grazing(point, reach):
-    """Follow a branch through the next grazing."""
+    """Return the `Passage` of a branch through its next grazing within `reach`, or None."""
     turn = next_grazing(point, reach)
     if turn is None:
         return None
@@ -116,7 +116,7 @@ def through_grazing(point, reach):
 
 
 def _along(point, turn, targets, direction, contacts):
-    """Follow a branch from height to height, as far as Newton's method succeeds."""
+    """Follow a branch from height to height, as far as possible; return points, heights, turns."""
     points, heights, turns = [point], [turn.height], [turn]
     pending, halvings = targets[::-1], 0
     while pending and halvings <= HALVINGS:
@@ -138,7 +138,7 @@ def _along(point, turn, targets, direction, contacts):
 def _before(height, target):
     """Return the height at which a failed step is divided.
 
-    It is the geometric mean, or close to the grazing if the heights have different signs.
+    This height is the geometric mean of both, or lies closer to 0 if their signs differ.
     """
     if height * target > 0:
         return height * (target / height) ** 0.5
@@ -146,12 +146,12 @@ def _before(height, target):
 
 
 def _has_left(orbit, ahead):
-    """Return whether the orbit `ahead` lies on another branch, whose orbits have more symmetry."""
+    """Return whether the orbit `ahead` lies on another branch of more symmetry."""
     return np.max(np.abs(ahead.deviation)) < FALLEN * np.max(np.abs(orbit.deviation))
 
 
 def _targets(height, sharp, direction):
-    """Return a list of the heights of the points from one side of a grazing to the other."""
+    """Return a list of the heights of points, from the first side of a grazing to the other."""
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)
@@ -161,15 +161,15 @@ def _targets(height, sharp, direction):
 
 # Distance along the tangent of a branch over which the change of a height is estimated.
 SHIFT = 1e-10
-# An extremum on another orbit counts as the same if its phase differs by less than MOVED (radian).
+# Largest difference of phase, radian, of the same extremum on two orbits.
 MOVED = 0.1
 
 
 class Turn(NamedTuple):
     """An extremum of Z2 in a segment of an orbit, at a phase W T, with the height |Z2| - d0.
 
-    `outer` means a maximum of |Z2|. `gradient` is the derivative of the height by the unknowns (see
-    `continuation.Point`), shape (4 m + 1,), if known.
+    `outer` is True for a maximum of |Z2|. `gradient` (4 m + 1,) is the derivative of the height by
+    the unknowns (see `continuation.Point`), or None.
     """
 
     segment: int
@@ -180,14 +180,14 @@ class Turn(NamedTuple):
 
 
 def turns_of(orbit):
-    """Return all extrema of an orbit without their gradients."""
+    """Return a list of all extrema of Z2 of an orbit, without their gradients."""
     return [Turn(int(row[0]), row[1], bool(row[2]), row[3]) for row in orbit.turns()]
 
 
 def with_gradient(problem, x, orbit, turn):
-    """Return an extremum of the orbit at the unknowns x of a `continuation.Problem`, with gradient.
+    """Return an extremum with its gradient; x are the unknowns of the orbit in the `problem`.
 
-    The height changes like Z2 at a constant phase, since Z2' is zero.
+    Z2' is zero at the extremum, so the height changes as Z2 does at a constant phase.
     """
     k, rate = turn.segment, problem.rate(x[-1])
     phases, begin = np.array([orbit.phases[k], turn.phase]), orbit.states[k]
@@ -201,7 +201,7 @@ def with_gradient(problem, x, orbit, turn):
 
 
 def nearest(turns, turn):
-    """Return the extremum closest in phase to a given one, preferably of its kind, or None."""
+    """Return the extremum closest in phase to `turn`, preferably of the same kind, or None."""
     near = [each for each in turns if each.segment == turn.segment]
     near = [each for each in near if abs(each.phase - turn.phase) < MOVED]
     near = [each for each in near if each.outer == turn.outer] or near
@@ -209,7 +209,7 @@ def nearest(turns, turn):
 
 
 def next_grazing(point, reach):
-    """Return the extremum that first reaches its wall along the tangent of a point, or None."""
+    """Return the extremum that is first to reach a wall along the tangent of a point, or None."""
     problem, candidates = point.problem, []
     ahead = turns_of(problem.shoot(point.x + SHIFT * point.tangent))
     for turn in turns_of(point.orbit):

@@ -20,15 +20,15 @@ from impact_damper.motions.segment_runs import flow_all, list_turns
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 
-# Phases W T, radian: a forcing cycle, and the strobe, at which states are compared.
+# Phase W T, radian: length of a forcing cycle; the strobe, at which states are compared.
 TURN = 2 * math.pi
 STROBE = math.pi / 2
-# Largest residual of a converged orbit, relative to its states; and the same divided by the natural
-# frequency of contacts, which multiplies rounding errors.
+# Largest residual of a converged orbit, divided by its largest state: without contacts; with
+# contacts, divided also by the natural frequency of contacts, which multiplies rounding errors.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
-# The phase of an orbit is kept if the nearest contact is further away than MARGIN (radian).
+# Smallest distance of the first phase of an orbit from a contact, radian.
 MARGIN = 0.15
-# Contacts in a forcing cycle, and extrema of Z2 in a segment, for which there is room at first.
+# First room in arrays: contacts in a forcing cycle, and extrema of Z2 in a segment.
 CONTACTS, TURNS = 64, 256
 
 
@@ -37,12 +37,12 @@ class Orbit:
     """A periodic orbit, or an approximation of one, in m segments that begin and end in flight.
 
     p, periods: Packed parameters, and period n in forcing cycles.
-    phases: Phases W T at which the segments begin, and at which the last one ends; shape (m + 1,).
-    states, ends: States at the beginnings and, by integration, at the ends; shape (m, 4).
-    sign: -1 if the segments cover half the period of a symmetric orbit, else 1.
-    factors: Derivatives of ends by states, the last one times `sign`; shape (m, 4, 4).
-    contact_time: Time in contact in all segments.
-    maps: How often Newton's method integrated over the segments.
+    phases: Phases W T at the beginnings of segments and at the last end, shape (m + 1,).
+    states, ends: States at the beginnings and, by integration, at the ends of segments, (m, 4).
+    sign: -1 if the segments cover half the period of a symmetric orbit, otherwise 1.
+    factors: Derivatives of `ends` by `states`, shape (m, 4, 4); the last one is times `sign`.
+    contact_time: Total time in contact in all segments.
+    maps: Number of integrations over all segments by Newton's method.
     """
 
     p: np.ndarray
@@ -67,12 +67,12 @@ class Orbit:
 
     @property
     def cycle(self):
-        """Length of all segments, radian: the period, or half of it for a sign of -1."""
+        """Length of all segments, radian: the period, or half the period if `sign` is -1."""
         return self.phases[-1] - self.phases[0]
 
     @cached_property
     def defects(self):
-        """Ends minus the beginnings of the next segments, shape (m, 4); zero for an orbit."""
+        """End of each segment minus beginning of the next, shape (m, 4); zero if periodic."""
         defects = np.empty_like(self.ends)
         defects[:-1] = self.ends[:-1] - self.states[1:]
         defects[-1] = self.sign * self.ends[-1] - self.states[0]
@@ -80,7 +80,7 @@ class Orbit:
 
     @cached_property
     def residual(self):
-        """Largest defect."""
+        """Largest modulus of a component of the defects."""
         return float(np.abs(self.defects).max())
 
     @property
@@ -94,7 +94,7 @@ class Orbit:
 
     @cached_property
     def matrix(self):
-        """Derivative over a cycle, times the sign, shape (4, 4); less exact than `multipliers`."""
+        """Product of the `factors`, shape (4, 4); its eigenvalues are inexact, see `segments`."""
         return reduce(lambda product, factor: factor @ product, self.factors)
 
     @property
@@ -114,7 +114,7 @@ class Orbit:
 
     @property
     def active(self):
-        """Number of unknowns: 4, or 2 (Z1, Z1') if the loose mass touches no wall and rests."""
+        """Number of unknown components of a state: 4, or 2 (Z1, Z1') without contacts."""
         return 4 if self.contact_time > 0 else 2
 
     @cached_property
@@ -140,8 +140,8 @@ class Orbit:
     def liouville_error(self):
         """Relative error of the determinant of the monodromy matrix.
 
-        By Liouville's theorem it is exp(-h t - c (1 + 1/rm) t_c) for the period t, the time in
-        contact t_c and the dashpot's coefficient c.
+        By Liouville's theorem the determinant is exp(-h t - c (1 + 1/rm) t_c), with the period t,
+        the time in contact t_c and the coefficient c of the dashpot.
         """
         p = self.p
         rate = p[DAMPING] * self.cycle / p[FREQUENCY]
@@ -154,7 +154,7 @@ class Orbit:
         """Contacts of a cycle, largest |Z1|, and complex first harmonics of Z1 and Z2."""
         states, phases = self.states.copy(), self.phases
         if side_of(self.p, states[0]) != 0:
-            # The contact of the first state has no beginning in the cycle, but in the next one.
+            # A contact at the first state begins in the cycle before, so survey two cycles.
             phases = self.phases[0] + np.array([0.0, 2 * self.cycle])
         times = phases / self.p[FREQUENCY]
         room, sums = 2 * CONTACTS * (self.periods + len(states)), np.empty((2, 2))
@@ -169,7 +169,7 @@ class Orbit:
 
     @cached_property
     def contacts(self):
-        """Contacts, shape (k, 5): wall (-1 or 1), times of beginning and end, and Z2' at both."""
+        """Contacts, shape (k, 5): wall (-1 or 1), beginning, end, Z2' at beginning and at end."""
         log = self._surveyed[0]
         if self.sign > 0:
             return log
@@ -178,13 +178,13 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls touched in the order of time, such as "+-"; the first cyclic shift by alphabet."""
+        """Walls touched in the order of time, such as "+-", from the alphabetically first shift."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
     @property
     def least_speed(self):
-        """Smallest |Z2'| at which a contact begins, NaN without contacts; small near a grazing."""
+        """Smallest |Z2'| at the beginning of a contact, small near a grazing; NaN if none."""
         return np.min(np.abs(self.contacts[:, 3]), initial=np.inf) if self.touching else np.nan
 
     @property
@@ -194,8 +194,8 @@ class Orbit:
         return np.min(after / before, initial=np.inf) if self.touching else np.nan
 
     def at(self, phase):
-        """Return the state, shape (4,), at a phase W T (radian) not before the orbit's phase."""
-        # From an approximate orbit of one segment the motion goes on; it is not repeated.
+        """Return the state, shape (4,), at a phase W T, radian, from the first phase on."""
+        # Beyond the end of a single segment the motion is integrated on, instead of repeated.
         turns = int((phase - self.phases[0]) // self.cycle) if len(self.states) > 1 else 0
         local = phase - turns * self.cycle
         k = min(max(int(np.searchsorted(self.phases, local, "right")) - 1, 0), len(self.states) - 1)
@@ -206,7 +206,7 @@ class Orbit:
     def turns(self):
         """Return segment, phase, kind and height |Z2| - d0 of each extremum of Z2, shape (n, 4).
 
-        The kind is 1 for a maximum of |Z2| and 0 for a minimum.
+        The kind is 1 at a maximum of |Z2|, and 0 at a minimum.
         """
         room = TURNS * len(self.states)
         while True:
@@ -218,10 +218,10 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """State minus its image half a period later, for odd n mirrored; shape (4,).
+        """State minus the state half a period later, which is mirrored for odd n; shape (4,).
 
-        It changes sign where a branch meets a branch of symmetric orbits or of half the period. For
-        a symmetric orbit it is replaced by ones.
+        The deviation changes its sign where a branch meets a branch of symmetric orbits or of half
+        the period. If `sign` is -1, ones replace the deviation.
         """
         if self.sign < 0:
             return np.ones(4)
@@ -236,7 +236,7 @@ class Orbit:
 
     @cached_property
     def record(self):
-        """Largest |Z1|, contacts, asymmetry and first harmonics: a `records.MOTION`."""
+        """A `records.MOTION` with largest |Z1|, contacts, asymmetry and first harmonics."""
         record = np.zeros(1, records.MOTION)[0]
         _, largest, harmonics = self._surveyed
         record["maximum_displacement"] = largest
@@ -257,7 +257,7 @@ class Orbit:
         return bool(np.min(np.max(np.abs(states - other.strobe_states[0]), axis=1)) < tolerance)
 
     def repeats_sooner(self, tolerance=1e-6):
-        """Return whether the state repeats after fewer than n cycles."""
+        """Return whether the state repeats after fewer forcing cycles than `periods`."""
         shift = np.max(np.abs(self.strobe_states - self.strobe_states[0]), axis=1)
         return any(shift[k] < tolerance for k in range(1, self.periods) if self.periods % k == 0)
 
@@ -271,7 +271,7 @@ class Orbit:
         return np.min(distances, axis=-1, initial=np.inf)
 
     def flight_phase(self):
-        """Return the orbit's phase, or the middle of the longest flight if a contact is near."""
+        """Return the first phase, or the middle of the longest flight if a contact is near."""
         if not self.touching or self.margin(self.phase) > MARGIN:
             return self.phase
         ends = self.p[FREQUENCY] * self.contacts[:, 2]
@@ -282,7 +282,7 @@ class Orbit:
 
 
 def integrate(p, periods, phases, states, sign=1) -> Orbit:
-    """Return the orbit with given states, which need not be periodic; arguments as in `Orbit`."""
+    """Return an `Orbit`, periodic or not, from the `states` at the beginnings of segments."""
     ends, tangents = np.array(states, float), np.tile(np.eye(4), (len(states), 1, 1))
     phases = np.asarray(phases, float)
     touching = flow_all(p, ends, tangents, phases / p[FREQUENCY], POLISH_TOLERANCE)

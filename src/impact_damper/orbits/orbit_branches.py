@@ -22,8 +22,8 @@ from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import follow_others, met_by
 
-# A branch of another period than 1 is left once its unstable orbits in a row last BEYOND forcing
-# cycles together: farther on it winds through chaos, with stable parts narrower than 0.01 in W.
+# Largest sum of the periods, in forcing cycles, of unstable orbits in a row on a branch of a period
+# above 1. Beyond them stable parts of the branch are narrower than 0.01 in W.
 BEYOND = 300
 
 
@@ -48,9 +48,9 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     Returns
     -------
     xarray.Dataset
-        The variables of `orbit_branches`, with the orbit as the only point. Its state is given at a
-        phase at which no wall is touched. For each `contact`: the wall, and the times and the
-        relative speeds Z2' at its beginning and end.
+        The variables of `orbit_branches`, with the orbit as the only point. The phase of the state
+        lies in a flight. For each `contact`: the wall, and the times and the relative velocities
+        Z2' at the beginning and the end.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     Warns
     -----
     UserWarning
-        If the orbit repeats after a divisor of the period.
+        If the orbit repeats sooner, after a divisor of the period.
 
     Examples
     --------
@@ -107,18 +107,18 @@ def orbit_branches(
 ):
     """Follow branches of periodic orbits over a parameter, stable or not.
 
-    From a frequency and a state, the branch of the orbit near the state is followed. From datasets
-    of motions, every branch over frequency on which a settled motion lies is followed, and the
-    branches that leave next to its stable orbits, if they begin stable or if the first branch has
-    the period 1 or 3. Branches of other periods than 1 end after 300 forcing cycles of unstable
-    orbits in a row.
+    With a frequency and a state, the function follows the branch of the orbit near the state. With
+    datasets of motions, it follows every branch over frequency through a settled motion. It also
+    follows branches that leave such a branch next to stable orbits, if they begin stable or if the
+    first branch has the period 1 or 3. A branch of a period above 1 ends when the periods of
+    unstable orbits in a row exceed 300 forcing cycles together.
 
     Parameters
     ----------
     system : Oscillator or Machine
     damper : Damper, MachineDamper or None
     frequency, state
-        As in `periodic_orbit`; not for motions.
+        As in `periodic_orbit`; not given with `motions`.
     span : tuple of float
         Least and greatest value of the parameter.
     parameter : str
@@ -130,7 +130,7 @@ def orbit_branches(
     motions : list of xarray.Dataset, optional
         Results of `frequency_response` for this system and damper.
     progress : str, optional
-        Title of a progress bar, for motions.
+        Title of a progress bar, with `motions`.
 
     Returns
     -------
@@ -138,20 +138,20 @@ def orbit_branches(
         For each `point`, in order along the branches, an orbit: the parameter, the largest
         displacement, stability, Floquet multipliers, contacts, the state and its phase, the
         residual, and the error of the determinant by Liouville's theorem. `orbit_status` says how
-        reliable these numbers are. For each `event` its kind: fold, symmetry breaking, period
-        doubling, Neimark-Sacker bifurcation, grazing (a contact appears or vanishes in flight) or
-        merging (two contacts with a wall become one). For each (branch, edge) the reason why the
-        branch ends. From motions also their number `seeds`, and `seeds_lost`, the number without
-        an orbit. A branch and its mirror image count as one. With a damper, motions without
-        contacts are left out.
+        reliable these numbers are. For each `event`: its kind, which is fold, symmetry breaking,
+        period doubling, Neimark-Sacker bifurcation, grazing (a contact appears or vanishes in
+        flight) or merging (two contacts with a wall become one). For each (branch, edge): the
+        reason why the branch ends. With `motions`: the number `seeds` of settled motions, with a
+        damper only those with contacts, and the number `seeds_lost` of those to which no orbit was
+        found. A branch and its mirror image are one branch.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is of another type or out of range.
     ArithmeticError
-        If Newton's method finds no orbit near the state, or an orbit that repeats after a divisor
-        of the period.
+        If Newton's method finds no orbit near the state, or an orbit that repeats sooner, after a
+        divisor of the period.
 
     Examples
     --------
@@ -189,7 +189,7 @@ def orbit_branches(
 
 
 def _all_branches(system, damper, span, motions, progress):
-    """Return the branches of the orbits of all settled motions, and those that leave them."""
+    """Return a dataset of the branches through all settled motions, and of branches that leave."""
     model = read_system(system, damper)
     damper = model.damper
     span = read_span(model.scales, "span", span, "frequency", **bounds.FREQUENCY_RANGE)
@@ -225,7 +225,7 @@ def _all_branches(system, damper, span, motions, progress):
 
 
 def _checked_orbit(model, state, period, phase):
-    """Return the checked state and the orbit near it; raises as `periodic_orbit` does."""
+    """Return the checked state and the orbit near this state; raise as `periodic_orbit` does."""
     bounds.check_count("period", period, most=1000)
     if phase is None:
         carried = carried_phase(state)
@@ -257,13 +257,13 @@ def _seeds(motions, damper):
             )
 
 
-# A contact is near grazing if it begins slower than SLOW. Multipliers then hold for very small
-# disturbances d only: a term d^(3/2) grows near grazing.
+# Largest |Z2'| at the beginning of a contact near grazing. Multipliers are valid for very small
+# disturbances d only there, because a term d^(3/2) grows near grazing.
 SLOW = 0.01
 
 
 def _status(orbit):
-    """Return the flag `orbit_status`: how reliable an orbit and its multipliers are."""
+    """Return the flag `orbit_status`, which says how reliable an orbit and its multipliers are."""
     if not orbit.converged:
         return flag("orbit_status", "not_converged")
     slow = orbit.touching > 0 and orbit.least_speed < SLOW
@@ -271,7 +271,7 @@ def _status(orbit):
 
 
 def orbit_variables(pairs):
-    """Return the variables with the dimension `point`, from pairs of parameter and `Orbit`."""
+    """Return the variables with the dimension `point`, from pairs of a value and an `Orbit`."""
     values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
     records = [orbit.record for orbit in orbits]
     first, second = (
@@ -302,7 +302,7 @@ def orbit_variables(pairs):
 
 
 def branches_dataset(branches, back, parameters, title, model=None, more=None):
-    """Return a dataset of branches, in the units of the model; dimensionless without it."""
+    """Return a dataset of branches, in the units of `model`, or dimensionless without a model."""
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]
     events = [

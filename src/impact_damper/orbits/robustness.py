@@ -1,7 +1,7 @@
-"""Robustness of attractors against shocks and in finite times.
+"""Robustness of attractors against shocks, and in finite time.
 
-*Convergence time*, *finite-time basin stability* and *minimal critical shock* are named as by
-Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
+The names *convergence time*, *finite-time basin stability* and *minimal critical shock* are those
+of Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
 
 from collections.abc import Callable
@@ -11,15 +11,15 @@ import numpy as np
 
 from impact_damper.motions.attractors import orbit_states
 
-# The smallest shock is looked for among SHOCKS shocks of one sign, then between neighbours, in
-# so many parts.
+# Search for the smallest shock of one sign: number of parts into which an interval is divided in
+# each round. The next interval is the first part whose end leads away.
 SHOCKS = (256, 64, 64, 64)
 
 
 class Labelled(NamedTuple):
-    """Labels of states and cycles until these were known, (m, n), with records of attractors.
+    """Labels (m, n) of states, forcing cycles (m, n) until they were known, and attractors.
 
-    `label` returns both for further states (k, 4).
+    `records` are those of the attractors. `label` returns labels and cycles of more states (k, 4).
     """
 
     labels: np.ndarray
@@ -44,7 +44,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return which shocks lead away from an attractor with these states, and cycles until known."""
+    """Return which shocks of an attractor's states lead away, and the cycles until it is known."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))

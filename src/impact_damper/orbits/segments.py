@@ -1,6 +1,6 @@
-"""Multiple shooting: where an orbit is cut into segments, and the algebra of their derivatives.
+"""Multiple shooting: the division of an orbit into segments, and the algebra of their derivatives.
 
-Segments that amplify rounding errors little keep the accuracy of a strongly unstable orbit.
+A strongly unstable orbit is accurate if each of its segments amplifies rounding errors little.
 """
 
 from functools import reduce
@@ -13,19 +13,19 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
-# Multipliers whose moduli differ by more than the factor APART are separated by orthogonal
-# iteration of at most SWEEPS sweeps. It ends if its basis changes by less than SETTLED; multipliers
-# stay together if it still changes by more than COUPLED at the end.
+# Smallest ratio of the moduli of two multipliers that orthogonal iteration separates.
 APART = 30.0
+# Orthogonal iteration: largest number of sweeps; change of the basis below which iteration ends;
+# last change of the basis above which multipliers are not separated.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
-# A segment ends before the norm of its derivative exceeds AMPLIFIED.
+# Largest norm of the derivative of a segment, if possible.
 AMPLIFIED = 30.0
-# Smallest distance of a section from contacts, radian.
+# Smallest distance of an edge of a segment from contacts, radian.
 CLEAR = 0.05
 
 
 def run(p, state, tangents, begin, end):
-    """Integrate a state and variational `tangents`, both in place, between two phases."""
+    """Integrate a state and its tangents in place, from the phase `begin` to the phase `end`."""
     times = begin / p[FREQUENCY], end / p[FREQUENCY]
     advance(p, state, tangents, side_of(p, state), *times, POLISH_TOLERANCE, workspace())
 
@@ -40,9 +40,9 @@ def cyclic(factors):
 
 
 def multipliers(factors):
-    """Return the eigenvalues of the product of matrices, without forming it.
+    """Return the eigenvalues of a product of matrices, without computing the product.
 
-    Orthogonal iteration makes the product block triangular; each diagonal block has eigenvalues of
+    Orthogonal iteration makes the product block triangular. Each diagonal block has eigenvalues of
     similar moduli, such as a complex pair.
     """
     m, n = factors.shape[:2]
@@ -68,10 +68,10 @@ def multipliers(factors):
 
 @kernel
 def sweep(factors, basis, triangles):
-    """Compute QR factors of a product of matrices A_k, A_k Q_(k-1) = Q_k R_k, by Gram-Schmidt.
+    """Compute the QR factors in A_k Q_(k-1) = Q_k R_k of matrices A_k, by Gram-Schmidt.
 
-    `triangles` receives the R_k, and `basis` Q_0 becomes the last Q_k. Each vector is made
-    orthogonal twice, because the first time leaves rounding errors.
+    `triangles` receives the R_k. `basis` is Q_0 and receives the last Q_k. Each vector is made
+    orthogonal twice, because rounding errors remain after the first time.
     """
     m, n = factors.shape[:2]
     moved = np.empty((n, n))
@@ -102,8 +102,8 @@ def sweep(factors, basis, triangles):
 def cut(orbit, cycle, between=()):
     """Return the phases at which an orbit is cut into segments, shape (m + 1,).
 
-    They lie amid flights; the norm of a segment's derivative is below AMPLIFIED if possible. A
-    flight is always cut before and after the phases `between`.
+    The phases lie in the middle of flights. The norm of a segment's derivative is below AMPLIFIED
+    if possible. The phases `between` divide flights into parts, and each part is always cut.
     """
     if not orbit.touching:
         return np.array([orbit.phase, orbit.phase + cycle])
@@ -121,7 +121,7 @@ def cut(orbit, cycle, between=()):
 
 
 def _sections(orbit, cycle, between):
-    """Return the possible phases of cuts, from the longest flight on, and the forced ones."""
+    """Return the possible phases of cuts, from the longest flight on, and the necessary ones."""
     log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
     following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)
@@ -136,8 +136,8 @@ def _sections(orbit, cycle, between):
                 forced += [middle] * (len(marks) > 2)
             longest = max(longest, (high - low, middle))
     start = longest[1]
-    # Each phase occurs twice if the cycle is half the period. The shift by 1e-9 keeps `start` first
-    # in spite of rounding errors.
+    # If the cycle is half the period, each phase occurs twice. With the shift by 1e-9, `start`
+    # remains first in spite of rounding errors.
     places = np.sort(start + (np.array([*middles, start]) - start + 1e-9) % cycle - 1e-9)
     places = places[np.append(True, np.diff(places) > 1e-6)]
     places = places[places < start + cycle - 1e-6]

@@ -9,19 +9,19 @@ from impact_damper.orbits.orbit import STROBE, TURN, Orbit, integrate
 
 # Newton's method: largest number of corrections, and their largest size.
 ITERATIONS, FAR = 20, 10.0
-# If the residual is below NEAR, the state of an orbit can be integrated to another phase.
+# Largest residual of an approximate orbit whose state can be integrated to another phase.
 NEAR = 1e-6
-# If the derivative of the map over the period has a larger norm, multiple shooting is used.
+# Largest norm of the derivative over a cycle; above it, multiple shooting is used.
 AMPLIFYING = 100.0
-# While a segment amplifies more than ROUGH * `segments.AMPLIFIED`, the orbit is cut again, at most
-# CUTS times.
+# Largest number of divisions of an orbit; norm of a segment's derivative, divided by
+# `segments.AMPLIFIED`, above which the orbit is divided again.
 CUTS, ROUGH = 4, 4.0
 
 
 def shoot(p, state, periods, phase, *, symmetric=False) -> Orbit:
-    """Return the orbit of one segment that begins with a state, without iteration.
+    """Return the `Orbit` of one segment that begins with a state, without iteration.
 
-    If `symmetric` the segment covers half the period, which must be odd.
+    If `symmetric`, the segment covers half the period, and `periods` must be odd.
     """
     cycle = periods * TURN * (0.5 if symmetric else 1.0)
     return integrate(p, periods, (phase, phase + cycle), [state], -1 if symmetric else 1)
@@ -30,16 +30,16 @@ def shoot(p, state, periods, phase, *, symmetric=False) -> Orbit:
 def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
     """Find the orbit near a state at a phase W T by Newton's method; see `Orbit.converged`.
 
-    If no wall is touched, only Z1 and Z1' are unknown, and the loose mass rests. Unless it fails,
-    the phase of the orbit lies in a flight.
+    Without contacts only Z1 and Z1' are unknown, and the loose mass rests. The phase of an orbit
+    that is found lies in a flight.
     """
     orbit = newton(shoot(p, state, periods, phase))
     if orbit.amplification > AMPLIFYING:
         chain = polish(orbit if orbit.residual < NEAR else shoot(p, state, periods, phase))
         if chain.residual < orbit.residual:
             return replace(chain, maps=orbit.maps + chain.maps)
-    # The first phase may lie in a contact, where rounding errors grow, so that the orbit cannot
-    # converge. It is moved to a flight if its residual is below NEAR.
+    # If the first phase lies in a contact, rounding errors grow and the orbit cannot converge. Move
+    # the phase to a flight if the residual is below NEAR.
     if not orbit.residual < NEAR or orbit.flight_phase() == orbit.phase:
         return orbit
     phase = orbit.flight_phase()
@@ -50,7 +50,7 @@ def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
 def newton(orbit, reach=None) -> Orbit:
     """Return the orbit with the smallest residual among the iterates of Newton's method.
 
-    With `reach` it ends with the first converged orbit, or at this distance from the guess.
+    With `reach` the method ends at the first converged orbit or at this distance from the guess.
     """
     states, best, maps = orbit.states, orbit, 1
     for _ in range(ITERATIONS):
@@ -76,7 +76,7 @@ def newton(orbit, reach=None) -> Orbit:
 
 
 def polish(orbit) -> Orbit:
-    """Return the orbit that Newton's method finds by multiple shooting near an approximate one."""
+    """Return the orbit that multiple shooting finds near an approximate one."""
     maps = orbit.maps
     for _ in range(CUTS):
         phases = segments.cut(orbit, orbit.cycle)

@@ -1,7 +1,7 @@
 """Switch to the branches that leave where an orbit loses its symmetry or doubles its period.
 
 The other branch begins in the direction of the eigenvector of the multiplier -1. Newton's method
-corrects orthogonally to it, and so stays away from the first branch.
+corrects orthogonally to this direction, so it does not return to the first branch.
 """
 
 from dataclasses import replace
@@ -15,23 +15,21 @@ from impact_damper.orbits.continuation import Point, Problem
 from impact_damper.orbits.grazing import at_height, through_grazing, turns_of, with_gradient
 from impact_damper.orbits.shooting import shoot
 
-# Orbits of the other branch are searched for at DISTANCES from the bifurcation, and must lie within
-# ASIDE times this distance of the first guess.
+# Distances from the bifurcation at which orbits of the other branch are searched for; largest
+# distance of such an orbit from the first guess, divided by its distance from the bifurcation.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
-# Search for an orbit of the other branch close to a grazing.
-# SHARES: relative changes of the height that are tried.
-# MISSED, REACH: largest relative error, and largest value, of the distance from the bifurcation.
-# PASSAGES: largest number of orbits from which the branch is followed past the grazing.
+# Search for an orbit of the other branch close to a grazing: relative changes of the height;
+# largest relative error and largest value of the distance from the bifurcation; largest number of
+# orbits from which the branch is followed through the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch leaves.
 LEAVING = ("symmetry_breaking", "period_doubling")
-# A branch meets another one at its end if the last orbit and the orbit of the other branch are at
-# most MEETING apart.
+# Largest distance of the last orbit of a branch from the orbit of the branch that it meets there.
 MEETING = 1e-3
 
 
 def other_branch(event, *, stable=False) -> Point | None:
-    """Return a point, close to a bifurcation, from which the branch that leaves can be followed."""
+    """Return a point (stable if `stable`) of the branch that leaves at a bifurcation, or None."""
     leaving = _leaving(event)
     doubled = event.kind == "period_doubling"
 
@@ -50,7 +48,7 @@ def other_branch(event, *, stable=False) -> Point | None:
 
 
 def met_branch(point, kind) -> Point | None:
-    """Return the point of the branch of more symmetry at which another branch ends."""
+    """Return the point of the branch of more symmetry that a branch meets at its end, or None."""
     orbit, symmetric = point.orbit, kind == "symmetry_breaking"
     periods = orbit.periods // (1 if symmetric else 2)
     orbit = shoot(orbit.p, orbit.state, periods, orbit.phase, symmetric=symmetric)
@@ -61,10 +59,10 @@ def met_branch(point, kind) -> Point | None:
 
 
 def _leaving(event):
-    """Return the equations of the other branch, and its unknowns and direction at an event."""
+    """Return the `Problem` of the other branch, and its unknowns and direction at an event."""
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
-    # Over a cycle the deviation changes its sign relative to the state.
+    # In a cycle the state is multiplied by `sign`, the deviation from the state by -`sign`.
     sign, size = (1 if doubled else -1), 4 if problem.damped else 2
     factors = point.orbit.factors[:, :size, :size].copy()
     factors[-1] *= -1
@@ -91,9 +89,9 @@ def _at_distance(leaving, distance):
 
 
 def _at_heights(leaving):
-    """Yield points of the other branch at several heights of the extremum next to its wall."""
+    """Yield points of the other branch, at several heights of the extremum nearest to a grazing."""
     problem, x, direction = leaving
-    # Only the first half of the segments is searched, because the second half has the same extrema.
+    # Search only the first half of the segments. The second half has the same extrema.
     half = (len(problem.phases) - 1) // 2 if problem.damped else 0
     orbit = problem.shoot(x)
     turns = [turn for turn in turns_of(orbit) if turn.segment < half]
@@ -117,24 +115,24 @@ def _at_heights(leaving):
 
 
 def _is_other(orbit, doubled):
-    """Return whether an orbit clearly has twice the period or, if not `doubled`, is asymmetric."""
+    """Return whether an orbit has twice the period, or, if not `doubled`, is asymmetric."""
     return not orbit.repeats_sooner() if doubled else orbit.record["asymmetry"] > SYMMETRIC
 
 
-# Branches that begin unstable are followed only from branches of the periods WHOLE. Others have at
-# most the period STABLE. A branch of more symmetry is followed from periods up to MET.
+# Periods of branches from which unstable branches are followed; longest period of a new branch from
+# other branches; longest period of a branch from whose end a branch of more symmetry is followed.
 WHOLE, STABLE, MET = (1, 3), 9, 4
-# Two branches meet at an event if the parameter and max |Z1| at the event and at the end of the
-# other branch agree within these tolerances. The end is a fold, located to 1e-7 in branch length.
+# Largest differences of the parameter and of max |Z1| between an event and the end of the branch
+# that leaves there. The end is a fold, whose error is 1e-7 in branch length.
 SAME_VALUE, SAME_SIZE = 1e-6, 1e-4
-# Two bifurcations of one kind are the same if their parameters differ by less than NEAR.
+# Largest difference of the parameter between equal bifurcations.
 NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Append the branches that leave other branches, or at which they end, to the list `branches`.
+    """Append to `branches` the branches that leave them or that they meet at their ends.
 
-    `follow` returns the `Branch` of an orbit at a value of the parameter.
+    The function `follow` returns the `Branch` of an orbit at a value of the parameter.
     """
     for branch in branches:
         for edge in (0, -1):
@@ -148,7 +146,7 @@ def follow_others(branches, follow):
 
 
 def _more_symmetric(branches, branch, edge):
-    """Return the point of a new branch of more symmetry at which a branch ends, or None."""
+    """Return the point of a new branch of more symmetry that a branch meets, or None."""
     kind = branch.ends[edge]
     if kind not in LEAVING or branch.points[0].orbit.periods > MET:
         return None
@@ -159,8 +157,8 @@ def _more_symmetric(branches, branch, edge):
 def _new_branch(branches, branch, place, event):
     """Return a point of a new branch that leaves at an event, or None.
 
-    Next to stable orbits it is followed if the first branch has a period of WHOLE, or if it begins
-    stable with a period up to STABLE; elsewhere only where a period of WHOLE loses its symmetry.
+    From a branch of a period of WHOLE it is followed; but a period doubling must lie next to stable
+    orbits. Otherwise it must begin stable, next to stable orbits, with a period up to STABLE.
     """
     if event.kind not in LEAVING or _is_end(branch, place, event):
         return None
@@ -180,13 +178,13 @@ def _new_branch(branches, branch, place, event):
 
 
 def _is_end(branch, place, event):
-    """Return whether a branch ends at one of its events, whose point has the index `place`."""
+    """Return whether a branch ends at its event whose point has the index `place`."""
     edges = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
     return edges.get(place) == event.kind
 
 
 def ends_at(branches, number, edge, event):
-    """Return whether one end of a branch lies at an event of a branch of more symmetry."""
+    """Return whether an end of a branch lies at an event of a branch of more symmetry."""
     branch = branches[number]
     if branch.ends[edge] != event.kind or event.kind not in LEAVING:
         return False
@@ -199,7 +197,7 @@ def ends_at(branches, number, edge, event):
 
 
 def met_by(branches, number, edge):
-    """Return the index of the branch that a branch meets at one end (0 or 1), or -1."""
+    """Return the index of the branch that a branch meets at the end `edge` (0 or 1), or -1."""
     for other, candidate in enumerate(branches):
         if other == number:
             continue
@@ -214,7 +212,7 @@ def _size(orbit):
 
 
 def _passes(branch, kind, point):
-    """Return whether a branch holds the orbit of a point, or has an event of this kind there."""
+    """Return whether a branch passes the orbit of a point, or has an event of a kind there."""
     periods = point.orbit.periods
     there = [each.point for _, each in branch.events if each.kind == kind]
     near = any(abs(each.value - point.value) < NEAR for each in there)
