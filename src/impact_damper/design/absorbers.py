@@ -49,7 +49,7 @@ DETUNINGS = (-0.1, 0.0, 0.1)
 
 
 class LinearMachine(NamedTuple):
-    """Linear machine: z1, coefficients of g(s), base moves or not, unit (m), natural frequency."""
+    """Linear machine: z1, coefficients of g(s), moving base or not, unit (m), frequency (Hz)."""
 
     damping_ratio: float
     forcing: np.ndarray
@@ -61,7 +61,7 @@ class LinearMachine(NamedTuple):
 def absorber_responses(
     machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None, own=None
 ):
-    """Return a dataset of displacements (mm): machine alone, with a tuned absorber, with `own`.
+    """Return a dataset of displacements (mm) without absorber, with a tuned one, and with `own`.
 
     `mass` (kg) is the mass of the tuned absorber, `band` (Hz) the range over which it is tuned.
     `force_shares` multiply the excitation. `detunings` are relative changes of the absorber's
@@ -180,8 +180,8 @@ def maxima(linear, tuning, band):
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     """Return largest amplitudes (m) at frequencies (Hz), shape (frequencies, force shares).
 
-    They are exact for a linear machine. With a cubic spring they are solutions of the balance of
-    one harmonic: the largest that is stable against folds and below the barrier of a softening
+    Amplitudes are exact for a linear machine. With a cubic spring each is a solution of the balance
+    of one harmonic: the largest that is stable against folds and below the barrier of a softening
     spring, or infinity if there is none. Other instabilities and other motions are not found.
     """
     scales = machine.scales

@@ -42,7 +42,7 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 def other_masses(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset of the damper and a heavier one, empty if the damper is good enough.
 
-    The gap of the heavier one is from a short search. It must not be heavier than the machine.
+    A short search finds the gap of the heavier damper. No damper is heavier than the machine.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"
@@ -76,7 +76,7 @@ def _force(task, gap, frequency):
 
 
 def competitors(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of responses without a damper and with absorbers, one of the same mass."""
+    """Return a dataset of responses without the damper: machine alone, and with tuned absorbers."""
     band = task.absorber_band
     found = absorber_responses(
         task.machine, task.mass, task.grid, SHARES, band=band, own=task.absorber

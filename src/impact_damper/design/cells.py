@@ -2,7 +2,7 @@
 
 A cell is a gap, a forcing frequency and factors of the values that may deviate. A record is the
 largest displacement of a motion so far. A regime is a set of motions of one cell that do not settle
-and have similar records. Its displacement is extrapolated: docs/explanation/promise.md.
+and have similar records. A regime's displacement is extrapolated: docs/explanation/promise.md.
 """
 
 from dataclasses import dataclass, fields
@@ -27,8 +27,8 @@ STREAMS = ("search", "compared", "confirmed", "orbit", "forces", "masses", "repe
 DRAWN, FOLLOWED, TOGETHER = 4, 8, 8
 # Largest ratio of neighbouring records in a regime, in order of size.
 APART = 1.3
-# A peak is the largest displacement in BLOCK cycles. From the TAIL largest peaks of a regime the
-# displacement is extrapolated that the regime exceeds once in HORIZON cycles.
+# A peak is the largest displacement in BLOCK cycles. The displacement that a regime exceeds once in
+# HORIZON cycles is extrapolated from its TAIL largest peaks.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
 # Least and largest number of cycles of all motions of a regime together.
 POOLED, MOST_POOLED = 25_000, 200_000
@@ -37,7 +37,7 @@ MISSING = 0.03
 # STEADY: largest relative difference between the records of four quarters of a run on a torus.
 # SLACK: largest relative amount by which a motion exceeds the orbit that it approaches.
 STEADY, SLACK = 0.002, 0.001
-# Number of cycles in which a motion must settle to be taken as an orbit, before it is run further.
+# Cycles in which a motion is tested for having settled, before the motion is run further.
 CHECKED = 100
 
 
@@ -104,7 +104,7 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime) -> tuple:
-        """Return a regime's displacement, whether it is known, and whether later peaks agree."""
+        """Return a regime's displacement, if it is known, and if later peaks stayed below it."""
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
         pooled = BLOCK * np.isfinite(peaks).sum()
@@ -143,7 +143,7 @@ class Motions:
         return any(known and not tested for _, known, tested in results)
 
     def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
-        """Run motions further until the largest bound above `least` is known; return all bounds.
+        """Run motions further until the largest bound is known or below `least`; return bounds.
 
         Cells in `left_out` are neither run nor compared.
         """
@@ -159,7 +159,7 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Double the cycles of the motions of a regime of cell k, from half of POOLED on.
+        """Double the cycles run by a regime of cell k. The first call runs half of POOLED cycles.
 
         Records of the first run are forgotten, because they may include transients.
         """
@@ -244,8 +244,8 @@ def return_level(peaks) -> float:
     """Return the displacement that motions exceed once in HORIZON cycles, from peaks of blocks.
 
     The excesses over a high level are assumed to be distributed exponentially (S. Coles, An
-    Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). A bounded motion has a
-    shorter tail. Its displacement is therefore too large rather than too small.
+    Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). The tail of a bounded
+    motion is shorter. The displacement returned is therefore too large rather than too small.
     """
     peaks = np.sort(peaks[np.isfinite(peaks)])
     tops = peaks[-TAIL - 1 :]

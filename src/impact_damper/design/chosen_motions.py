@@ -1,4 +1,4 @@
-"""Motions with the chosen gap over the band, and costs (impacts, forces, losses) of the largest."""
+"""Largest motions with the chosen gap over the band, and their costs (impacts, forces, losses)."""
 
 from dataclasses import replace
 
@@ -34,7 +34,7 @@ COSTS = {
 
 
 def response_and_costs(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of the response with the chosen damper and of its largest motions' costs."""
+    """Return a dataset of the response with the chosen damper, and of costs of large motions."""
     # Motions that have not settled are run further, to classify them. The search for the gap does
     # not run them further, to save time.
     effort = task.effort

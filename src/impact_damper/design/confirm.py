@@ -76,7 +76,7 @@ def confirm(task, gap, turn, sets, progress=None) -> Tried:
 
 
 def learn(task, tried, turn, curve, progress=None) -> None:
-    """Put a promise into the curve, and run nearby gaps if it exceeds the curve by far."""
+    """Put a promise into the curve. Run nearby gaps again if the promise is far above the curve."""
     gap, promise = tried.gap, tried.promise
     sizes, factors = promise.by_set(), promise.sets[:, 0]
     expected = curve.within(*np.array(task.gap_ends(gap))[:, None])[0]
@@ -88,7 +88,7 @@ def learn(task, tried, turn, curve, progress=None) -> None:
         k = int(np.argmax(np.where(factors == factor, sizes, -np.inf)))
         curve.put([gap * factor], [sizes[k]], [worst[k]], replace=True)
     if promise.size > SURPRISE * expected:
-        # The search missed a motion: between its frequencies, or because few starts lead there.
+        # The search missed a motion between its frequencies, or a motion that few starts reach.
         reach = SURPRISE * factors.max()
         near = curve.gaps[(curve.gaps > gap / reach) & (curve.gaps < gap * reach)]
         given = np.unique(worst), starts_needed(task.share), ("compared", 100 + turn), progress
@@ -171,8 +171,8 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 def rivals(task) -> xr.Dataset:
     """Return a dataset of the largest displacements with absorbers: tuned, detuned, the task's own.
 
-    The first two have the loose mass. They are NaN if the machine has no linear stiffness to which
-    an absorber can be tuned. The third one is NaN if the task has no absorber.
+    The first two absorbers are as heavy as the loose mass. Their displacements are NaN if the
+    machine has no linear stiffness. The third displacement is NaN if the task has no absorber.
     """
     band = task.absorber_band
     found = absorber_responses(

@@ -135,7 +135,7 @@ def evaluate_damper(
     folder=None,
     progress=False,
 ):
-    """Say how far a machine moves with an existing damper: the promise of `design_damper`.
+    """Say how far a machine moves with an existing damper, by the bound that `design_damper` uses.
 
     Parameters
     ----------
@@ -224,12 +224,12 @@ class Steps:
         self.made = ""
 
     def made_from(self, inputs):
-        """Return the method `step` for a design from `inputs` by the present source files."""
+        """Return the method `step`, which reuses files of the same inputs and source files only."""
         self.made = json.dumps(inputs | {"sources": _sources()}, sort_keys=True)
         return self.step
 
     def step(self, name, compute, *given):
-        """Return the dataset of `compute`, read from its file if made from the same inputs."""
+        """Return the dataset of `compute`, from its file if that was made from the same inputs."""
         title = name.capitalize() if self.progress else None
         if self.folder is None:
             return compute(*given, progress=title)

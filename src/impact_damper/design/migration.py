@@ -1,6 +1,6 @@
 """Design for migration: gaps and frequencies at which a release of the damper is sure to succeed.
 
-A release switches the damper off after a time with it. The release succeeds if it moves a machine
+The damper is switched on and, at the release, off again. A release succeeds if it moves a machine
 with a cubic spring from its large free motion to its small one (`motions.migration`).
 """
 

@@ -9,11 +9,11 @@ from impact_damper.data.shares import DOUBT, bounding_rank
 from impact_damper.design.cells import STREAMS, Cell, run
 from impact_damper.design.task import VARIED
 
-# Largest number of corners (sets with all values at ends of their tolerances), drawn at random.
+# Largest number of corners, which are sets of factors with each value at an end of its tolerance.
 CORNERS = 8
-# Frequencies are added beside the peak of each set of factors whose peak is at least NEAR times the
-# largest one, SPLITS times at most. A peak is known if the last ones raised it by at most the
-# fraction PEAK, and a parabola through the peak and its neighbours raises it by at most PEAK.
+# Frequencies are added beside the peak of each set of factors that reaches NEAR times the largest
+# peak, at most SPLITS times. A peak is known if the last frequencies raised the peak by at most the
+# fraction PEAK, and a parabola through the peak and its neighbours exceeds it by at most PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
 # Least number of frequencies at which a set that deviates is run first; otherwise half of the grid.
 FEWEST = 9

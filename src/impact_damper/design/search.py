@@ -23,8 +23,8 @@ RECORD = 1.2
 # intervals of the logarithm of the gap that are not split, in general and at a jump.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
 # Gaps with at most CANDIDATE times the least value of all gaps form candidate ranges. A range ends
-# at LEVEL times its own least value. The widest range is chosen of those whose least value is at
-# most ALIKE times the least value of all gaps.
+# at LEVEL times its own least value. Among the ranges whose least value is at most ALIKE times the
+# least value of all gaps, the widest is chosen.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
 # Significant digits of a gap: least number, and number from which a gap is not rounded.
@@ -111,7 +111,7 @@ class Curve:
         return max(good, key=lambda each: each.high / each.low)
 
     def keeping(self, gap, size) -> tuple:
-        """Return the ends of the gaps around `gap` that keep to `size`, and displacements beyond.
+        """Return both ends of the gaps around `gap` with at most `size`, and displacements beyond.
 
         The range of gaps always includes the tolerance of `gap`.
         """

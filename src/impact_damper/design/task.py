@@ -38,7 +38,7 @@ NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 # Labels of the ends of a range or of a confidence interval.
 SIDES = ["lower", "upper"]
-# Largest relative deviation, and quantities of absolute deviations, except of the excitation.
+# Largest relative deviation, and physical quantities of absolute ones (the force has several).
 MOST_DEVIATION = 0.9
 ABSOLUTE = {
     "gap": "displacement",
@@ -55,7 +55,7 @@ ESCAPING = 4.0
 # highest frequency of band and resonance.
 ABSORBED = 0.5, 2.0
 # Comparisons of many gaps stop a chaotic motion after PATIENT decay times of the machine, at least
-# LEAST_PATIENCE cycles. Other motions stop after LONG PATIENT decay times, at least LEAST_LIMIT.
+# LEAST_PATIENCE cycles. Others are stopped after LONG x PATIENT decay times, at least LEAST_LIMIT.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
 # Least number of cycles over which a motion that has not settled is measured.
@@ -188,7 +188,7 @@ class Task:
         object.__setattr__(self, name, value)
 
     def _check_length(self, name, most, why):
-        """Check a length (m). It may be at most `most`, infinite if the bare machine escapes."""
+        """Check a length (m), at most `most`. `most` is infinite if the bare machine escapes."""
         limits = {"most": most, "why": why} if math.isfinite(most) else {}
         length = check_si(name, getattr(self, name), "displacement", above=0, **limits)
         self._set(name, length)
@@ -231,7 +231,7 @@ class Task:
                 self.packed(gap, frequency, factors)
 
     def _checked_tolerances(self):
-        """Return relative deviations as numbers. An absolute one of the gap is a text in m."""
+        """Return relative deviations as numbers. An absolute deviation of the gap is a text."""
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
@@ -301,7 +301,7 @@ class Task:
 
     @cached_property
     def hurried(self) -> Settling:
-        """Settling for comparisons of many gaps: runs of a few decay times of the machine.
+        """`Settling` for comparisons of many gaps: runs last for a few decay times of the machine.
 
         Motions that settle later are run further if the promised displacement depends on them.
         """
@@ -359,7 +359,7 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return `count` frequencies of `grid` (Hz), and the worst one, resonances, `others`."""
+        """Return `count` frequencies of `grid` (Hz), and also the worst, resonances, `others`."""
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(self.grid[places], [self.worst_frequency, *resonances, *others])

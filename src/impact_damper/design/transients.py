@@ -89,7 +89,7 @@ def swept_sine(machine, damper, band, rate) -> xr.Dataset:
 
 
 def _swept(machine, damper, first, frequencies):
-    """Return the largest displacement (m) in each cycle of a sweep, without the cycles held."""
+    """Return the largest displacement (m) in each cycle of a sweep, without the held cycles."""
     decay_rate = machine.viscous_damping / (2 * machine.mass)
     held = min(math.ceil(-math.log(SETTLED) * first / decay_rate), HELD)
     rows = forced(machine, damper, np.concatenate([np.full(held, first), frequencies]))

@@ -68,9 +68,9 @@ def frequency_panel(axes, data):
 
 
 def over_frequency(data) -> tuple:
-    """Return displacements over frequency: for nominal values, and the largest of all sets.
+    """Return promised displacements over frequency: of the nominal set, and largest of all sets.
 
-    Sets of values are interpolated between the frequencies at which they were run.
+    Each set of values is interpolated between the frequencies at which it was run.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []
@@ -81,7 +81,7 @@ def over_frequency(data) -> tuple:
 
 
 def gap_panel(axes, data):
-    """Draw displacements against the gap: at the gap, within its tolerance, of the quiet orbit."""
+    """Draw displacements against the gap: as searched, within the tolerance, of the quiet orbit."""
     gap = float(data["design_gap"])
     tolerance = parameters_of(data)["tolerances"].get("gap", 0.0)
     axes.axvspan(gap * (1 - tolerance), gap * (1 + tolerance), **TOLERATED)

@@ -46,7 +46,7 @@ def edges_of(centres):
 
 
 def edges(values):
-    """Return the edges of cells on a logarithmic axis. A single cell is a decade wide."""
+    """Return edges of cells, midway on a logarithmic axis. A single cell is a decade wide."""
     if len(values) == 1:
         return np.asarray(values) * np.sqrt([0.1, 10])
     return np.exp(edges_of(np.log(values)))

@@ -87,7 +87,7 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw free orbits; with a damper, unstable orbits of period 1, stable ones if `stable`."""
+    """Draw orbits. With a damper these are unstable ones of period 1, and stable ones if asked."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return
@@ -171,7 +171,7 @@ def _branch_lines(motions, chosen):
 
 
 def _draw_unsettled(axes, motions, looks):
-    """Draw other motions as points by outcome. Chaos that ended in one of its runs is transient."""
+    """Draw unsettled motions as points. Chaos is a transient if it ended in one of its runs."""
     for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)

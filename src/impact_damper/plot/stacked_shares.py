@@ -107,7 +107,7 @@ def _ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Return the mask of a motion by kind. Chaos that ended in one of its runs is transient."""
+    """Return the mask of a motion by kind. Chaos is a transient if it ended in one of its runs."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0

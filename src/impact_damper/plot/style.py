@@ -32,7 +32,7 @@ STYLE = {
     "legend.frameon": False,
     "legend.handlelength": 2.4,
     "legend.columnspacing": 1.4,
-    # Without this fixed position, matplotlib searches for one in a fifth of the drawing time.
+    # A fixed height of titles. Without it the search for a free height takes a fifth of the time.
     "axes.titley": 1.0,
     "axes.linewidth": 0.6,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
@@ -69,7 +69,7 @@ def shading(label, color):
     return {"label": label, "facecolor": color, "linewidth": 0, "zorder": 0}
 
 
-# Look of each role (what a curve in a frequency response means).
+# Look of each role. A role is the meaning of a curve in a frequency response.
 ROLES = {
     "free_stable": line("free, stable", BLACK, zorder=2.2),
     "free_unstable": line("free, unstable", GREY, linestyle=DASHED, zorder=2.1),
