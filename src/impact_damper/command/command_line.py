@@ -186,7 +186,7 @@ def response(
 
 
 def different(sizes, alike=1e-4):
-    """Return ascending sizes that differ, each with the places of its motions (mirror images)."""
+    """Return the different sizes, ascending, each with the indices of the motions of this size."""
     found = []
     for place in sorted(range(len(sizes)), key=lambda i: sizes[i]):
         if not found or sizes[place] > found[-1][0] * (1 + alike):
@@ -279,7 +279,7 @@ def machine(given):
 
 
 def answer(decide, made, machine_file, file, force, as_json):
-    """Compute a design or an evaluation, keep it in a file with its page, and tell the answer."""
+    """Compute a design or an evaluation, save its data and its page, and print the answer."""
     from impact_damper.command.folders import check_folder
     from impact_damper.data.datasets import decode, save
     from impact_damper.model.machine import describe_si
@@ -304,7 +304,7 @@ def answer(decide, made, machine_file, file, force, as_json):
 
 
 def damper(given, gap):
-    """Return the damper with a gap, and the stiffness of the contact as in a design, or None."""
+    """Return the damper with a gap and with a design's contact stiffness; None without a gap."""
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.task import Task
 
@@ -325,7 +325,7 @@ def quantity(text):
 
 
 def write_report(data, file, folder):
-    """Write the page of a dataset, kept in a file, into a folder; return the path of the page."""
+    """Write the page of the dataset in a file into a folder; return the path of the page."""
     from impact_damper.plot.pages.render import write_page
 
     name = Path(data.attrs.get("input_file", file.name)).stem

@@ -1,4 +1,4 @@
-"""The check of a folder for results, before anything is computed."""
+"""A check of the folder for results, made before anything is computed."""
 
 from impact_damper.data.datasets import load, parameters_of
 from impact_damper.data.whole_files import BrokenFileError, whole
@@ -8,7 +8,7 @@ from impact_damper.plot.pages.render import GENERATOR
 def check_folder(folder, machine, force) -> None:
     """Raise OSError unless files can be written into a folder.
 
-    Without `force` it must hold no foreign `index.html`, and no design of another machine.
+    Without `force` the folder must hold no foreign `index.html` and no data of another machine.
     """
     probe = folder / "index.html.check"
     with whole(probe) as part:

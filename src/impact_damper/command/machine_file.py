@@ -1,4 +1,4 @@
-"""Machines for which a damper is designed: an entry of the configuration, or a file of its own."""
+"""Machines that need a damper, in an entry of the configuration or in a file of their own."""
 
 import re
 from dataclasses import MISSING, fields
@@ -33,7 +33,7 @@ class AllowedQuantity(Allowed):
         return core_schema.with_info_plain_validator_function(self._quantity)
 
     def _quantity(self, value, info):
-        # Reading units takes a third of a second, which a job of a checked configuration can save.
+        # A checked configuration is not checked again; reading units takes a third of a second.
         if info.context:
             return value
         if any((absolute_value(value, each) or -1) > 0 for each in self.absolute):
@@ -47,7 +47,7 @@ class AllowedQuantity(Allowed):
 
 
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
-    """Return the type of a quantity within bounds; it may be given in units of `absolute`, too."""
+    """Return the type of a quantity within bounds; units of kinds `absolute` are allowed too."""
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 
 
@@ -125,7 +125,7 @@ Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 
 def deviation_of(what, *absolute):
-    """Return an optional field for a deviation, a fraction or in units of a quantity."""
+    """Return an optional field for a deviation, as a fraction or in units of kinds `absolute`."""
     meaning = f"largest deviation of {what}, as a fraction of it"
     return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 
@@ -202,7 +202,7 @@ class MachineEntry(section.Section):
 
 
 def design_arguments(content, workers=1) -> dict:
-    """Return the arguments of `design_damper` in the content of a file, without the machine."""
+    """Return the arguments of `design_damper`, without the machine, from a file's content."""
     # Imported here because it loads SciPy.
     from impact_damper.design.task import Effort
 
@@ -231,17 +231,17 @@ _Loader.add_implicit_resolver(
     re.compile(f"(?:{section.SCIENTIFIC.pattern})$"),
     list("-+.0123456789"),
 )
-# Values of keys that a file may leave out. With 73 starts, all of which lead to quiet motions, the
-# lower end of the 95 % interval (Wilson) of the share is 0.95, the share required here.
+# Values of keys that a file may leave out. If all of 73 starts lead to quiet (small) motions, the
+# lower end of Wilson's 95 % interval of their share is 0.95, the value of `share`.
 DEFAULTS = {"candidates": 8, "starts": 73, "share": 0.95, "tolerances": {"gap": 0.2}}
 POINTS = 9  # frequencies in the band
 
 
 def read_machine_file(path) -> dict:
-    """Return the content of a machine's file, checked, with defaults for the keys left out.
+    """Check a machine's file, and return its content with defaults for missing keys.
 
-    Other than in the configuration, `band` may be a list of two frequencies, and `frequencies`
-    their number.
+    Unlike in the configuration, `band` may be a list of its first and last frequency, and the key
+    `frequencies` the number of frequencies in the band.
     """
     section.check_file(path)
     given = yaml.load(Path(path).read_bytes(), _Loader)

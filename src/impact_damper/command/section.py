@@ -22,7 +22,7 @@ class ConfigurationError(ValueError):
 
 
 class Section(BaseModel):
-    """Keys with values. An unknown key is an error, as is a missing key without a default."""
+    """Keys with values. Unknown keys are errors, and so are missing keys without a default."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -44,7 +44,7 @@ class Section(BaseModel):
 
     @classmethod
     def _worded(cls, value, detail):
-        """Return an error of pydantic with the message of this package, its path and its value."""
+        """Return an error of pydantic with a message of this package, the path and the value."""
         kind, path, given = detail["type"], detail["loc"], detail["input"]
         known = sorted(cls.model_fields)
         if not path:
@@ -74,7 +74,7 @@ def parts(value, path=()):
 
 
 def problem(path, value, reason) -> str:
-    """Return the line on a wrong value: its path of keys, the value, and what it must be."""
+    """Return the line that reports a wrong value: path of keys, value and what it must be."""
     if isinstance(value, str) and SCIENTIFIC.fullmatch(value):
         known = yaml.safe_dump(float(value)).split()[0]
         reason += f"; YAML takes this for text, and {known} for a number"
@@ -82,7 +82,7 @@ def problem(path, value, reason) -> str:
 
 
 def missing(path, reason) -> str:
-    """Return the line on a key that is missing."""
+    """Return the line that reports a missing key."""
     return f"{dotted(path)}: missing; {reason}"
 
 

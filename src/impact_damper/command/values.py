@@ -11,12 +11,12 @@ from pydantic_core import PydanticCustomError, core_schema
 from impact_damper.model.bounds import POINTS_RANGE, RUNS_RANGE
 from impact_damper.model.text import plain
 
-# Tags that pydantic adds to the path of a value of two types. Keys cannot have these names.
+# Tags that pydantic adds to the path of a number or a range. Keys cannot have these names.
 NUMBER, RANGE = "<number>", "<range>"
 
 
 class Allowed:
-    """A text on the allowed values, the words after "must be", which replaces pydantic's message.
+    """The words after "must be" that name allowed values; they replace pydantic's message.
 
     For a list or mapping `test` returns whether its type and length are allowed.
     """

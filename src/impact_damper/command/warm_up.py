@@ -9,8 +9,8 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 
 OSCILLATOR = Oscillator(damping=0.215)
-# Motions with this damper settle soon at this frequency. Settled motions are followed by Newton's
-# method, so that its kernels are called, and compiled, too.
+# Motions with this damper settle soon at this frequency. Newton's method refines settled motions,
+# so its kernels are compiled too.
 DAMPER = Damper(mass_ratio=0.25, clearance=1.0, restitution=0.75)
 FREQUENCY = 1.95
 
@@ -18,7 +18,8 @@ FREQUENCY = 1.95
 def warm_up_orbits() -> None:
     """Call each kernel that processes one motion at a time.
 
-    The order is such that this and `warm_up_settling` rarely compile the same kernel at once.
+    `warm_up_settling` may run in parallel. The order of the calls is such that both functions
+    rarely compile the same kernel at the same time.
     """
     from impact_damper.motions import records, strobe_map, traces
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-# These register their variables.
+# The import of these modules registers variables.
 from impact_damper.data import design_variables, motion_variables  # noqa: F401
 from impact_damper.data.variables import VARIABLES
 from impact_damper.data.whole_files import BrokenFileError, check_length, whole_netcdf
@@ -20,14 +20,14 @@ from impact_damper.model.units import QUANTITIES
 
 SOURCE = "impact-damper"
 
-# Kinds that are the same in all units; a mixed number stays in the scales of the machine.
+# Kinds whose values are not converted; a mixed number stays in the scales of the machine.
 PURE = ("number", "angle", "mixed")
 # Largest number of values read at once from an open file.
 PIECE = 2**14
 
 
 def variable(name, data, dims=None) -> xr.Variable:
-    """Return a variable with the attributes registered for `name`, or with other dimensions."""
+    """Return a variable with the attributes and (unless `dims` is given) dimensions of `name`."""
     entry = VARIABLES[name]
     attributes = {"long_name": entry.long_name, "units": entry.units}
     if entry.symbol:
@@ -41,7 +41,7 @@ def variable(name, data, dims=None) -> xr.Variable:
 
 
 def shown_variable(name, values):
-    """Return a registered variable with values in mm, or in the SI unit of another kind."""
+    """Return a registered variable with values in the unit for machines, such as mm."""
     found = variable(name, values)
     found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
     return found
@@ -98,7 +98,7 @@ def in_si(data, machine, damper=None) -> xr.Dataset:
 
 
 def from_si(data, scales) -> xr.Dataset:
-    """Return a dataset of a machine made dimensionless by its scales."""
+    """Return the dataset of a machine in dimensionless numbers, by the machine's scales."""
     return _converted(data, lambda values, unit: values / unit, scales) if scales.si else data
 
 
@@ -119,7 +119,7 @@ def _converted(data, convert, scales):
 
 
 def _kind(name, data):
-    """Return the kind of a variable; for a followed value, the kind of the parameter."""
+    """Return the kind of a variable; for "followed", the kind of the parameter that varies."""
     kind = VARIABLES[name].kind
     if kind != "followed":
         return kind
@@ -220,7 +220,7 @@ def oscillator_of(data) -> Oscillator:
 
 
 def damper_of(data, **others) -> Damper:
-    """Return the damper that a dataset was computed for; `others` are fields that vary in it."""
+    """Return the damper that a dataset was computed for; `others` are fields that vary."""
     return Damper(**pick(Damper, parameters_of(data)), **others)
 
 

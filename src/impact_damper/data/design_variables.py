@@ -2,8 +2,8 @@
 
 from impact_damper.data.variables import register
 
-# Gaps around the chosen one keep the promise with up to KEEPS times its displacement. A damper that
-# lowers the largest displacement by a share below WORTH is not worth building.
+# Largest ratio of displacements at other gaps to the promised one (a bound for most starts) that
+# keeps the promise; smallest share by which a useful damper lowers the largest displacement.
 KEEPS, WORTH = 1.1, 0.25
 
 register(

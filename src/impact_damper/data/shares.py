@@ -7,9 +7,9 @@ from scipy.special import bdtr, gammaincinv  # `scipy.stats` takes half a second
 
 # Labels of the numbers that `wilson` and `escape_rate` return.
 BOUNDS = ["share", "lower", "upper"]
-# Quantile of the normal distribution of a two-sided 95 % interval.
+# Quantile of the normal distribution for a two-sided 95 % interval.
 QUANTILE = 1.959963984540054
-# Probability with which a bound at 95 % confidence is wrong.
+# Probability that a bound with 95 % confidence is wrong.
 DOUBT = 0.05
 
 
@@ -34,7 +34,7 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return the rank k such that the k-th largest of `total` values bounds a share of all values.
+    """Return k: at least a share of all values lies below the k-th largest of `total` values.
 
     The bound holds with the confidence 1 - doubt for any distribution (S. S. Wilks, Ann. Math.
     Stat. 12, 1941). k is 0 if there are too few values.
@@ -43,7 +43,7 @@ def bounding_rank(share, total, doubt=DOUBT) -> int:
 
 
 def starts_needed(share) -> int:
-    """Return the least number of values of which the largest bounds a share of all values."""
+    """Return how many values are needed so that the largest is a bound on a share of all."""
     return math.ceil(math.log(DOUBT) / math.log(share))
 
 

@@ -10,9 +10,9 @@ BAR = re.compile(r"(?<!\S)\|(?!\S)")
 class Variable(NamedTuple):
     """One variable of the datasets; `long_name` is also the text of an axis label.
 
-    `kind`, for the unit in datasets of machines, is a key of `model.units.QUANTITIES`, "state" for
+    `kind` gives the unit in datasets of machines: a key of `model.units.QUANTITIES`, "state" for
     displacements and velocities, "followed" for the parameter that varies, or "mixed" for a number
-    of several kinds, such as the distance of two states.
+    that combines several kinds, such as the distance of two states.
     """
 
     dims: tuple
@@ -33,9 +33,9 @@ VARIABLES: dict[str, Variable] = {}
 def register(table) -> None:
     """Add variables to the registry; a name that is registered already is an error.
 
-    The table has for each variable a line "name | dimensions | kind | symbol | description",
-    without a kind for a plain number. An indented line continues the description, or names the
-    values of the variable: "  : absent 0, found 1", or "  : outcome" for the values of the variable
+    The table has a line "name | dimensions | kind | symbol | description" for each variable. An
+    empty kind means a plain number. An indented line continues the description, or names the values
+    of the variable: "  : absent 0, found 1", or "  : outcome" for the same values as the variable
     `outcome`. "#" begins a comment.
     """
     entries = []
@@ -67,7 +67,7 @@ def _named_values(text):
     return {name: int(value) for name, value in pairs}
 
 
-# Labels of states without attractor; `mixed` if the place of the loose mass decides.
+# Labels of states without attractor. `mixed`: the place of the loose mass decides on the attractor.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,

@@ -8,8 +8,8 @@ from pathlib import Path
 # Advice that the workflow appends to a BrokenFileError about one of its results.
 DELETE = "delete it and run the same command again"
 
-# An HDF5 file begins with SIGNATURE and a superblock. Superblocks that begin with one of VERSIONS
-# hold the length of the file at LENGTH.
+# An HDF5 file begins with SIGNATURE and a superblock. If the superblock begins with one of
+# VERSIONS, the bytes LENGTH of the file hold the file's length.
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 VERSIONS = (b"\x02\x08\x08", b"\x03\x08\x08")
 LENGTH = slice(28, 36)
@@ -34,7 +34,7 @@ def whole(path):
         yield part
         os.replace(part, path)
     except BrokenFileError:
-        raise  # concerns another file, which was read to write this one
+        raise  # the error concerns another file, which was read
     except OSError as error:
         raise OSError(f"{path} cannot be written: {_reason(path.parent, error)}") from error
     finally:
@@ -54,9 +54,9 @@ def whole_netcdf(path):
 
 
 def _reason(folder, error):
-    """Return in one line why a file could not be written, from writing a trial file.
+    """Write a trial file, and return in one line why a file could not be written.
 
-    The errors of the NetCDF library are vague, and wrong if the disk is full.
+    The messages of the NetCDF library are vague, and wrong if the disk is full.
     """
     trial = folder / f".trial-{os.getpid()}"
     try:
@@ -71,7 +71,7 @@ def _reason(folder, error):
 
 
 def check_length(path) -> None:
-    """Raise BrokenFileError if a file is not NetCDF-4 or is truncated, from its first bytes."""
+    """Raise BrokenFileError if the first bytes of a file show that it is not whole NetCDF-4."""
     with open(path, "rb") as file:
         start = file.read(LENGTH.stop)
     if not start.startswith(SIGNATURE):

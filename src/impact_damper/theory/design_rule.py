@@ -1,4 +1,4 @@
-"""Design rule (19) of the paper for the clearance; no NumPy, since every dry run imports it."""
+"""Design rule (19) of the paper for the clearance, without NumPy for Snakemake's dry runs."""
 
 import math
 
@@ -11,9 +11,8 @@ def peak_frequency(oscillator) -> float:
 
         (1 - g U^2/h^2) s^2 - (wl^2 + 2 g F U/h^2) s - g F^2/h^2 = 0.
 
-    Of two solutions with a softening spring the peak is the one with the smaller amplitude. The
-    maximum of the response curve (`free_oscillator.maximum_response`) lies at a slightly lower
-    frequency.
+    With a softening spring there are two solutions; the peak has the smaller amplitude. The maximum
+    of the response curve (`free_oscillator.maximum_response`) lies at a slightly lower frequency.
     """
     stiffness, hardening = oscillator.linear_frequency**2, oscillator.hardening
     scale = hardening / oscillator.damping**2

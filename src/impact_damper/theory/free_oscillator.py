@@ -12,12 +12,12 @@ from numpy.polynomial import Polynomial
 from impact_damper.model.bounds import check_frequency
 from impact_damper.theory.roots import polynomial_roots
 
-# Amplitudes that exceed a bound by at most this relative amount count as within the bound.
+# Largest excess of an amplitude over a bound, relative to the bound, that rounding may cause.
 ROUNDING = 1e-9
 
 
 class FreeSolutions(NamedTuple):
-    """Solutions a > 0, ascending, and t1 at one frequency, shape (count,); 0 without forcing."""
+    """Ascending amplitudes a and phases t1 at one frequency, shape (count,); 0 without forcing."""
 
     amplitude: np.ndarray
     phase: np.ndarray
@@ -72,7 +72,7 @@ def balance_amplitudes(oscillator, frequency):
 
 
 def resonance(oscillator, frequency) -> Resonance:
-    """Return the branch of the response curve on which the peak lies.
+    """Return amplitude and phase on the branch of the response curve that has the peak.
 
     With a hardening spring the branch ends at the upper fold, with a softening spring at the fold
     next to the peak.
@@ -91,8 +91,8 @@ def maximum_response(oscillator) -> Point:
     """Return the maximum of the free response curve over W.
 
     The curve has the amplitude a at the roots W of (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2
-    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. At the maximum its discriminant, quadratic in a^2,
-    is zero.
+    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. At the maximum the discriminant of this equation,
+    which is quadratic in a^2, is zero.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening
@@ -119,8 +119,8 @@ def maximum_response(oscillator) -> Point:
 def free_folds(oscillator) -> tuple[Point, ...]:
     """Return the folds of the free response curve, by ascending amplitude.
 
-    At a fold the polynomial of `maximum_response` in s = W^2 and its derivative by u = a^2 are
-    zero. Both are quadratic in s; their resultant has degree five in u.
+    At a fold the left side of the equation in `maximum_response` and its derivative with respect to
+    u = a^2 are zero. Both are quadratic in s = W^2; their resultant has degree five in u.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening

@@ -65,17 +65,17 @@ def harmonic_balance(system, damper, frequencies):
     Returns
     -------
     xarray.Dataset
-        For each (frequency, free_solution) a motion without the damper. With a damper also, for
-        each (frequency, solution), a solution of (7) or a motion in which the loose mass rests, and
-        for each (frequency, root) a root of (14). Each index of `free_solution`, `solution` or
-        `root` is a branch, continuous over frequency from fold to fold, so that
-        `amplitude.plot.line(x="frequency")` draws the curves. Where a branch does not exist,
-        entries are NaN or flagged absent.
+        Variables over (frequency, free_solution) describe motions without the damper. With a
+        damper, variables over (frequency, solution) describe solutions of (7) and motions in which
+        the loose mass rests; variables over (frequency, root) describe roots of (14). Each index of
+        `free_solution`, `solution` or `root` is a branch, continuous over frequency from fold to
+        fold, so `amplitude.plot.line(x="frequency")` draws the curves. Where a branch does not
+        exist, entries are NaN or flagged absent.
 
         The suppression band is the range of frequencies around the peak Wp of the free response in
         which (7) has exactly one stable solution, smaller than the free resonance branch; with a
-        hardening spring this branch ends at the upper fold. The frequency of each `edge` (lower,
-        upper) of the band, NaN if it is not found; the width of the band; and the reduction at Wp.
+        hardening spring this branch ends at the upper fold. The dataset has the frequency of each
+        `edge` (lower, upper), NaN if it is not found, the band's width, and the reduction at Wp.
 
     Raises
     ------
@@ -188,7 +188,7 @@ SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "r
 
 
 def _band(oscillator, damper):
-    """Return the variables of the suppression band, without interruptions below SEARCH_STEP."""
+    """Return the variables of the suppression band, in which holes below SEARCH_STEP are not seen."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,

@@ -1,4 +1,4 @@
-"""The optimum clearance by harmonic balance: a sweep of (7), and where its amplitude is zero."""
+"""The optimum clearance by harmonic balance (7): the clearance at which the amplitude is zero."""
 
 from dataclasses import replace
 
@@ -9,12 +9,12 @@ from impact_damper.data.datasets import flag
 from impact_damper.theory import single_harmonic as balance
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
-# A solution of (7) counts as a = 0 if |a| is below ZERO_AMPLITUDE times the clearance.
+# Largest |a| that is treated as a = 0, in units of the clearance.
 ZERO_AMPLITUDE = 1e-6
 
 
 def _analytical(oscillator, damper, frequency):
-    """Return the a of smallest |a| among stable solutions of (7), and its `analytical_status`."""
+    """Return a of the stable solution of (7) with the smallest |a|, and `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     if damper.gravity or damper.friction or oscillator.base:
@@ -29,7 +29,7 @@ def _analytical(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return |a| by harmonic balance (7) over a sweep of the clearance, and where it is zero."""
+    """Return variables: |a| by (7) over a sweep of the clearance, and the clearance for a = 0."""
     found = [_analytical(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best = np.nan

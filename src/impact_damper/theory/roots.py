@@ -1,6 +1,6 @@
 """All real roots of a smooth function of one variable, from the signs at its extrema.
 
-An extremum that is zero to rounding is a double root.
+An extremum that is zero within rounding errors is a double root.
 """
 
 import numpy as np
@@ -9,10 +9,10 @@ from numpy.polynomial.polynomial import polyder, polyroots, polyval
 from scipy.optimize import brentq
 
 EPSILON = np.finfo(float).eps
-# Values below ROUNDING times the sum of the moduli of a function's terms count as zero.
+# Largest ratio of a value that is treated as 0 to the sum of the moduli of the function's terms.
 ROUNDING = 16 * EPSILON
 LARGEST_DEGREE = 512
-# An interval is halved if the sum of the moduli of the terms varies by more than this factor in it.
+# Largest ratio of two sums of moduli of the terms in an interval, above which it is halved.
 LARGEST_RANGE = 1e6
 
 
@@ -34,8 +34,8 @@ def polynomial_roots(coefficients) -> np.ndarray:
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
     """Return the real roots of an analytic function in [lower, upper], each listed once.
 
-    `size` bounds the rounding error in epsilons. The extrema are those of a Chebyshev interpolant
-    (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
+    `size` bounds the rounding error in units of EPSILON. The extrema are those of a Chebyshev
+    interpolant (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
     """
     sizes = size(np.linspace(lower, upper, 17))
     if np.max(sizes) > LARGEST_RANGE * np.min(sizes):

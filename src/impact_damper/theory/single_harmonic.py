@@ -26,7 +26,7 @@ class Solutions(NamedTuple):
 def contact_amplitude(relative_amplitude, clearance) -> tuple:
     """Return the first harmonic B(b) of the contact force divided by r1, equation (6e), and dB/db.
 
-    With the contact angle p, cos(p) = d0/b, B = b (2/pi)(p - sin p cos p); it is 0 for b <= d0.
+    B = b (2/pi)(p - sin p cos p) with the contact angle p, cos(p) = d0/b. B is 0 for b <= d0.
     """
     amplitude = np.maximum(relative_amplitude, clearance)
     angle = np.arctan2(np.sqrt((amplitude - clearance) * (amplitude + clearance)), clearance)
@@ -37,8 +37,8 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 def rigid_solutions(oscillator, damper, frequency) -> Solutions:
     """Return the solutions of (13), with b = d0, by ascending real roots D of (14).
 
-    Where a > d0 walls would have to pull; (7) has no such solution. For a forcing amplitude f other
-    than 1, d0/f, k3 f^2 and a/f replace d0, k3 and a.
+    Solutions with a > d0 need walls that pull; (7) has no such solution. With a forcing amplitude
+    f other than 1, d0/f, k3 f^2 and a/f replace d0, k3 and a.
     """
     check_elastic(oscillator, damper)
     frequency = check_frequency(frequency)
@@ -88,9 +88,9 @@ def resting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 class _Balance:
-    """The terms of (7) with (6e) by contact angle p, multiplied by powers of cos(p).
+    """The terms of (7) with (6e) as functions of the contact angle p, times powers of cos(p).
 
-    At p = pi/2 a and b have a pole.
+    These powers remove the poles that a and b have at p = pi/2.
     """
 
     def __init__(self, oscillator, damper, frequency):
@@ -121,7 +121,7 @@ class _Balance:
         return inline**2 + quadrature**2 - self.force**2 * cosine**6
 
     def defect_size(self, angle):
-        """Return a bound on the rounding error of `defect`, mostly from a cos(p), in epsilons."""
+        """Return a bound on the rounding error of `defect`, in units of the machine epsilon."""
         cosine, scaled, inline, quadrature = self.terms(angle)
         square = cosine**2
         error = 2 * self.clearance - scaled
@@ -136,7 +136,7 @@ class _Balance:
         )
 
     def angle_range(self):
-        """Return the least and the greatest p that the bounds on |a| allow, equal if there is none.
+        """Return the least and the greatest p within the bounds on |a|; equal numbers mean none.
 
         (7b) bounds |a| by f/(h W), and (7a) bounds |g| |a|^3 by the other terms.
         """

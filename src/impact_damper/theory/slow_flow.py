@@ -1,14 +1,14 @@
 """Stability of harmonic-balance solutions by the slow flow (17) in complex amplitudes.
 
-With A = a exp(i t1) and C = b exp(i t2) the slow flow is regular at a = 0, the design point, unlike
-the polar equations of the paper; elsewhere the eigenvalues are the same.
+With A = a exp(i t1) and C = b exp(i t2) the slow flow is regular at the design point a = 0. The
+polar equations of the paper are not. At other points the eigenvalues of both are the same.
 """
 
 import numpy as np
 
 from impact_damper.theory.single_harmonic import contact_amplitude
 
-# A motion whose growth rate has a modulus of at most MARGIN counts as marginally stable.
+# Largest modulus of the growth rate of a marginally stable motion.
 MARGIN = 1e-9
 
 

@@ -1,6 +1,6 @@
 """Closed forms for the optimum clearance, for a loose mass that flies at constant velocity.
 
-Lengths are in units of f/W^2, so rm W^2 d0 means rm W^2 d0/f in this module.
+Lengths are in units of f/W^2. Therefore rm W^2 d0 stands for rm W^2 d0/f in this module.
 """
 
 from functools import cache
@@ -22,11 +22,11 @@ APART = 1e-20j
 
 
 class Flight(NamedTuple):
-    """The quiet motion near its optimum, with lengths in units of f/W^2 and time as phase W T.
+    """The quiet (small) motion near its optimum; lengths are in units of f/W^2, time is phase W T.
 
     x = W^2 Z1/f responds to the forcing and to impulses 4 q/pi (see the derivation in
-    docs/explanation/straight_flight.md). `contact` is the phase of an elastic contact divided by
-    pi, `damping` h/W and `stiffness` omega_l/W, below 1.
+    docs/explanation/straight_flight.md). `contact` is the duration of an elastic contact, as phase
+    divided by pi. `damping` is h/W. `stiffness` is omega_l/W, below 1.
     """
 
     mass_ratio: float
@@ -47,19 +47,19 @@ class Flight(NamedTuple):
 
     @property
     def loss(self):
-        """Ratio L/A, with which sin(s) = q L/A for rigid walls."""
+        """Ratio L/A. The lag s of an impact at rigid walls obeys sin(s) = q L/A."""
         impact = (1 + 1 / self.mass_ratio) * (1 - self.restitution) / (1 + self.restitution)
         damping = self._difference(lambda root: root * np.tanh(np.pi * root / 2))
         return 2 / np.pi * (impact - damping) / self.forced
 
     @property
     def contact_phase(self):
-        """Phase theta that a contact lasts."""
+        """Duration theta of a contact, as a phase."""
         return np.pi * self.contact / np.sqrt(1 - damping_ratio(self.restitution) ** 2)
 
     @property
     def reach(self):
-        """Depth beyond the wall where the lines of both flights meet, divided by (1 + 1/rm) q."""
+        """Depth at which the straight flights before and after a contact meet, by (1 + 1/rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
@@ -119,7 +119,7 @@ class Flight(NamedTuple):
 
 
 def flight_of(oscillator, damper, frequency) -> Flight:
-    """Return the `Flight` for a damper, whose clearance is not used."""
+    """Return the `Flight` for a damper; the clearance of the damper is not used."""
     check_closed_form(oscillator, damper)
     if oscillator.forcing_amplitude(1.0) == 0:
         raise ValueError(f"{oscillator.told('force', 'unbalance')}: a quiet motion needs a forcing")
@@ -142,8 +142,8 @@ def flight_of(oscillator, damper, frequency) -> Flight:
 def least_displacement_ratio(flight) -> float:
     """Return rm W^2 d0 at which max |Z1| is smallest.
 
-    This is a kink, where |x| at the impact equals the largest |x| between impacts, or with low
-    restitution a smooth minimum of the latter.
+    The minimum is a kink at which |x| at the impact equals the largest |x| between impacts. With
+    low restitution it is a smooth minimum of the largest |x| between impacts.
     """
     impulses = np.linspace(0, flight.largest_impulse, GRID + 2)[1:-1]
     best = int(np.argmin(flight.largest_displacement(impulses)))
@@ -157,9 +157,9 @@ def least_displacement_ratio(flight) -> float:
 def least_harmonic_ratio(flight) -> float:
     """Return rm W^2 d0 at which the first harmonic of Z1 is smallest.
 
-    Forcing and impulses have the first harmonic 1 - c q exp(-i p), c = 8/pi^2, with the lag p of
-    the impact. With sin(u) = q L/A and n = u - p its modulus is smallest where
-    tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
+    Forcing and impulses together have the first harmonic 1 - c q exp(-i p), where c = 8/pi^2 and p
+    is the lag of the impact. With sin(u) = q L/A and n = u - p, the modulus of this harmonic is
+    smallest where tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
     """
     factor = 8 / np.pi**2
     loss = flight.loss
