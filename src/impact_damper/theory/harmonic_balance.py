@@ -188,7 +188,7 @@ SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "r
 
 
 def _band(oscillator, damper):
-    """Return the variables of the suppression band, in which holes below SEARCH_STEP are not seen."""
+    """Return the variables of the suppression band; holes narrower than SEARCH_STEP are not seen."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,
