@@ -2,8 +2,8 @@
 
 from impact_damper.data.variables import register
 
-# Largest ratio of displacements at other gaps to the promised one (a bound for most starts) that
-# keeps the promise; smallest share by which a useful damper lowers the largest displacement.
+# Largest displacement at a gap that keeps the promise, in units of the promised displacement;
+# smallest share by which a damper worth building lowers the largest displacement.
 KEEPS, WORTH = 1.1, 0.25
 
 register(

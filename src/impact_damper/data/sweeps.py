@@ -12,7 +12,7 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 class Family(NamedTuple):
     """A motion over a sweep: outcome, period in cycles or 0, and number of starts that lead to it.
 
-    `places` is the mask of its entries in the arrays of the sweep, shape (value, motion).
+    `places` is the mask of the motion's entries in arrays of the sweep, shape (value, motion).
     """
 
     outcome: str

@@ -103,7 +103,7 @@ def aligned(count):
 def pointer(typing, array):
     """Return a pointer to the first element of an array, which the caller must keep alive.
 
-    For an array numba counts references. The locked instructions take longer than some kernels.
+    numba counts the references to an array, by locked instructions slower than some kernels.
     """
 
     def generate(context, builder, signature, arguments):

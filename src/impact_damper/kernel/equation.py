@@ -67,9 +67,9 @@ def acceleration(p, y, t):
 def no_return(p):
     """Return the |Z1| beyond which a primary mass that moves outward never comes back.
 
-    Farther out, a softening spring pushes outward with at least the amplitude A of the forcing. For
-    |Z1| > 2 omega_l / sqrt(-k3), its force is -k3 |Z1|^3 - omega_l^2 |Z1| >= -3/4 k3 |Z1|^3, and
-    the second bound makes this at least A. The contact forces of the loose mass are neglected.
+    There a softening spring pushes outward with at least the amplitude A of the forcing. Above
+    2 omega_l/sqrt(-k3) its force -k3 |Z1|^3 - omega_l^2 |Z1| is at least -3/4 k3 |Z1|^3, which is
+    at least A above (4 A/(-3 k3))^(1/3). The contact forces of the loose mass are neglected.
     """
     if p[CUBIC] >= 0.0:
         return math.inf
@@ -142,7 +142,7 @@ def motion(order, phase, constants, across):
 def tangent(order, phase, constants):
     """Yield the lines for the series of a tangent, whose x and q solve the variational equations.
 
-    The arguments are as in `motion`. Before them u0, u1, ... from `squares` must have values.
+    The arguments are as in `motion`. Before the lines u0, u1, ... of `squares` must have values.
     """
     for k in range(order - 1):
         yield from constants(k)

@@ -184,7 +184,7 @@ class Writer:
     def _constants(self, phase, tangent):
         """Return a function that returns the lines for coefficient k of the constant series.
 
-        With several lanes each step has other trajectories, so the lines compute the coefficient.
+        The lines load it with one lane, and compute it with several, whose trajectories change.
         """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
         if self.lanes > 1:

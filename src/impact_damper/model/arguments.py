@@ -145,7 +145,7 @@ def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
 
 
 def read_radius(scales, radius, whole_gap=False) -> float | None:
-    """Return the radius of the ball of random starts, or None for a search without it."""
+    """Return the radius of the ball of random starts, or None for a search without this ball."""
     if radius is None:
         if whole_gap:
             raise ValueError("radius = None: must be given with whole_gap; 0 for a machine at rest")

@@ -15,7 +15,7 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# Smallest derivative of the balance that is used (at a fold it is 0), and number of fits in turn.
+# Smallest derivative of the balance that is used (at a fold it is 0), and number of repeated fits.
 FOLD, PASSES = 0.1, 6
 
 

@@ -237,7 +237,7 @@ class Machine:
         """Scales with which the dimensionless equations describe the machine.
 
         The length is the geometric mean of the static deflection and the displacement at resonance.
-        Therefore motions and useful gaps are of the order 1. With the time, omega_l^2 + |k3| = 1.
+        Therefore motions and useful gaps are of the order 1. The time makes omega_l^2 + |k3| = 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -247,7 +247,7 @@ class Machine:
     def _static_deflection(self):
         """Return the deflection under the excitation, m.
 
-        Without excitation linear and cubic force are equal at it; if one of them is 0, it is 1 mm.
+        Without excitation it is where linear and cubic force are equal, or 1 mm if one is absent.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:

@@ -58,7 +58,7 @@ def harmonic_balance(system, damper, frequencies):
     ----------
     system : Oscillator or Machine
     damper : Damper, MachineDamper or None
-        Elastic; without a damper only the free response is returned.
+        An elastic damper, or None for the free response only.
     frequencies : array_like, shape (n,)
         Increasing forcing frequencies W, or Hz for a machine.
 
@@ -188,7 +188,7 @@ SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "r
 
 
 def _band(oscillator, damper):
-    """Return the variables of the suppression band; holes narrower than SEARCH_STEP are not seen."""
+    """Return the variables of the suppression band; holes smaller than SEARCH_STEP are not seen."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,

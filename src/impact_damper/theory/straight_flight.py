@@ -59,7 +59,7 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Depth at which the straight flights before and after a contact meet, by (1 + 1/rm) q."""
+        """Depth, in units of (1 + 1/rm) q, where the straight flights around a contact meet."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
@@ -75,7 +75,7 @@ class Flight(NamedTuple):
         return min(bound, 1 / self.loss) if self.loss > 0 else bound
 
     def lag(self, impulse):
-        """Return the lag s for an impulse q."""
+        """Return the lag s of an impact with an impulse q."""
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):

@@ -1,8 +1,8 @@
-"""Template (see `step`): acceleration across, Z2'' - Z1'' without the force of a wall, and returns.
+"""Template (see `step`): acceleration across, which is Z2'' - Z1'' without the force of a wall.
 
-The acceleration across is DRAW - BASE A cos(W T). DRAW is the component of gravity along the gap,
-with friction. The other term is due to a moving base. It acts on both masses if Z1 is measured from
-the base. SWAY is the double integral of the acceleration across from the beginning of the step.
+The acceleration across is DRAW - BASE A cos(W T). DRAW is the sum of friction and of gravity along
+the gap. The other term is the acceleration of a moving base from which Z1 is measured. SWAY is the
+double integral of the acceleration across, from the beginning of the step.
 """
 
 import math

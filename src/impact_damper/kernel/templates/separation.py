@@ -1,8 +1,8 @@
 """Template (see `step`): search for the separation, at which a contact ends.
 
 A contact ends when q + LAG q' falls to zero, where q is the penetration. With LAG = 0 this is the
-paper's rule, in which the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS it is the time at
-which the force of the wall becomes zero.
+paper's rule, in which the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS a contact ends when
+the force of the wall becomes zero.
 """
 
 import math
@@ -58,7 +58,7 @@ def predict_separation(a):
         longest = (LONGEST_DEEPENING if w >= 0.0 else LONGEST_RETURNING) * 2.0 * math.pi / natural
         length = min(a[LONGEST + i], longest)
         # A contact that has just begun (q = 0) lasts half a damped natural period plus a correction
-        # by the mean of the acceleration g without the wall. Later g is neglected.
+        # by the mean of the acceleration g without the wall. With q > 0, g is neglected.
         g = a[COSINE + i] - spring(a, x, i, LANES) - h * v
         slope = spring_slope(a, x, i, LANES)
         drift = -a[FREQUENCY + i] * a[SINE + i] - slope * v - h * g

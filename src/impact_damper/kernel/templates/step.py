@@ -82,7 +82,7 @@ def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
     The coefficients of Z1 are assumed to decay geometrically from SCALE, at a rate that follows
-    from the orders EARLY to EARLY + 2. With LENGTH the last terms of Z1' reach SAFETY times the
+    from those of orders EARLY to EARLY + 2. With LENGTH the last terms of Z1' reach SAFETY times the
     tolerance. The processor can begin the next step before the last coefficients are computed.
     """
     last = FLIGHT_ORDER - 1
