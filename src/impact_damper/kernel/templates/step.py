@@ -81,8 +81,8 @@ def limit_length(a, series, order, excess):
 def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
-    The coefficients of Z1 are assumed to decay geometrically from SCALE, at a rate that follows
-    from those of orders EARLY to EARLY + 2. With LENGTH the last terms of Z1' reach SAFETY times the
+    The coefficients of Z1 are assumed to decay geometrically from SCALE; three coefficients
+    from order EARLY on give the rate. With LENGTH the last terms of Z1' reach SAFETY times the
     tolerance. The processor can begin the next step before the last coefficients are computed.
     """
     last = FLIGHT_ORDER - 1
