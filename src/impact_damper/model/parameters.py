@@ -168,9 +168,8 @@ class Damper:
 
     Examples
     --------
-    >>> Damper(mass_ratio=0.12, clearance=2.0)
-    Damper(mass_ratio=0.12, clearance=2.0, restitution=1.0, contact_stiffness=2000.0, gravity=0.0,
-           friction=0.0, exit_rule='zero_penetration')
+    >>> Damper(mass_ratio=0.12, clearance=2.0).exit_rule
+    'zero_penetration'
     """
 
     mass_ratio: float = parameter(
