@@ -43,9 +43,9 @@ STEEPEST = 0.01
 # Before a sweep the first frequency is held until transients without the damper have decayed to the
 # fraction SETTLED, but for at most HELD forcing cycles.
 SETTLED, HELD = 0.01, 10**5
-# A decay ends at the energy of REST times the first displacement, or after MOST_WINDOWS windows. A
-# window is a period of the unforced vibration, at most LONGEST periods of small vibrations. With a
-# softening spring the period is infinite at the barrier.
+# A decay ends when the energy above rest falls to that of REST times the first displacement, or
+# after MOST_WINDOWS windows. A window is a period of the unforced vibration, at most LONGEST
+# periods of small vibrations. With a softening spring the period is infinite at the barrier.
 REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
 
@@ -164,7 +164,7 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy at rest, with the loose mass where it sticks or gravity holds it."""
+    """Return the energy at rest. The loose mass sticks, or gravity holds it on a wall."""
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
     weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]
