@@ -234,7 +234,7 @@ _Loader.add_implicit_resolver(
 # Values of keys that a file may leave out. If all of 73 starts lead to quiet (small) motions, the
 # lower end of Wilson's 95 % interval of their share is 0.95, the value of `share`.
 DEFAULTS = {"candidates": 8, "starts": 73, "share": 0.95, "tolerances": {"gap": 0.2}}
-POINTS = 9  # frequencies in the band
+POINTS = 9  # number of frequencies in the band
 
 
 def read_machine_file(path) -> dict:

@@ -148,7 +148,7 @@ def flag(name, meaning) -> int:
 
 
 def named(data, name) -> str:
-    """Return the meaning of a flag of a dataset."""
+    """Return the name of the value of a flag variable that has a single value."""
     return decode(data[name]).item()
 
 

@@ -33,7 +33,7 @@ from impact_damper.kernel.sources import kernel_digest
 # Time spent on compilation, in s, after which MESSAGE is printed.
 PATIENCE = 1.0
 MESSAGE = "impact_damper: compiling kernels; later sessions will load them from the cache"
-# Number of float64 values in a cache line of the processor, which has 64 bytes.
+# Number of float64 values in one of the processor's cache lines of 64 bytes.
 CACHE_LINE = 8
 
 

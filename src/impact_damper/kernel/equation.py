@@ -85,7 +85,7 @@ def has_escaped(p, x, v):
 
 @kernel_only
 def energy(p, y):
-    """Return the energy of both masses and all springs; without forcing it never grows."""
+    """Return the energy of both masses and all springs; without forcing this sum never grows."""
     x, v = y[0], y[1]
     total = 0.5 * v * v + (0.5 * p[STIFFNESS] + 0.25 * p[CUBIC] * x * x) * x * x
     if p[INVERSE_MASS_RATIO] > 0.0:

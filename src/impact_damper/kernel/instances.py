@@ -127,7 +127,7 @@ def rows(flight_order, contact_order):
 class Writer:
     """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
 
-    With one lane the trajectory has up to four tangents. With several lanes each has one tangent.
+    With one lane a trajectory has up to four tangents, with several lanes each has one tangent.
     """
 
     def __init__(self, lanes, flight_order, contact_order):

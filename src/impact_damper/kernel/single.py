@@ -1,4 +1,4 @@
-"""Integration of one trajectory in steps that end at the beginnings and ends of contacts (events).
+"""Integration of one trajectory in steps that end at events: contacts that begin or end.
 
 A state is (Z1, Z1', Z2, Z2') together with `side`: the wall that the loose mass touches, -1 or 1,
 or 0 in flight.

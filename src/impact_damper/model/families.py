@@ -9,7 +9,7 @@ from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
-# Parameters that can vary along a branch, each with the dataclass that holds it. A branch is
+# Parameters that can vary along a branch; value: the dataclass that holds it, if any. A branch is
 # continued in a coordinate: the parameter itself if it is in LINEAR, otherwise its logarithm.
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)

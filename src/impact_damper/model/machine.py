@@ -12,7 +12,7 @@ from impact_damper.model.text import with_unit
 from impact_damper.model.units import Scales, check_si, convert, optional, physical
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
-# Acceleration of gravity, m/s^2, and allowed angles (radian) and coefficients of `mounting`.
+# Acceleration of gravity, m/s^2, and allowed angles (radian) and friction coefficients.
 GRAVITY = 9.81
 ANGLES = {"least": 0, "most": 1.5708}
 FRICTIONS = {"least": 0, "most": 10}
@@ -262,7 +262,7 @@ class Machine:
 
     @property
     def resonant_displacement(self) -> float:
-        """Static deflection times m w/c, but at least this deflection, m.
+        """Static deflection times m w/c, at least the static deflection itself; in m.
 
         It is the displacement of a linear machine at resonance. w^2 is the stiffness at the static
         deflection divided by the mass.
@@ -295,7 +295,7 @@ class Machine:
 
     @property
     def is_based(self) -> bool:
-        """Whether the base moves; displacements of the machine are then relative to it."""
+        """Whether the base moves, so that displacements of the machine are relative to the base."""
         return self.base_displacement is not None or self.base_acceleration is not None
 
     @property

@@ -39,7 +39,7 @@ def check_oscillator(oscillator):
 
 
 def check_damper(damper):
-    """Raise TypeError if `damper` is not a Damper; None is not allowed either."""
+    """Raise TypeError if `damper` is not a Damper; None is an error too."""
     if not isinstance(damper, Damper):
         raise TypeError(f"damper = {bounds.shown(damper)}: must be a Damper")
 

@@ -64,7 +64,7 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def balance_amplitudes(oscillator, frequency):
-    """Return the amplitudes of `main_solutions`; without a peak the smallest amplitude only."""
+    """Return the amplitudes of `main_solutions`; only the smallest if there is no peak."""
     try:
         return main_solutions(oscillator, frequency).amplitude
     except ValueError:

@@ -47,7 +47,7 @@ def find_forcing(a):
 def forcing(a):
     """Compute COSINE and SINE of the forcing's phase at TIME, times the amplitude.
 
-    With one lane `look_ahead` may have computed them for a time KNOWN close to it.
+    With one lane `look_ahead` may have computed both for a time KNOWN close to TIME.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:
