@@ -124,7 +124,7 @@ def find_contact(a):
 
 @kernel_only
 def meet_expected(a):
-    """Do one iteration, mostly the only one, in lanes that expect a contact at T.
+    """Do one iteration, which is mostly the last one, in lanes that expect a contact at T.
 
     Return the number of lanes that are still undecided.
     """
