@@ -22,7 +22,8 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_ti
 # Proof of a neighbourhood of radius r0: steps in a forcing cycle, largest ratio of the radius after
 # a period to r0, and bisections of r0.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
-# Largest difference between equal free orbits at a strobe; and, relative, between equal max |Z1|.
+# Largest difference of the strobe states of equal free orbits; largest relative difference of max
+# |Z1| of equal damped motions.
 ALIKE, SAME = 1e-6, 1e-5
 # Search for orbits: half width of the region, divided by the largest displacement and speed of the
 # free motions; number of grid points on each axis.
@@ -79,7 +80,7 @@ def with_neighbourhoods(p, records) -> Attractors:
 
 
 def orbit_states(p, record, phase):
-    """Return the states of an orbit at all times with a given forcing phase, shape (period, 4)."""
+    """Return the states of an orbit at a forcing phase in each of its cycles, shape (period, 4)."""
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_time(p)
     first = begin + (phase / p[FREQUENCY] - begin) % period
@@ -139,8 +140,8 @@ def neighbourhood(p, state, periods):
 def _radius(coefficients, step, contraction):
     """Return the largest radius r0 for which `contraction` r(P) < FACTOR r0 after the period P.
 
-    The radius follows r' = a r^2 + b r^3 and grows. In a step r' is largest at the end. `ahead`
-    is a bound on r at the end, and r(begin) + step (a r^2 + b r^3) with r = `ahead` a closer one.
+    The radius follows r' = a r^2 + b r^3 and grows, so r' is largest at the end of a step. There
+    `ahead` is a bound on r. With r = `ahead`, r(begin) + step (a r^2 + b r^3) is a closer bound.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -238,7 +239,7 @@ def _refined(inside, half, cells):
     """Return the mask (n, n) of the fine cells in a set; only cells at its boundary are refined."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
-        # The cells at the boundary: those with a different neighbour, and their neighbours.
+        # A cell at the boundary has a neighbour on the other side of it.
         edge = maximum_filter(mask, 3) != minimum_filter(mask, 3)
         fine, edge = (np.kron(each, np.ones((2, 2), bool)) for each in (mask, edge))
         cells *= 2

@@ -124,7 +124,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Enter motion i, if there is one, at index m of the pool of motions stepped together."""
+    """Put motion i, if there is one, at index m of the pool, whose motions run side by side."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])
@@ -134,7 +134,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Enter a free motion from state i, if there is one, at index m of the pool, as `take` does."""
+    """Put the free motion from state i, if there is one, at index m of the pool (see `take`)."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]

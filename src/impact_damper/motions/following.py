@@ -23,7 +23,7 @@ RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two orbits and their parameter values, and the status of the last correction."""
+    """Last two parameter values and orbits, last status, and whether the target is reached."""
 
     values: tuple[float, float]
     orbits: tuple
@@ -63,8 +63,8 @@ def follow(
     """Follow an orbit from one value of a parameter to another, or as far as possible.
 
     `correct` takes a value and a predicted state (4,). It returns an orbit, None on failure, and a
-    status. The first step leads to `target`. After success a step is multiplied by `growth`. It is
-    halved if the correction fails, or if Z1, Z1' or Z2 changes by `reach` or more: the new orbit
+    status. The first step leads to `target`. After success a step is multiplied by `growth`. A step
+    is halved if the correction fails, or if Z1, Z1' or Z2 changes by `reach` or more: the new orbit
     may lie on another branch. `behind` is the orbit at 2 start - target, if there is one.
     """
     value, step, status = start, target - start, ""
@@ -90,7 +90,7 @@ def follow(
 
 @kernel
 def extrapolate(state, before, ratio):
-    """Add `ratio` times the difference of a state from the state `before` to it, in place."""
+    """Replace a state in place by state + ratio (state - before)."""
     state += (state - before) * ratio
 
 

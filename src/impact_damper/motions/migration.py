@@ -71,7 +71,7 @@ def migrate(
     longest_hold : int
         Forcing cycles with the damper on, after which it is switched off in any case.
     periods : int
-        Forcing cycles from the beginning, after which the damper is no more switched on.
+        Forcing cycles from the beginning, after which the damper is not switched on again.
     switchings : int
         Largest number of switchings, on and off counted as one.
     settling : Settling, optional
@@ -128,8 +128,8 @@ def migrate(
 def _free_motion(oscillator, frequency, start, which, settling):
     """Return the record of a free motion of period 1 at a frequency, or None.
 
-    It is found by a run from harmonic-balance solution `which` at the frequency `start`, and then
-    followed from this frequency.
+    A run from the harmonic-balance solution number `which` finds the motion at the frequency
+    `start`. The motion is followed from there.
     """
     p = pack(oscillator, None, start)
     free = main_solutions(oscillator, start)

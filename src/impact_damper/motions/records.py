@@ -1,4 +1,4 @@
-"""Measurements of motions: largest |Z1|, contacts, harmonics, first collisions, envelopes."""
+"""Measurements of motions: largest |Z1|, contacts, asymmetry, first harmonics, envelopes."""
 
 import math
 
@@ -66,8 +66,8 @@ MOTION = np.dtype(
 def extremum(c, order, length, start):
     """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
 
-    Between the ends it exceeds them by at most length^2/8 times the largest second derivative. In
-    most calls this bound suffices. Otherwise Newton's method finds the turning point in each piece.
+    A polynomial exceeds its values at the ends by at most length^2/8 times its largest second
+    derivative. If this bound is too large, Newton's method finds the turning point in each piece.
     """
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)
@@ -92,7 +92,7 @@ def extremum(c, order, length, start):
 
 @kernel_only
 def turning_time(c, order, begin, end, first, last):
-    """Return the time, between `begin` and `end` with slopes `first` and `last`, of slope 0."""
+    """Return the time of slope 0 between two times at which the slopes are `first` and `last`."""
     t = begin + (end - begin) * first / (first - last)
     for _ in range(4):
         _, slope = polynomial(c, order, t)
@@ -206,7 +206,7 @@ def measure(parameters, tolerance, watched, out, stop):
 
 
 def measured(p, y, periods, tolerance):
-    """Return a record in which only `measure` has filled fields, from y over `periods` cycles."""
+    """Measure a motion over `periods` cycles from the state y; return a record without outcome."""
     records = np.zeros(1, MOTION)
     records["state"] = y
     measure(p[None], tolerance, periods, records, NEVER)

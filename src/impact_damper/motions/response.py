@@ -135,7 +135,7 @@ def frequency_response(
         Random starts (initial states) at each frequency.
     radius : float, optional
         Radius of a ball around rest with uniform random starts, the loose mass in its gap. Without
-        a radius, the motions without the damper scale the random starts and are further starts.
+        a radius, starts are scaled by the motions without the damper, or lie on these motions.
     whole_gap : bool
         With a radius: False, all four components of a start lie in the ball, as in the paper. True,
         only displacement and velocity of the primary mass do; the loose mass is at relative rest,
@@ -200,7 +200,7 @@ def frequency_response(
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
     """Return variables (n, m) of the lives of the chaotic motions of a sweep.
 
-    From near each of the `states` (n, m, 4), `runs` runs last at most `periods` forcing cycles.
+    `runs` runs of at most `periods` forcing cycles begin near each of the `states` (n, m, 4).
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}

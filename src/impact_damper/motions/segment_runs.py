@@ -17,8 +17,8 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
 from impact_damper.motions.records import PIECES, turning_time
 
-# Change of a parameter in a central difference. Finer change, if a contact appears or vanishes in
-# between: the difference of the one-sided differences exceeds BENT times their sum.
+# Central difference: change of the parameter; finer change; ratio of the difference of one-sided
+# differences to their sum, above which a contact appears or vanishes and the change is finer.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 
@@ -74,7 +74,7 @@ def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
     """Compute the derivatives of the end states of segments by a parameter (central differences).
 
     `rate` (COUNT,) are the derivatives of the packed parameters by this parameter. `sign` is -1 if
-    the segments cover half a symmetric orbit. `slopes` (m, n) receives n components of a state.
+    the segments cover half a symmetric orbit. `slopes` (m, n) receives the first n components.
     """
     work, none = workspace(), np.empty((0, 4))
     ahead, behind, moved = np.empty(4), np.empty(4), np.empty(COUNT)

@@ -32,13 +32,13 @@ SPREAD, SMALLEST = 3.0, 0.01
 # Placed starts: Z2 divided by the clearance; Z2' divided by the larger of the speed of the free
 # motion and the crossing speed, which crosses the gap in half a forcing cycle.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
-# States of the loose mass for `sweep.stable_orbits`: number; largest |Z1' - Z2'|, like VELOCITIES.
+# Loose masses for `sweep.stable_orbits`: number; largest |Z1' - Z2'|, in the unit of VELOCITIES.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
 # Largest |Z1| and |Z1'| of random starts with a softening spring, divided by those of `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps: relative change of a parameter in a step; forcing cycles in a step; ratio of the first
-# frequency to the lowest fold, and of the highest fold to it; ratio of the first force to the last.
+# frequency to the lowest fold, or inverse ratio to the highest one; ratio of first to last force.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
@@ -47,7 +47,7 @@ class Search(NamedTuple):
 
     `random` has the shape (n, m, 4). `placed` and `loose`, an argument of `sweep.stable_orbits`,
     hold an array for each system, which is empty if a radius is given. `displacement` and `speed`
-    (n,) are the largest of random starts; `free_displacement` and `free_speed`, of free motions.
+    (n,) are bounds of random starts, `free_displacement` and `free_speed` those of free motions.
     """
 
     random: np.ndarray
@@ -104,7 +104,7 @@ def missed_share(starts) -> float:
 
 
 def free_sizes(oscillator, frequencies) -> dict:
-    """Return a dict by frequency of the largest displacement and speed in harmonic balance."""
+    """Return by frequency the largest free displacement and speed, from harmonic balance."""
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
     return {w: (size, size * w) for w, size in sizes.items()}
 

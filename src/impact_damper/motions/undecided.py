@@ -1,8 +1,8 @@
 """Run undecided motions longer, until their outcome is certain.
 
 The states of a quasi-periodic motion at the strobes lie on a closed curve. The rotation number is
-their mean advance along the curve. For the mean over N states, the weights and all their
-derivatives vanish at both ends. Such a mean converges faster than any power of 1/N (S. Das, Y.
+their mean advance along the curve. The mean over N states has weights that vanish at both ends with
+all derivatives. Such a mean converges faster than any power of 1/N (S. Das, Y.
 Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017); for a chaotic motion it
 converges only as N^(-1/2).
 """
@@ -69,7 +69,7 @@ def run_block(p, y, tangent, states, growth, stop):
 def name_undecided(parameters, motions, limit, further, stop):
     """Continue the motions that `settle_many` left unresolved, and complete their records.
 
-    A motion is continued in blocks of double length, in all by at most `further` forcing cycles.
+    A motion is continued in blocks, each twice as long as the last, for at most `further` cycles.
     """
     curves = []
     for i in np.flatnonzero(motions["outcome"] == records.UNRESOLVED):

@@ -22,7 +22,7 @@ from impact_damper.motions.strobe_map import (
     speed_weight,
 )
 
-# Longest period of an orbit in forcing cycles; length of the ring, a buffer of last strobe states.
+# Longest period of an orbit in forcing cycles; length of a ring, the buffer of last strobe states.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
 # Smallest Lyapunov exponent of a chaotic motion, in standard errors; largest weak exponent, per
@@ -187,9 +187,9 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
 
     - when it has settled, diverged or escaped, or after `limit` cycles;
     - as at_rest if there is no forcing and hardly any energy is left (REST);
-    - as non_colliding if it has settled without contacts. Or the primary mass is on an orbit, the
-      loose mass has touched no wall for `patience` cycles, and would drift by less than 1 % of the
-      clearance in `limit` cycles. If it drifts faster, as drifting after `limit` cycles;
+    - as non_colliding if it has settled without contacts; or if the primary mass is on an orbit,
+      and the loose mass has touched no wall for `patience` cycles and would drift by less than 1 %
+      of the clearance in `limit` cycles. A faster drift is named drifting after `limit` cycles;
     - as chaotic after `patience` cycles if the largest Lyapunov exponent exceeds CONFIDENCE
       standard errors and the tangent still grows (a transient may have ended). An exponent below
       WEAK is judged just before `limit` only, because a slow spiral can look like weak chaos.

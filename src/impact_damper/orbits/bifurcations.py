@@ -166,7 +166,7 @@ def _changes_of_contact(point_at, start, end, length):
 def _contact_event(orbit):
     """Return the kind of event at which the slowest contact of an orbit appears.
 
-    It is a merging if only a very short flight separates the contact from one with the same wall.
+    The kind is a merging if the contact follows one with the same wall after a very short flight.
     """
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))

@@ -1,6 +1,6 @@
 """Boundaries of the free oscillator's basins, which are stable manifolds of its unstable orbits.
 
-A manifold is computed backwards in time. All nearby curves approach it then, so errors decrease.
+A manifold is computed backwards in time. Nearby curves then approach the manifold: errors decrease.
 """
 
 import math

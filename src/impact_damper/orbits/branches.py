@@ -15,7 +15,7 @@ from impact_damper.orbits.grazing import through_grazing
 MOST_POINTS = 10_000
 # Largest difference at W T = pi/2 between states of equal orbits.
 SAME = 1e-5
-# Largest difference between max |Z1| of an orbit and of a step on which `Branch.holds` searches it.
+# Largest difference of max |Z1| between an orbit and a step that `Branch.holds` compares with it.
 NEARBY = 0.02
 # Largest distance from the span of the parameter to which a family is continued linearly.
 EXTENDED = 1e-3

@@ -159,7 +159,7 @@ def _quiet_motions(data, clearances, rule):
     """Return states and max |Z1| (NaN if absent) of quiet motions by clearance, and a row or None.
 
     A quiet motion has period 1, is symmetric and has two contacts in a cycle. The row is the one
-    with a quiet motion nearest to the clearance `rule`. All quiet motions lie on its branch.
+    with a quiet motion nearest to the clearance `rule`. All states lie on the branch of this one.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -248,9 +248,9 @@ def _stationary(size_at, best):
 
 
 def _kind(size_at, best, least, longest):
-    """Return "smooth" or "kink" for a minimum, from the rise of max |Z1| over two steps.
+    """Return "smooth" or "kink" for a minimum, from the rise of max |Z1| after a step away from it.
 
-    For half the step, the rise is a quarter at a smooth minimum, and half at a kink.
+    After half the step, the rise is only a quarter at a smooth minimum, and half at a kink.
     """
     rises = [
         size_at(best + step) + size_at(best - step) - 2 * least for step in (longest, longest / 2)

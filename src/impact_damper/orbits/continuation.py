@@ -236,7 +236,7 @@ class Problem:
         return near._replace(tangent=near.tangent * turned)
 
     def begin(self, orbit, value, direction):
-        """Return the point of an orbit, or None; the tangent has the parameter's `direction`."""
+        """Return the point of an orbit, or None; `direction`: sign of the parameter's change."""
         x = self.unknowns(orbit, value)
         return self.correct(x, direction * np.eye(len(x))[-1])
 

@@ -28,7 +28,7 @@ LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction):
-    """Find from unknowns x the point where an extremum has a height; return both, or None."""
+    """Return the point at which an extremum has a height, and the extremum, or None; x: a guess."""
     x = x.copy()
     for _ in range(NEWTON):
         orbit = problem.shoot(x)

@@ -178,13 +178,13 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls touched in the order of time, such as "+-", from the alphabetically first shift."""
+        """Walls touched in the order of time, such as "+-": the cyclic shift that sorts first."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
     @property
     def least_speed(self):
-        """Smallest |Z2'| at the beginning of a contact, small near a grazing; NaN if none."""
+        """Smallest |Z2'| at which a contact begins, small near a grazing, NaN without contacts."""
         return np.min(np.abs(self.contacts[:, 3]), initial=np.inf) if self.touching else np.nan
 
     @property

@@ -17,7 +17,7 @@ SHOCKS = (256, 64, 64, 64)
 
 
 class Labelled(NamedTuple):
-    """Labels (m, n) of states, forcing cycles (m, n) until they were known, and attractors.
+    """Labels (m, n) of states, forcing cycles (m, n) until a label is known, and attractors.
 
     `records` are those of the attractors. `label` returns labels and cycles of more states (k, 4).
     """
@@ -44,7 +44,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return which shocks of an attractor's states lead away, and the cycles until it is known."""
+    """Return which shocks to an attractor's states lead away, and cycles until this is known."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))

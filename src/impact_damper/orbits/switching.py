@@ -157,8 +157,8 @@ def _more_symmetric(branches, branch, edge):
 def _new_branch(branches, branch, place, event):
     """Return a point of a new branch that leaves at an event, or None.
 
-    From a branch of a period of WHOLE it is followed; but a period doubling must lie next to stable
-    orbits. Otherwise it must begin stable, next to stable orbits, with a period up to STABLE.
+    If the first branch has a period in WHOLE, a period doubling must lie next to stable orbits. If
+    not, the new branch must begin stable, next to stable orbits, with a period up to STABLE.
     """
     if event.kind not in LEAVING or _is_end(branch, place, event):
         return None
