@@ -1,4 +1,4 @@
-"""Error and work of methods and models on a scene; references are runs in 80-bit arithmetic."""
+"""Errors and work of integrators and models on a scene, a motion that all of them compute."""
 
 from typing import NamedTuple
 
@@ -41,13 +41,13 @@ meets_accuracy | run | | | whether the run meets the accuracy required by the sc
     """
 )
 
-LONGER = 4  # length of the reference run of a chaotic motion over the length of the compared runs
-# Relative difference and number of standard errors by which contacts per cycle of chaos may differ.
+LONGER = 4  # cycles of the reference run of a chaotic motion, divided by those of compared runs
+# Allowed error of the contacts per cycle of chaos: CONTACTS_OFF of them plus SURE standard errors.
 CONTACTS_OFF, SURE = 0.1, 2
 
 
 class ComparisonScene(NamedTuple):
-    """A "steady", "transient" or "chaotic" motion, from its `state` at W T = pi/2."""
+    """A "steady", "transient" or "chaotic" motion that begins with `state` at W T = pi/2."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -64,7 +64,7 @@ class ComparisonScene(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """Values of a run that are taken as exact, named as in `Run`."""
+    """Results of a run in 80-bit arithmetic that are taken as exact, named as in `Run`."""
 
     state: np.ndarray
     contact_times: np.ndarray
@@ -89,9 +89,9 @@ def reference_of(scene, stored):
 
 
 def accuracy(system, damper, *, name, settings, references, **given):
-    """Return a dataset with errors and work of each method on a scene, for each `run`.
+    """Return a dataset with the errors and the work of each run of a method on a scene.
 
-    `given` are other attributes of a `ComparisonScene`, `settings` the section `comparison`.
+    `given` are other attributes of a `ComparisonScene`; `settings` is the section `comparison`.
     """
     scene = ComparisonScene(oscillator=system, damper=damper, **given)
     if scene.motion == "chaotic":
@@ -105,7 +105,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield label, tolerance, `Run` and cycles; slow integrators run for `slow_periods` cycles."""
+    """Yield label, tolerance, `Run` and its cycles; slow integrators run `slow_periods` cycles."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:
@@ -117,7 +117,7 @@ def _integrations(scene, settings, slow_periods):
         run = orbit_models.rigid(p, restitution, *given[1:], tolerance)
         yield "rigid", tolerance, run, scene.periods
     for label, (integrator, locate) in runs_of_accuracy().items():
-        # Without a damper there are no contacts to locate, and both ways are the same.
+        # Without a damper there are no contacts to locate: both values of `locate` give one run.
         if scene.damper is None and locate and False in integrator.located:
             continue
         tolerances, periods, most = settings[integrator.tolerances], scene.periods, None
@@ -132,7 +132,7 @@ def _integrations(scene, settings, slow_periods):
 
 
 def _errors(scene, settings, reference):
-    """Return the variables of the dataset for a test case that has a reference."""
+    """Return the variables of the dataset for a scene that has a `Reference`."""
     rows = [
         (label, setting, run, run.contact_times)
         for label, setting, run, _ in _integrations(scene, settings, scene.periods)
@@ -156,7 +156,7 @@ def _errors(scene, settings, reference):
 
 
 def _status(ended, wrong):
-    """Return the flag `run_status`, from how a run ended and its excess number of contacts."""
+    """Return the flag `run_status`, from the status of a `Run` and the excess of contacts in it."""
     if ended != "ended":
         return flag("run_status", ended)
     if wrong == 0:
@@ -165,7 +165,7 @@ def _status(ended, wrong):
 
 
 def _named(scene, rows, status, errors):
-    """Return the variables of the dataset that all kinds of test cases have."""
+    """Return the variables of the dataset that all kinds of motions have."""
     met = np.abs(errors[scene.accuracy["quantity"]]) <= scene.accuracy["within"]
     return {
         "method": np.array([row[0] for row in rows]),
@@ -193,9 +193,9 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return the times at which contacts begin by a model, for all cycles of the reference run.
+    """Return the times at which contacts begin by a model, paired with those of the reference.
 
-    They are matched in the last cycle; with another number of contacts only the length counts.
+    If a cycle has another number of contacts, only the length of the result has a meaning.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods
@@ -213,7 +213,7 @@ def _times(scene, model, reference):
 
 
 def _averages(scene, settings):
-    """Return the variables of the dataset for a test case with a chaotic motion."""
+    """Return the variables of the dataset for a scene with a chaotic motion."""
     p, start = scene.p, np.array(scene.state, float)
     batch, begin = settings["batch"], strobe_time(scene.p)
     rows, found = [], []

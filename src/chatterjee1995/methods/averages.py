@@ -13,7 +13,7 @@ from impact_damper.motions.strobe_map import strobe_time
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return contacts per cycle and mean of the largest |Z1| in a cycle, for each batch."""
+    """Return the contacts per cycle and the mean over cycles of the largest |Z1|, by batch."""
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
     contacts = np.histogram(run.contact_times, edges)[0]
@@ -28,7 +28,7 @@ def of_run(p, run, begin, periods, batch):
 
 
 def exponents(p, start, tolerance, periods, batch, restitution=None):
-    """Return the largest Lyapunov exponent in each batch, with `restitution` for rigid walls."""
+    """Return the largest Lyapunov exponent of each batch; walls with `restitution` are rigid."""
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)
@@ -45,7 +45,7 @@ def exponents(p, start, tolerance, periods, batch, restitution=None):
 
 
 def estimates(batches):
-    """Return mean and standard error of each of STATISTICS, shape (2, 3), NaN for missing ones."""
+    """Return means and standard errors (rows) of STATISTICS (columns), NaN where one is missing."""
     table = np.full((2, len(STATISTICS)), np.nan)
     for k, name in enumerate(STATISTICS):
         if name in batches:

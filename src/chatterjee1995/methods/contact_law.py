@@ -1,8 +1,8 @@
 """One contact of the damper in closed form, under a constant load G, with two rules for its end.
 
-With s = wn t and u = wn q/v0, v0 the approach speed, the penetration q obeys u'' + 2 z u' + u = G.
-The force is F = u + 2 z u'. By `zero_penetration` (appendix B) a contact ends when u = 0, by
-`no_tension` when F = 0.
+Time t and penetration q are scaled by natural frequency wn and approach speed v0: s = wn t and
+u = wn q/v0. With the damping ratio z, u'' + 2 z u' + u = G. The wall force is F = u + 2 z u'. By
+the rule `zero_penetration` (appendix B) a contact ends at u = 0, by `no_tension` at F = 0.
 """
 
 import math
@@ -14,7 +14,7 @@ from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
-    """End of a contact, "released", "no_release" or "falls_back": s, and realised restitution."""
+    """End of a contact: outcome ("released", "no_release", "falls_back"), s, departure speed/v0."""
 
     outcome: str
     duration: float
@@ -40,14 +40,14 @@ class _Wave(NamedTuple):
         return _Wave(0.0, w * b - z * a, -z * b - w * a, z, w)
 
     def first_extrema(self):
-        """Return s at the first maximum (0 if the function falls there) and at the next minimum."""
+        """Return s at the first maximum (0 if the function falls at 0) and at the next minimum."""
         slope = self.slope()
         turn = math.atan2(-slope.a, slope.b) % math.pi or math.pi
         rising = slope.a > 0 or (slope.a == 0 and slope.b > 0)
         return (turn / self.w, (turn + math.pi) / self.w) if rising else (0.0, turn / self.w)
 
     def first_fall(self):
-        """Return s at the first downward zero or infinity; the first minimum is the lowest."""
+        """Return s at the first zero with a negative slope, or infinity if there is none."""
         top, bottom = self.first_extrema()
         return math.inf if self(bottom) > 0 else brentq(self, top, bottom, xtol=1e-15, rtol=1e-14)
 
@@ -62,7 +62,7 @@ def _waves(restitution, load):
 
 
 def contact(restitution, load, rule) -> Exit:
-    """Return how a contact ends by one of `exit_rules.EXIT_RULES`."""
+    """Return the `Exit` of a contact by a rule in `exit_rules.EXIT_RULES`."""
     penetration, force = _waves(restitution, load)
     end = (penetration if rule == "zero_penetration" else force).first_fall()
     if end == math.inf:
@@ -75,7 +75,7 @@ def contact(restitution, load, rule) -> Exit:
 
 
 def pull_time(restitution, load) -> float:
-    """Return the share of a contact, until u = 0, in which the wall pulls; NaN if it never ends."""
+    """Return the fraction of the time until u = 0 with a tensile wall force, NaN without end."""
     penetration, force = _waves(restitution, load)
     end = penetration.first_fall()
     return math.nan if end == math.inf else (end - min(force.first_fall(), end)) / end

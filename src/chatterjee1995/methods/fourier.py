@@ -1,7 +1,7 @@
 """Values and extrema of real Fourier series, and the intervals in which a series exceeds a level.
 
-A series is the sum of c_k exp(i k s) over k in `harmonics`, an ascending array of positive
-integers, and over -k; `coefficients` are the c_k, and c_-k is the conjugate of c_k.
+A series z(s) is the sum of c_k exp(i k s) over all k and -k with k in `harmonics`, an ascending
+array of positive integers. `coefficients` are the c_k, and c_-k is the conjugate of c_k.
 """
 
 import numpy as np
@@ -26,12 +26,12 @@ def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
 
 
 def product_samples(harmonics, degree) -> int:
-    """Return the number of samples with which a product of `degree` series has no aliasing in K."""
+    """Return the number of samples for a product of `degree` series, free of aliasing."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 
 def largest(coefficients, harmonics) -> float:
-    """Return the maximum of |z(s)|, from the largest samples and Newton's method for z'(s) = 0."""
+    """Return the maximum of |z(s)|, by Newton's method for z'(s) = 0 from the largest samples."""
     count = next_fast_len(16 * int(harmonics[-1]) + 64)
     size = np.abs(samples(coefficients, harmonics, count))
     top = np.flatnonzero((size >= np.roll(size, 1)) & (size >= np.roll(size, -1)))
@@ -43,10 +43,10 @@ def largest(coefficients, harmonics) -> float:
 
 
 def intervals(coefficients, harmonics, level) -> np.ndarray:
-    """Return the intervals of s in which z(s) > level (wall 1) or z(s) < -level (wall -1).
+    """Return rows (wall, begin, end) with z(s) > level for wall 1, z(s) < -level for wall -1.
 
-    A bound on the second derivative of z shows which cells, between two samples, cross the level
-    not at all or once. Other cells are halved, so no interval wider than SHORTEST is missed.
+    A bound on the second derivative shows in which cells (between two samples) z crosses the level
+    once or never. All other cells are halved, so no interval wider than SHORTEST is missed.
     """
     return np.concatenate([_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)])
 
@@ -93,7 +93,7 @@ def _cells(function, coefficients, harmonics, ends, values):
 
 
 def indicator(rows, orders) -> np.ndarray:
-    """Return the Fourier coefficients of the function that is 1 in all `intervals`, elsewhere 0."""
+    """Return Fourier coefficients of the function that is 1 in `intervals` and 0 elsewhere."""
     _, begin, end = rows.T[:, :, None]
     half = (end - begin) / 2
     turn = np.exp(-0.5j * orders * (begin + end))

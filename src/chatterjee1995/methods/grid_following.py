@@ -1,4 +1,4 @@
-"""Orbits in the cells of a grid of parameters, each followed from a neighbouring cell."""
+"""Orbits in the cells (points) of a grid of parameters, each followed from a neighbouring cell."""
 
 from collections import deque
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from impact_damper.motions.following import Followed, follow
 
-# Between neighbouring cells a step that fails is halved, down to SHORTEST times their distance.
+# A step that fails is halved; the shortest is this fraction of the distance between two cells.
 SHORTEST = 1 / 32
 
 
@@ -24,14 +24,14 @@ def follow_line(
         1.0,
         orbit,
         shortest=shortest,
-        growth=2.0 if extrapolating else 1.0,  # exact in binary, so the fractions add up to 1
+        growth=2.0 if extrapolating else 1.0,  # powers of 2: fractions add up to exactly 1
         extrapolating=extrapolating,
         behind=behind,
     )
 
 
 class Grid:
-    """Orbits by cell of a grid of parameters `points`, followed along the `axes` in this order."""
+    """Orbits by cell of a grid of parameters `points`, followed along `axes` in the given order."""
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
         self.points, self.correct = points, correct
@@ -43,7 +43,7 @@ class Grid:
         self.orbits = {}
 
     def spread(self):
-        """Follow orbits into neighbouring cells, the closest first, until none is reached."""
+        """Follow orbits into neighbouring cells, breadth first, until no new cell is reached."""
         queue = deque(self.orbits)
         while queue:
             cell = queue.popleft()
@@ -57,7 +57,7 @@ class Grid:
                     queue.append(target)
 
     def beside(self, cell, direction):
-        """Return the neighbour of a cell in a direction, or None beyond the grid."""
+        """Return the neighbour of a cell in a direction, or None if it is beyond the grid."""
         target = tuple(int(i) for i in np.add(cell, direction))
         inside = all(0 <= i < size for i, size in zip(target, self.shape, strict=True))
         return target if inside else None

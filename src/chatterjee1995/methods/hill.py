@@ -6,17 +6,17 @@ import numpy as np
 from scipy.linalg import eigvals, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
-# With more than DENSE unknowns only COPIES eigenvalues near zero are computed for each exponent.
+# Above DENSE unknowns only the eigenvalues nearest zero are computed, COPIES for each exponent.
 DENSE, COPIES = 100, 3
-# An imaginary part that differs from W by less than EDGE W is set to W: the exponent of a negative
-# real multiplier has a copy at both edges of the strip, of which one counts.
+# The exponent of a negative real multiplier has copies with the imaginary parts W and -W. An
+# imaginary part within EDGE W of W is set to W. A copy within EDGE W of -W is left out.
 EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
     """Floquet exponents per unit of T, by ascending real part; NaN unless the status is "found".
 
-    The status is "not_separated" if the strip |Im lambda| < W holds another number of eigenvalues.
+    The status is "not_separated" if the number of eigenvalues with |Im lambda| < W is wrong.
     """
 
     values: np.ndarray
@@ -37,7 +37,7 @@ def exponents(solution) -> Exponents:
         copies = _near_zero(*(balance.operator(orbit, contacts, power) for power in range(3)))
     except ArpackNoConvergence:
         return Exponents(unknown, "not_converged")
-    # The copies are 2 W apart, because the linearised equations have half the period.
+    # Copies of an exponent are 2 W apart, as the linearised equations have half the period.
     height = copies.imag / balance.frequency
     inside = np.where(height > 1 - EDGE, copies.real + 1j * balance.frequency, copies)
     inside = inside[(height > -1 + EDGE) & (height < 1 + EDGE)]

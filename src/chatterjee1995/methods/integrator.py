@@ -8,15 +8,15 @@ from numpy.polynomial.polynomial import polyder, polyval
 from chatterjee1995.methods.equations import rate, wall_at
 from impact_damper.model.packed import CLEARANCE
 
-# Number of bisections that locate a root, enough for the accuracy of floating-point numbers.
+# Number of bisections that locate a root to the accuracy of floating-point numbers.
 HALVINGS = 54
 
 
 class Run(NamedTuple):
     """A motion by an integrator; `status` is "ended", "failed", or "capped" after too much work.
 
-    `operations` are floating-point operations, `contact_times` the times at which contacts begin,
-    and `peaks` the local maxima of |Z1| and |Z1| at both ends of the run, at `peak_times`.
+    `operations` is the number of floating-point operations. Contacts begin at `contact_times`.
+    `peaks` are the local maxima of |Z1| and |Z1| at both ends of the run, and have `peak_times`.
     """
 
     status: str
@@ -35,16 +35,16 @@ def stopped(status, work):
 
 
 class Integrator:
-    """The interface of an integrator, whose methods share their arguments.
+    """The interface of an integrator. An argument has the same meaning in all methods.
 
-    `p` are packed parameters, `start` the state at the time `begin`, `periods` forcing cycles; with
-    `locate` steps end where contacts begin and end. `resolution` is a tolerance, or for `fixed`
-    steps their number in a cycle.
+    `p` are packed parameters, `start` is the state at the time `begin`, and `periods` the number of
+    forcing cycles. If `locate` is true, steps end where contacts begin and end. `resolution` is the
+    number of steps in a cycle if steps are `fixed`, and otherwise a tolerance.
 
-    Integrators are shown in the order of `place`. Each stage in `compared` needs a method in
-    REQUIRED. For `accuracy`: `located`, the values of `locate` in its runs; `tolerances`, one of
-    `labels.TOLERANCE_KEYS`; `slow`, whether its runs are limited. For `stable_steps`:
-    `stability_limit`, the largest product of step and frequency that keeps an undamped oscillation.
+    Figures show integrators in the order of `place`. A stage in `compared` calls its methods in
+    REQUIRED. The stage `accuracy` reads `located` (values of `locate` in runs), `tolerances` (of
+    `labels.TOLERANCE_KEYS`) and `slow` (whether runs are limited). The stage `stable_steps` reads
+    `stability_limit`: an undamped oscillation is stable up to this step times its frequency.
     """
 
     REQUIRED: ClassVar = {
@@ -61,41 +61,41 @@ class Integrator:
     stability_limit = 0.0
 
     def label(self, locate):
-        """Return the label of its runs with contacts located or not, such as "merson_kink"."""
+        """Return the label of runs, "NAME_located" if contacts are located, else "NAME_kink"."""
         return f"{self.name}_{'located' if locate else 'kink'}"
 
     def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations):
-        """Return status, operations, times (n,) and states (n, 4) of a run."""
+        """Return status and operations of a run, and times (n,) and states (n, 4) of its steps."""
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
-        """Return the run, from the arguments of `steps`."""
+        """Return the `Run` with the arguments of `steps`."""
         status, work, times, ends = self.steps(p, *given)
         if status != "ended" or not np.isfinite(ends).all():
             return stopped("failed" if status == "ended" else status, work)
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Return |Z2| at the ends of steps over [0, end], and at `time`; None if the run fails."""
+        """Return |Z2| at the ends of steps in [0, end], and |Z2| at `time`, or None on failure."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return whether walls at `levels` are touched; None lets the ends of steps decide."""
+        """Return whether walls at `levels` are touched, or None to judge by the ends of steps."""
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
-        """Return the largest |Z1| in each cycle with fixed steps, NaN from a divergence on."""
+        """Return the largest |Z1| in each cycle with fixed steps, NaN once the run has diverged."""
         raise NotImplementedError
 
 
 def read_off(p, work, times, ends):
-    """Return the `Run` of steps, from Hermite polynomials of degree 5 through their ends."""
+    """Return the `Run` with these ends of steps, joined by Hermite polynomials of degree 5."""
     at, peaks = _turning_points(p, times, ends)
     began = _beginnings(p, times, ends)
     return Run("ended", work, ends[-1], began, at, peaks, float(np.max(peaks)))
 
 
 def _beginnings(p, times, ends):
-    """Return the times in steps from between the walls to or beyond a wall at which |Z2| = d0."""
+    """Return the times at which |Z2| = d0, in all steps from the gap to a wall or beyond it."""
     place, distance = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
     inside = (distance > 0) | ((distance == 0) & (place * ends[:, 3] < 0))
     steps = np.flatnonzero(inside[:-1] & ~inside[1:])
@@ -106,7 +106,7 @@ def _beginnings(p, times, ends):
 
 
 def _turning_points(p, times, ends):
-    """Return the times at which Z1' is zero, with both ends of the run, and |Z1| there."""
+    """Return the times and values of |Z1| at the zeros of Z1' and at both ends of the run."""
     steps = np.flatnonzero(ends[:-1, 1] * ends[1:, 1] < 0)
     course = _quintics(p, times, ends, 0, steps)
     fraction = root(polyder(course), 0.0, 1.0)
@@ -119,7 +119,7 @@ def _turning_points(p, times, ends):
 
 
 def _quintics(p, times, ends, index, steps):
-    """Return Hermite polynomials over [0, 1], coefficients (6, m), of a component in m steps."""
+    """Return coefficients (6, m) of Hermite polynomials on [0, 1], for a component in m steps."""
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
         for at in (steps, steps + 1)
@@ -135,7 +135,7 @@ def _quintics(p, times, ends, index, steps):
 
 
 def root(coefficients, low, high):
-    """Return a root of each polynomial, a column, between low and high, where its signs differ."""
+    """Return a root of each polynomial (a column), which has opposite signs at low and high."""
     sign = np.sign(polyval(low, coefficients, tensor=False))
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)

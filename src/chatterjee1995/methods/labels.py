@@ -1,8 +1,8 @@
-"""Names in the datasets of the methods compared, and their titles."""
+"""Names of the compared methods and errors in datasets, and titles of the methods."""
 
 from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
 
-# Quantities whose errors the stage `accuracy` compares, of a chaotic motion the averages.
+# Quantities whose errors the stage `accuracy` compares; for a chaotic motion STATISTICS, averages.
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 STATISTICS = ("contact_rate", "displacement", "exponent")
 
@@ -15,14 +15,14 @@ MODELS = {
     "many_harmonics": "many harmonics",
     "shooting": "shooting",
 }
-START_HARMONICS = 15  # highest harmonic of the balance from which Newton's method starts
+START_HARMONICS = 15  # highest harmonic of the balance that is the first guess of shooting
 
-# Lists of tolerances in the section `comparison`, of which an integrator names one.
+# Names of lists of tolerances in the section `comparison`; an integrator uses one of the lists.
 TOLERANCE_KEYS = ("taylor", "merson", "scipy")
 
 
 def method_in_words(label) -> str:
-    """Return the title of a model, an integrator or a run, or else the label itself."""
+    """Return the title for the label of a model, an integrator or a run, or else the label."""
     if label in MODELS:
         return MODELS[label]
     if label in integrators():

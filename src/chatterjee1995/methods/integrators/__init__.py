@@ -7,7 +7,7 @@ from importlib import import_module
 
 @cache
 def integrators(stage=None) -> dict:
-    """Return the integrators by name, all or those that a stage compares, in their order."""
+    """Return integrators by name in the order of `place`: those a stage compares, or all."""
     modules = [import_module(f"{__name__}.{each.name}") for each in pkgutil.iter_modules(__path__)]
     declared = [each for module in modules for each in module.INTEGRATORS]
     declared.sort(key=lambda each: each.place)
@@ -16,7 +16,7 @@ def integrators(stage=None) -> dict:
 
 @cache
 def runs_of_accuracy() -> dict:
-    """Return the integrator, and whether it locates contacts, by the labels of `accuracy`."""
+    """Return the integrator and the value of `locate` for each label of runs of `accuracy`."""
     return {
         each.label(located): (each, located)
         for each in integrators("accuracy").values()

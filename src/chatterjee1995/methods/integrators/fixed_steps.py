@@ -60,7 +60,7 @@ def merson_step(p, drives, h, y):
 
 @kernel
 def one_step(method, p, drives, h, y):
-    """Return the state after a step h of a method under the forces `drives` of `forcing`."""
+    """Return the state after a step h of a method; `drives` are the forces from `forcing`."""
     if method == VERLET:
         return verlet_step(p, drives, h, y)
     if method == RUNGE_KUTTA_4:
@@ -70,7 +70,7 @@ def one_step(method, p, drives, h, y):
 
 @kernel
 def run_fixed(method, p, start, t, steps, largest):
-    """Fill `largest` with the largest |Z1| of each cycle from `start` at t, NaN if diverged."""
+    """Run from `start` at t; put the largest |Z1| of each cycle into `largest`, NaN if diverged."""
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
     largest[:] = np.nan
@@ -92,7 +92,7 @@ def run_fixed(method, p, start, t, steps, largest):
 
 @kernel
 def fixed_ends(method, p, start, t, step, ends):
-    """Fill `ends` (m, 5) with time and state after each of m equal steps from `start`."""
+    """Fill `ends` (m, 5) with time and state after each of m equal steps from `start` at t."""
     y = (start[0], start[1], start[2], start[3])
     for i in range(len(ends)):
         y = one_step(method, p, forcing(p, t + i * step, step), step, y)
@@ -122,14 +122,14 @@ class FixedStep(Integrator):
         return self.seen(p, np.concatenate([[[0.0, *state]], ends]), time)
 
     def seen(self, p, ends, time):
-        """Return |Z2| at the ends of steps, rows of time and state, and at `time`."""
+        """Return |Z2| at the `ends` of steps, rows of time and state, and |Z2| at `time`."""
         last = ends[ends[:, 0] <= time][-1]
         there = np.empty((1, 5))
         fixed_ends(self.number, p, last[1:].copy(), last[0], time - last[0], there)
         return np.abs(ends[:, 3]), abs(there[0, 3])
 
 
-# The stability limit z = h omega solves |R(i z)| = 1, with R the factor of a step for y' = z y/h.
+# The stability limit z = h omega solves |R(i z)| = 1; a step of y' = i omega y multiplies y by R.
 BOTH = "stable_steps", "missed_contacts"
 INTEGRATORS = (
     FixedStep(VERLET, "verlet", "velocity Verlet", 1, BOTH[:1], 2.0),

@@ -1,4 +1,4 @@
-"""Runge-Kutta-Merson, the method of the paper: each error stays below tolerance times 1 + |y|."""
+"""Runge-Kutta-Merson, the method of the paper; local errors are below tolerance times 1 + |y|."""
 
 import math
 
@@ -12,8 +12,8 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
 # Floating-point operations of a step: five evaluations of the rate, and their combinations.
 STEP_OPERATIONS = 366
-# A run fails if a step is shorter than SHORTEST, or with more steps than these: in one call of
-# `advance_merson`, in a forcing cycle, and in a flight.
+# A run fails if a step is shorter than SHORTEST, or with more than MOST_STEPS steps in one call of
+# `advance_merson`, MOST_ENDS steps in a forcing cycle, or MOST_FLIGHT_ENDS steps in a flight.
 SHORTEST = 1e-12
 MOST_STEPS, MOST_ENDS, MOST_FLIGHT_ENDS = 10**6, 400_000, 10**5
 FIRST = 1e-3  # length of the first step in forcing cycles
@@ -21,7 +21,7 @@ FIRST = 1e-3  # length of the first step in forcing cycles
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return state and error ratio after a step; `by_position` finds walls from Z2, not `side`."""
+    """Return state and error/tolerance after a step; `by_position` takes the wall from Z2."""
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
     k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
@@ -41,7 +41,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Return length and state of the step to the event within h, and the number of steps tried."""
+    """Return length and end state of the step to |Z2| = d0 within h, and the number of trials."""
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])
@@ -75,10 +75,10 @@ def located(p, side, t, h, y, tolerance):
 
 @kernel
 def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
-    """Integrate y in place from t to end, with a first step h; fill `ends` (m, 5) after each step.
+    """Integrate y in place from t to end, with a first step h; put time and state into `ends`.
 
-    Return the wall in contact, the next step, and the numbers of accepted steps, -1 if the run
-    failed, and of computed steps.
+    Return the wall in contact, the length of the next step, the number of accepted steps (-1 if the
+    run failed), and the number of computed steps.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, tries = 0, 0

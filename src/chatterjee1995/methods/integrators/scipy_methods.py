@@ -11,13 +11,13 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import side_of
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
-BY_POSITION = 2  # argument `side` with which the position Z2 determines the wall in contact
-UNLIMITED = 2**62  # evaluations of the rate in a flight
+BY_POSITION = 2  # value of `side` for which the position Z2 determines the wall in contact
+UNLIMITED = 2**62  # number of evaluations of the rate that no run reaches
 
 
 @kernel
 def derivative(t, y, p, side, left):
-    """Return the rate, or raise OverflowError if `left`, the evaluations still allowed, is [0]."""
+    """Return the rate; `left` holds the number of evaluations left, with 0 raise OverflowError."""
     left[0] -= 1
     if left[0] < 0:
         raise OverflowError("too many evaluations")
@@ -41,7 +41,7 @@ def solved(method, p, y, span, side, tolerance, left, **options):
 
 
 def parts(method, p, start, t, end, tolerance, locate, left):
-    """Yield the results of `solve_ivp` for parts of a run, which with `locate` end at contacts."""
+    """Yield results of `solve_ivp`; `locate` divides a run where contacts begin and end."""
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
     while status == 1:
@@ -57,7 +57,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods, with its operations for an evaluation and for a factorisation."""
+    """One of SciPy's methods; `operations` are for an evaluation, `factorising` for a matrix."""
 
     tolerances = "scipy"
     slow = True
@@ -93,11 +93,11 @@ class SciPy(Integrator):
         return (np.abs(result.y[2]), abs(result.sol(time)[2])) if result.success else None
 
 
-# Operations for the four components of the state; a product with its sum counts as two.
-# DOP853: for each evaluation on average 6 products for the next state, and 4 for the final values
+# Operations in an evaluation besides the rate, for 4 components; a product and its sum are two.
+# DOP853: for each component on average 6 products for the next state, and 4 for the final values
 #     and the two error estimates.
-# LSODA: an array of about 6 derivatives is predicted and corrected with 21 sums for each component,
-#     and a system of four equations is solved; its factorisation takes 2/3 4^3.
+# LSODA: for each component 21 products and sums to predict and correct about 6 derivatives; 2 4^2
+#     to solve a system of four equations. The factorisation of its matrix takes 2/3 4^3.
 INTEGRATORS = (
     SciPy("DOP853", 4, operations=4 * 2 * (6 + 4)),
     SciPy("LSODA", 5, operations=4 * 2 * 21 + 2 * 4**2, factorising=2 * 4**3 // 3),

@@ -24,16 +24,16 @@ from impact_damper.motions import traces
 FLIGHT, MEETING, CONTACT = range(3)
 # Orders of the series in flight and in contact with which the library integrates.
 ORDERS = FLIGHT_ORDER, CONTACT_ORDER
-# A step is a row: the time at its beginning, its length, the wall in contact before and after it
-# (-1, 1, or 0 for none), and from column SERIES on the coefficients of the series of Z1. ROWS:
+# Columns of the row of a step: time at its beginning, length, wall in contact before it, and after
+# it (-1, 1, or 0 for none); columns from SERIES on: coefficients of the series of Z1. ROWS is the
 # largest number of steps in one call of `take_steps`.
 ROWS, SERIES = 4096, 4
-PARTS = 8  # parts of a step, in each of which a velocity is assumed to vanish at most once
+PARTS = 8  # number of parts of a step; a velocity is assumed to vanish at most once in a part
 
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Fill `rows` with steps of y from t to `end`; return their number, the last time and wall."""
+    """Fill `rows` with steps of y from t to `end`; return their number, final time and wall."""
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
@@ -63,7 +63,7 @@ def steps_of(orders):
 
 
 def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
-    """Return the steps of a run from a state at t, as rows (see ROWS), and the state at its end."""
+    """Return the steps of a run from a state at t as rows (see ROWS), and the final state."""
     y, side = start.copy(), side_of(p, start)
     end, parts = t + periods * 2 * np.pi / p[FREQUENCY], []
     while t < end:
@@ -93,7 +93,7 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def turning_points(rows, series):
-    """Return step and time within it of each turning point of the polynomials in `series`."""
+    """Return the step, and the time within the step, of each turning point of `series`."""
     slopes = polyder(series)
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
     speeds = np.array([polyval(t, slopes, tensor=False) for t in edges])
@@ -116,7 +116,7 @@ def work_of_steps(counts, orders=ORDERS, tangents=False):
 
 
 def step_work(kind, orders=ORDERS, tangents=False):
-    """Return the operations of a step, within 1 % of those counted in the generated source."""
+    """Return the operations of a step, within 1 % of their count in the generated source."""
     n = orders[kind == CONTACT]
     if kind == CONTACT:
         return 1.5 * n**2 + 40 * n + 405 + tangents * (4.5 * n**2 + 73 * n)
