@@ -15,7 +15,7 @@ from impact_damper.theory.free_oscillator import main_solutions
 
 @dataclass(frozen=True)
 class Balance:
-    """The equations of a motion with Z(T + half a forcing period) = -Z(T), in odd harmonics."""
+    """The equations of a motion with Z(T + pi/W) = -Z(T), which has only odd harmonics."""
 
     oscillator: object
     damper: object
@@ -90,8 +90,8 @@ class Balance:
     def operator(self, coefficients, rows, power=0) -> np.ndarray:
         """Return the real matrix Q0, Q1 or Q2 of the linearised equations, chosen by `power`.
 
-        A disturbance exp(lambda T) p with periodic p obeys (Q0 + lambda Q1 + lambda^2 Q2) p = 0,
-        with p in the order of `to_real`. Q0 is the Jacobian of `residual`.
+        A disturbance exp(lambda T) p with periodic p obeys (Q0 + lambda Q1 + lambda^2 Q2) p = 0.
+        `to_real` gives the order of the unknowns of p. Q0 is the Jacobian of `residual`.
         """
         k, rate, own = self.harmonics, self.rates, self.oscillator
         unit = np.eye(len(k))
@@ -113,12 +113,12 @@ class Balance:
         return np.block([[first, push], [-free, free + push / self.damper.mass_ratio]])
 
     def _contact_indicator(self, rows):
-        """Return the Fourier coefficients 0 ... 2N of M, which is 1 in contact and 0 elsewhere."""
+        """Return the Fourier coefficients of the function that is 1 in contact and 0 elsewhere."""
         return fourier.indicator(rows, np.arange(2 * self.highest + 1))
 
 
 def _convolution(coefficients, harmonics):
-    """Return A, B: A z + B conj(z) are the coefficients of g z; `coefficients` are g_0 ... g_2N."""
+    """Return matrices A, B: A z + B conj(z) is the product of the series g (`coefficients`) and z."""
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
     column = harmonics[:, None]
@@ -126,13 +126,13 @@ def _convolution(coefficients, harmonics):
 
 
 def _real(by_value, by_conjugate):
-    """Return the real matrix of dz -> by_value dz + by_conjugate conj(dz), real parts first."""
+    """Return the matrix of dz -> by_value dz + by_conjugate conj(dz), for (Re dz, Im dz)."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
 
 
-# Newton's method: largest change of a coefficient in the last step, relative to the largest one;
-# most steps; and smallest factor by which a step is multiplied.
+# Newton's method converges when a step changes coefficients by at most TOLERANCE times the largest
+# one. It takes at most ITERATIONS steps, each multiplied by a factor of at least LEAST_DAMPING.
 TOLERANCE, ITERATIONS, LEAST_DAMPING = 1e-11, 40, 1e-4
 
 
@@ -151,8 +151,8 @@ class Solution(NamedTuple):
 def solve(balance, start) -> Solution:
     """Solve the equations of a balance by the damped Newton's method.
 
-    Steps are halved by the natural monotonicity test (Deuflhard, Newton Methods for Nonlinear
-    Problems, 2004, section 3.3), because the stiff contact dominates the residual.
+    The natural monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
+    3.3) decides whether a step is halved. The residual cannot, as the stiff contact dominates it.
     """
     count = len(balance.harmonics)
     now = np.zeros((len(start), count), complex)
@@ -182,7 +182,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return the first guess: the solution of (7) with the least |a|, or the largest free one."""
+    """Return the solution of (7) with the smallest |a|; without a damper that with the largest."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2
@@ -196,7 +196,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
 
 
 def refine(balances, start) -> list:
-    """Return a `Solution` of each balance; the first guess is the last one that converged."""
+    """Return a `Solution` of each balance, from the last one that converged as first guess."""
     solutions = []
     for balance in balances:
         solutions.append(solve(balance, start))

@@ -1,4 +1,4 @@
-"""Contacts near grazing that integrators miss; a run without walls serves for all depths."""
+"""Contacts near grazing that integrators miss; one run without walls is judged for all walls."""
 
 import math
 
@@ -35,21 +35,21 @@ expected_unseen | method_tolerance depth | | | expected share of contacts at ran
     """
 )
 
-# `unseen`: the computed motion passes the wall and returns within one step. `not_reached`: it does
-# not reach the wall, since its error exceeds the depth. `failed`: it did not reach its end.
+# `unseen`: the computed motion passes the wall and returns within one step. `not_reached`: the
+# motion does not reach the wall, as its error exceeds the depth. `failed`: the run has no end.
 OUTCOMES = ("found", "unseen", "not_reached", "failed")
 
 
 def missed_contacts(
     oscillator, frequency, *, passages, radius, depths, tolerances, steps, seed=1995
 ):
-    """Return the numbers of contacts near grazing that integrators find and miss.
+    """Return a dataset with the numbers of contacts near grazing that integrators find and miss.
 
-    Integrators run with the increasing `tolerances`, or with as many numbers of `steps` in a cycle.
+    `tolerances` increase. Integrators with equal steps take numbers of `steps` in a cycle instead.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
-    steps = steps[::-1]  # the fewest steps take the place of the largest tolerance
+    steps = steps[::-1]  # the fewest steps are stored at the largest tolerance
     if len(steps) != len(tolerances):
         raise ValueError(f"steps = {steps}: must be as many as tolerances, {len(tolerances)}")
     p = pack(oscillator, None, frequency)
@@ -68,7 +68,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return passages by depth and outcome, spurious contacts by depth, and the median error."""
+    """Return numbers of passages (depth, outcome) and of spurious contacts, and a median error."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
@@ -111,9 +111,9 @@ def _count_table(p, passages, depths, tolerances, steps):
 
 
 def _expected(passages, depths, steps, period):
-    """Return the shares expected to be unseen, shape (steps, depth), if steps end at random times.
+    """Return expected shares of unseen contacts (steps, depth), for steps at random times.
 
-    They are the mean of max(0, 1 - b/h) with the time b = 2 sqrt(2 depth/|Z2''|) beyond the wall.
+    Each is the mean of max(0, 1 - b/h), b = 2 sqrt(2 depth/|Z2''|) the time beyond the wall.
     """
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])

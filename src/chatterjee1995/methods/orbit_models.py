@@ -1,4 +1,4 @@
-"""Models of a steady motion of one forcing cycle, and their work (docs/explanation/methods.md)."""
+"""Models of steady motions of the forcing period, and their work (docs/explanation/methods.md)."""
 
 import math
 from dataclasses import replace
@@ -49,7 +49,7 @@ class Model(NamedTuple):
 
 
 def rigid(p, restitution, start, t, periods, tolerance):
-    """Return the `Run` with rigid walls from `start` at the time t, with one peak a cycle."""
+    """Return the `Run` with rigid walls from `start` at t; peaks are the largest |Z1| of cycles."""
     p = without_dashpot(p)
     y, none, work = start.copy(), np.empty((0, 4)), workspace()
     period, counts = 2 * math.pi / p[FREQUENCY], [0, 0, 0]
@@ -114,7 +114,7 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return the one-harmonic solution nearest to `state`, shape (2, 1) or None, and the work."""
+    """Return coefficients of the one-harmonic solution nearest to `state`, or None, and work."""
     if damper is None:
         work = 2 * 10 * 3**3
         solutions = free_solutions(oscillator, frequency)
@@ -177,7 +177,7 @@ def rigid_impacts(oscillator, damper, frequency, start):
             continue
         given = found.p, found.restitution, found.state, strobe_time(found.p)
         run = rigid(*given, 1, POLISH_TOLERANCE)
-        # The work of a map: a cycle with variational equations.
+        # The work of one map is that of a cycle with variational equations.
         each = each or run.operations / step_work(FLIGHT) * step_work(FLIGHT, tangents=True)
         work += found.maps * each
         phases = frequency * run.contact_times % (2 * math.pi)

@@ -1,4 +1,4 @@
-"""Passages: random flights without walls whose largest |Z2| is known to rounding."""
+"""Passages: random flights without walls, with their largest |Z2| up to rounding errors."""
 
 import math
 from typing import NamedTuple
@@ -10,12 +10,12 @@ from impact_damper.kernel.instances import FLIGHT_ORDER
 from impact_damper.kernel.single import X, polynomial, step, workspace
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
-PIECES = 16  # parts of a step, in each of which one extremum of Z2 can be found
-TOLERANCE = 1e-15  # of the Taylor series
+PIECES = 16  # number of parts of a step; at most one extremum of Z2 is found in a part
+TOLERANCE = 1e-15  # tolerance of the Taylor series
 
 
 class Passage(NamedTuple):
-    """A flight without walls over a cycle from `state` at T = 0, and where its |Z2| is largest."""
+    """A cycle without walls from `state` at T = 0; time, size and |Z2''| at its largest |Z2|."""
 
     state: np.ndarray
     time: float
@@ -25,7 +25,7 @@ class Passage(NamedTuple):
 
 @kernel
 def largest_of_flight(p, y, t, end):
-    """Return time and size of the largest |Z2| over [t, end], and |Z2''| there or 0 at an end."""
+    """Return time and size of the largest |Z2| over [t, end], and its |Z2''|, 0 at both ends."""
     work = workspace()
     flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
     c = np.zeros(FLIGHT_ORDER + 1)
@@ -70,7 +70,7 @@ def without_walls(p):
 def draw_passages(p, count, radius, deepest, seed) -> list:
     """Return `count` random passages over one forcing cycle, from states uniform in a ball.
 
-    |Z2| at both ends is at least `deepest` below its largest value: no wall is touched there.
+    |Z2| at both ends is more than `deepest` below its maximum, so no wall is touched at an end.
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)

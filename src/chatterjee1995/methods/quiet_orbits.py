@@ -1,7 +1,7 @@
-"""The quiet orbit, stable or unstable, on a grid of parameters.
+"""The quiet orbit, stable or unstable, on a grid of parameters, and rules for its best clearance.
 
-It is a fixed point of the map over half a cycle followed by a change of sign, whose derivative is
-called the root. Rules for the clearance with the smallest quiet orbit stand at the end.
+The orbit is a fixed point of a map: integrate half a cycle, and change the sign of the state. The
+derivative of this map is called the root, because its square is the derivative over a cycle.
 """
 
 from typing import NamedTuple
@@ -33,7 +33,7 @@ class CompliantOrbit(NamedTuple):
 
 
 def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
-    """Find a symmetric orbit with two contacts in a forcing cycle by Newton's method."""
+    """Return the `CompliantOrbit` by Newton's method from a guess, or None, and a status."""
     state = np.array(guess, float)
     converged, _, multiplier = polish(p, state, 1, reach, tolerance)
     if not converged:
@@ -44,11 +44,11 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
 
 
-# Phase W T of the states. Contacts lie between about -0.2 and pi/2, and half a cycle later.
+# Phase W T of the states, in flight. Contacts lie in about -0.2 ... pi/2, and half a cycle later.
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between cells, divided by their distance
-# A row ends at a fold if extrapolation predicts one within NEAR shortest steps of its last orbit.
+# A row ends at a fold if extrapolation predicts a fold within NEAR SHORTEST of its last orbit.
 NEAR = 4
 
 
@@ -58,7 +58,7 @@ class QuietOrbits(NamedTuple):
     multiplier: Multiplier of the root with the largest modulus and an imaginary part >= 0.
     displacement, harmonic: max |Z1|, and amplitude of the first harmonic of Z1.
     end: Fractional columns at which the orbits of each row end; shape (rows, 2).
-    end_event: Why they end: map_ends, no_orbit, fold, contacts_change or not_converged.
+    end_event: Events at these ends: map_ends, no_orbit, fold, contacts_change or not_converged.
     """
 
     multiplier: np.ndarray
@@ -69,9 +69,9 @@ class QuietOrbits(NamedTuple):
 
 
 def straight_flight_end(oscillator, clearance, restitution) -> float:
-    """Return the frequency W at which the quiet orbit folds, in the limit of straight flight.
+    """Return the frequency W of the fold of quiet orbits, for straight flights between impacts.
 
-    There W^2 d0/f is sqrt(1 + k^2) with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2.
+    At the fold W^2 d0/f is sqrt(1 + k^2) with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2.
     """
     if restitution == 1:
         return np.inf
@@ -83,7 +83,7 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Return the quiet orbits of a grid, followed from known `states` at the strobe, or NaN."""
+    """Return the quiet orbits of a grid, followed from known `states` at W T = pi/2, else NaN."""
     grid = Grid(parameters, find_quiet_orbit, shortest=SHORTEST, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
         at_strobe = shoot(parameters[cell], states[cell], 1, STROBE)
@@ -111,7 +111,7 @@ def find_quiet_orbit(p, guess):
 
 
 def _dominant_root(orbit):
-    """Return the multiplier of the root with the largest modulus and an imaginary part >= 0."""
+    """Return the eigenvalue of the root with the largest modulus and an imaginary part >= 0."""
     values = np.linalg.eigvals(orbit.matrix)
     value = values[np.argmax(np.abs(values))]
     return complex(value.real, abs(value.imag))
@@ -133,11 +133,11 @@ def _row_ends(grid, row):
 
 
 def _end(followed):
-    """Return where between two cells the orbit ends, as a fraction, and the event at which it ends.
+    """Return the fraction of the way to the next cell at which an orbit ends, and the event.
 
-    Towards a fold, det(1 - root) decreases with the square root of the distance.
+    Near a fold, det(1 - root) is proportional to the square root of the distance to the fold.
     """
-    # Now the orbit of the cell behind is known, so that the prediction is better than in `spread`.
+    # A step that failed in `spread` can arrive here, as the orbit of the cell behind is now known.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
@@ -149,19 +149,19 @@ def _end(followed):
     return fraction, followed.status
 
 
-# rm W^2 d0 at which the first harmonic of Z2, 8 d0/pi^2 in a straight flight between rigid walls,
-# equals f/(rm W^2), with which the primary mass is at rest, as rule (18) requires.
+# Ratio rm W^2 d0/f at which the first harmonic of Z2 is f/(rm W^2) and the primary mass is at rest,
+# as rule (18) requires. The harmonic of a straight flight between rigid walls is 8 d0/pi^2.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# Impulse q and phase of the turning point for equal |x| there and at the impact, with elastic rigid
-# walls, without damping and stiffness: q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
+# Impulse q for equal |x| at impact and turning point, and phase phi of the turning point, for e = 1
+# and no damping or stiffness: q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
-# Quantities of Z1 that an optimum clearance minimises, and rules for it, see `rule_ratios`.
+# Quantities of Z1 that an optimum clearance minimises, and rules for the optimum (`rule_ratios`).
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return both optima of rm W^2 d0 for elastic contact, to first order in k and g, for l = 0."""
+    """Return both optima of rm W^2 d0/f for e = 1, to first order in `contact` and `damping`."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
@@ -173,11 +173,11 @@ def elastic_ratios(flight) -> tuple[float, float]:
 
 
 def rule_ratios(oscillator, damper, frequency):
-    """Return the optimum rm W^2 d0 for each of CRITERIA (rows) by each of RULES (columns).
+    """Return the optimum rm W^2 d0/f for each of CRITERIA (rows) by each of RULES (columns).
 
-    The rules: (18) of the paper; the first harmonic of a straight flight; a straight flight between
-    rigid walls; its first order in the duration of a contact and in the damping; a flight with
-    damping, stiffness and inelastic contact.
+    `balance` is rule (18), `gap_harmonic` FIRST_HARMONIC_RATIO, and `straight_flight` the optimum
+    of a straight flight between rigid walls. `elastic` adds contact duration and damping to first
+    order. `flight` includes damping, stiffness and inelastic contact.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

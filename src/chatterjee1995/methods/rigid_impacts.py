@@ -60,9 +60,9 @@ def rebound(p, restitution, y, tangents, t):
 def rigid_map(p, restitution, y, tolerance):
     """Integrate the rigid model over one forcing cycle from the state y at W T = pi/2.
 
-    The dashpot in p must be 0. Return the state, its derivative by y, the number of impacts (with
-    MOST_IMPACTS the rest is invalid), the smallest |Z2'| before an impact, |Z2'| and the
-    acceleration of Z1 towards the wall before the first impact, and the largest |Z1|.
+    The dashpot in p must be 0. Return the final state, its derivative by y, the number of impacts,
+    the smallest |Z2'| before an impact, |Z2'| and the acceleration of Z1 towards the wall before
+    the first impact, and the largest |Z1|. After MOST_IMPACTS only their number is valid.
     """
     state = y.copy()
     tangents = np.eye(4)
@@ -115,7 +115,7 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """Return orbit and status as `rigid_orbit`, with walls corrected to imitate compliant ones."""
+    """Return orbit and status as `rigid_orbit` does, for walls that imitate compliant walls."""
     e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
     reduced = damper.mass_ratio / (1 + damper.mass_ratio)
     z, natural = damping_ratio(e), damper.contact_frequency
@@ -132,7 +132,7 @@ def mended_orbit(oscillator, damper, frequency, orbit, reach):
 
 
 def _solve(p, restitution, guess, reach):
-    """Return orbit and status as `rigid_orbit`, for packed parameters and any restitution."""
+    """Return orbit and status as `rigid_orbit` does, for packed parameters and any restitution."""
     p = without_dashpot(p)
     restitution = float(restitution)  # numba would compile the map a second time for an int
     y = np.array(guess, float)

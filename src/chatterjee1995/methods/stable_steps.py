@@ -38,18 +38,18 @@ contact_frequency | contact_stiffness | | omega_c | natural frequency of an unda
     """
 )
 
-ACCURACIES = (0.01, 0.1)  # relative differences of max |Z1| of every cycle from the exact orbit
-# Largest factor between values of r1 at which orbits are followed, and distance from a prediction.
+ACCURACIES = (0.01, 0.1)  # relative differences of max |Z1| from the exact orbit, in any cycle
+# Largest ratio of successive r1 in following orbits; largest distance of a state from its guess.
 FACTOR, REACH = 10.0**0.0625, 0.2
 EXACT = 1e-13  # local error allowed in the exact orbits, the reference of the runs
-CONFIRMED = 4  # smallest steps that must all keep the motion before a stable step is reported
+CONFIRMED = 4  # number of smallest steps that must all keep the motion for a stable step
 STIFF = 1e3  # r1 above which contacts are short, for the fit of the exponent of the stable step
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
     """Return a quiet `CompliantOrbit` or None at each r1, followed from the damper's own r1.
 
-    ArithmeticError is raised if a primary mass at rest leads to no quiet motion.
+    ArithmeticError is raised if a start with the primary mass at rest leads to no quiet motion.
     """
     p = pack(oscillator, damper, frequency)
     start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
@@ -78,7 +78,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
 
 
 def _in_steps(own, targets):
-    """Return `own`, then all targets in order, with values between them at most FACTOR apart."""
+    """Return `own` and all targets in order, with values inserted up to ratios of FACTOR."""
     cells = [np.array([own])]
     for before, target in itertools.pairwise([own, *targets]):
         count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)
@@ -87,7 +87,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step that holds, as do all smaller tested steps; NaN without CONFIRMED."""
+    """Return the largest step that holds with all smaller ones, NaN if fewer than CONFIRMED do."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -104,7 +104,7 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """Return the largest stable steps among increasing values `scaled_steps` of h omega_c."""
+    """Return a dataset with the largest stable steps; `scaled_steps` are increasing h omega_c."""
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
     scaled = scaled[::-1]
