@@ -118,7 +118,7 @@ class Balance:
 
 
 def _convolution(coefficients, harmonics):
-    """Return matrices A, B: A z + B conj(z) is the product of the series g (`coefficients`) and z."""
+    """Return matrices A, B: A z + B conj(z) is the product of z and the series `coefficients`."""
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
     column = harmonics[:, None]

@@ -1,4 +1,4 @@
-"""Map of the errors of single-term harmonic balance, against exact quiet and high motions."""
+"""Map of the errors of single-term harmonic balance, for quiet and for high (resonant) motions."""
 
 from dataclasses import replace
 from functools import lru_cache, partial
@@ -60,15 +60,15 @@ high_verdict | map_value frequency_ratio | | | high motion: result of harmonic b
     """
 )
 
-NEAR = 0.2  # largest relative difference of max |Z1| from the predicted one of a near motion
-HIGH = 0.5  # share of the free resonance amplitude from which on a motion is high, not quiet
+NEAR = 0.2  # relative difference of max |Z1| from its prediction up to which a motion is "near"
+HIGH = 0.5  # fraction of the free resonance amplitude below which a motion is quiet, else high
 
 
 class Cells(NamedTuple):
     """Solutions of harmonic balance in all cells, and starts at T = 0; NaN without a solution.
 
-    `resonance` is the amplitude of the free resonance branch, beyond its end the one at its end.
-    Without a high solution `high_start` is on this branch, with the loose mass at rest in the gap.
+    `resonance` is the amplitude of the free resonance branch; cells beyond its end have that of the
+    end. Without a high solution `high_start` is on the branch, with the loose mass at rest.
     """
 
     resonance: np.ndarray
@@ -83,8 +83,8 @@ class Cells(NamedTuple):
 def balance_cells(rows) -> Cells:
     """Solve the harmonic balance (7) in all cells of a map.
 
-    The quiet solution has the smallest |a|, below half of the free resonance. The high solution is
-    the stable one with the largest |a|, not below this limit.
+    The quiet solution is that with the smallest |a|, if |a| < HIGH times the free resonance. The
+    high solution is the stable one with the largest |a|, if |a| is not below this limit.
     """
     cells = [
         [_cell(oscillator, damper, frequency) for frequency in frequencies]
@@ -96,7 +96,7 @@ def balance_cells(rows) -> Cells:
 
 
 def _cell(oscillator, damper, frequency):
-    """Return the harmonic balance in one cell, as `Cells` with one entry in place of each array."""
+    """Return the `Cells` of a single cell, with one entry in place of each array."""
     free, phase = _resonance(oscillator, frequency)
     high_start = np.full(4, np.nan)
     if phase is not None:
@@ -131,7 +131,7 @@ def _cell(oscillator, damper, frequency):
 
 @lru_cache(4096)
 def _solutions(oscillator, damper, frequency):
-    """Return the solutions of (7) and their growth rates, cached for cells with another e."""
+    """Return the solutions of (7) and their growth rates, cached for cells with a different e."""
     solutions = impacting_solutions(oscillator, damper, frequency)
     return solutions, growth_rate(fixed_points(solutions), oscillator, damper, frequency)
 
@@ -154,9 +154,9 @@ class _Row(NamedTuple):
 
 
 def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers=1, progress=None):
-    """Compare harmonic balance with exact motions over W/Wp and one parameter of the rows.
+    """Compare harmonic balance with exact motions over W/Wp (columns) and a parameter (rows).
 
-    Without `clearance` among the `fixed` values each row has the clearance of rule (19).
+    If `fixed` has no `clearance`, each row has the clearance of rule (19).
     """
     rows = _rows(parameter, values, frequency_ratios, fixed)
     parameters = np.array(
@@ -246,7 +246,7 @@ def _kinds(records, resonance):
 
 
 def _quiet_verdict(balance, orbits):
-    """Return the flag `quiet_verdict`; "absent" are cells beyond a known end of the branch."""
+    """Return the flag `quiet_verdict`; cells beyond a known end of the branch are "absent"."""
     size = np.abs(orbits.multiplier)
     columns = np.arange(size.shape[1])
     ended = np.isin(orbits.end_event, ["fold", "contacts_change"])

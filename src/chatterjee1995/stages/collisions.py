@@ -1,4 +1,4 @@
-"""Random starts that lead to a collision, in the ball of the paper (section 3, iii)."""
+"""Share of random starts, in the ball of the paper (section 3, iii), that lead to a collision."""
 
 import math
 
@@ -15,7 +15,7 @@ from impact_damper.motions.simulate import random_states
 def collisions(
     oscillator, damper, frequency, *, starts=2000, radius, seed=1995, periods=2000, tolerance=1e-9
 ):
-    """Return the shares of starts beyond a wall and of those that collide, for each `ball`."""
+    """Return a dataset of the shares of starts beyond a wall and of starts that collide."""
     p = pack(oscillator, damper, frequency)
     shares = np.empty((2, 3))
     for row, within_gap in enumerate((False, True)):
@@ -31,7 +31,7 @@ def collisions(
 
 @kernel
 def first_collision(p, state, limit, tolerance):
-    """Return the cycles from T = 0 to the first contact, 0 at a wall, infinite above `limit`."""
+    """Return the cycles until the first contact: 0 if the start is in contact, inf > `limit`."""
     work, y, t, side = workspace(), state.copy(), 0.0, side_of(p, state)
     end = limit * 2.0 * math.pi / p[FREQUENCY]
     while side == 0 and t < end:

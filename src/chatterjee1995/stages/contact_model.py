@@ -1,7 +1,7 @@
 """Map of the contact model over restitution and load, and the loads of simulated motions.
 
-The load is G = g/(wn v0), with the acceleration g towards the wall by other forces, the natural
-frequency wn of the contact, and the approach speed v0.
+The load is G = g/(wn v0). All forces except that of the contact cause the acceleration g towards
+the wall, wn is the natural frequency of the contact, and v0 the approach speed.
 """
 
 from dataclasses import replace
@@ -38,7 +38,7 @@ contact_load | contact | | | load at the beginning of a contact
     """
 )
 
-LINEAR = 1e-3  # |G| up to about which loads of the map are evenly spaced
+LINEAR = 1e-3  # |G| below about which the loads of the map are evenly spaced
 CLOSE, FAIR = 0.01, 0.05  # largest relative errors of a "close" and of a "fair" restitution
 SIZES = ("smallest", "largest")  # simulated motions at each restitution and frequency
 
@@ -58,7 +58,7 @@ def contact_model(
 ):
     """Compute the contact for each restitution and load, and the loads of simulated motions.
 
-    `used` are the restitutions of the motions, the smallest and the largest from `starts` starts.
+    `used` are the restitutions of motions, of which each has the smallest and largest of `starts`.
     """
     used, frequencies = np.array(used, float), np.array(frequencies, float)
     data = contact_map(restitutions, loads) | unloaded_table(used)
@@ -82,12 +82,12 @@ def contact_model(
 
 
 def spread_loads(largest, count):
-    """Return loads from -largest to largest, evenly spaced near 0, logarithmically above LINEAR."""
+    """Return loads from -largest to largest: spacing even near 0, logarithmic above LINEAR."""
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 
 def contact_map(restitutions, loads):
-    """Return realised restitution, NaN without release, and verdict, by rule, load and e."""
+    """Return realised restitutions (NaN without release) and verdicts for each rule, load and e."""
     shape = len(EXIT_RULES), len(loads), len(restitutions)
     realised, verdict = np.empty(shape), np.empty(shape, np.int8)
     for i, j, k in np.ndindex(shape):
@@ -116,7 +116,7 @@ def unloaded_table(restitutions):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Return the smallest settled and the largest motion with contacts from random starts."""
+    """Return the smallest settled and the largest motion with contacts, None if there is none."""
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
     motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)
@@ -129,7 +129,7 @@ def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
 
 
 def loads_of(oscillator, damper, frequency, state, periods):
-    """Return the loads at the beginning of whole contacts, from the state at W T = pi/2 on."""
+    """Return the loads at the beginning of complete contacts, in a run from W T = pi/2."""
     p = pack(oscillator, damper, frequency)
     begin = strobe_map.strobe_time(p)
     times = np.array([begin + periods * 2 * np.pi / p[FREQUENCY]])

@@ -1,7 +1,7 @@
 """Accuracy of each design rule: the clearance it predicts, compared with the exact optimum.
 
-At the optimum the quiet orbit, found from straight flight, is smallest. Clearances are ratios rm
-W^2 d0/f with the forcing amplitude f, 1 by rule (18), and displacements W^2 Z1/f.
+The quiet orbit is smallest at the optimum. Its first guess is a straight flight. With the forcing
+amplitude f clearances are given as ratios rm W^2 d0/f (1 by rule (18)), displacements as W^2 Z1/f.
 """
 
 import itertools
@@ -40,14 +40,13 @@ rule_excess | mass_ratio restitution contact_stiffness frequency rule | | | rela
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
 SAMPLES = 1024  # values of Z1 in a cycle for the integral of the first harmonic
 SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
-# Relative step and largest number of steps of the search downhill, and accuracy of the ratio.
+# Relative step and largest number of steps of the search downhill; accuracy of the optimum ratio.
 STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
-# A minimum is smooth or a kink. A step away from the minimum, by CLOSE, decides: when the step is
-# halved, the rise of the displacement falls to a quarter at a smooth minimum and to half at a kink.
-# KINK is the limit between these two fractions.
+# A minimum is smooth or a kink. From the distance CLOSE to half of CLOSE the rise of a displacement
+# falls to 1/4 at a smooth minimum, and to 1/2 at a kink. KINK is the limit between 1/4 and 1/2.
 CLOSE, KINK = 1e-3, 0.36
 ABSENT = 1e3  # displacement where the motion does not exist, because the search needs a number
-IMPULSES = 400  # impulses of a contact for which the theory of straight flight is evaluated
+IMPULSES = 400  # number of impulses for which the theory of straight flight is evaluated
 
 
 def design_rules(
@@ -89,7 +88,7 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 
 
 class QuietMotion:
-    """The quiet orbit as a function of the ratio rm W^2 d0/f, whatever the damper's clearance."""
+    """The quiet orbit as a function of rm W^2 d0/f, which replaces the clearance of the damper."""
 
     def __init__(self, oscillator, damper, frequency):
         flight = flight_of(oscillator, damper, frequency)
@@ -109,7 +108,7 @@ class QuietMotion:
     def at(self, ratio):
         """Return max |Z1| and the first harmonic, in units of f/W^2, and |multiplier|.
 
-        Without an orbit at this ratio these are infinity, infinity and NaN.
+        Without an orbit at this ratio the results are infinity, infinity and NaN.
         """
         if ratio not in self._known:
             self._known[ratio] = self._orbit(ratio)
@@ -130,7 +129,7 @@ class QuietMotion:
         return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """Return the ratio at the local minimum reached downhill from a guess, and its kind."""
+        """Return the ratio at the local minimum downhill of a guess, and the kind of minimum."""
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
         def size(ratio):
@@ -159,7 +158,7 @@ class QuietMotion:
 
 
 def first_harmonic(p, y) -> complex:
-    """Return the complex amplitude c of Re(c exp(i W T)) in Z1; impacts make errors below 1e-5."""
+    """Return the complex amplitude c of Re(c exp(i W T)) in Z1; impacts cause errors < 1e-5."""
     start = strobe_time(p)
     times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[FREQUENCY] * SAMPLES)
     states = states_at(p, y, start, times, POLISH_TOLERANCE)

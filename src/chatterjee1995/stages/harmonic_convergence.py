@@ -42,8 +42,8 @@ decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmon
     """
 )
 
-# Errors, and their predicted powers of 1/N for elastic contacts and for contacts with a dashpot, or
-# without contacts their rates of exponential decrease in units of s W.
+# Errors; predicted powers of 1/N at which they decrease, for elastic and for inelastic contacts;
+# predicted rates of exponential decrease without contacts, in units of W `singularity_distance`.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
@@ -51,7 +51,7 @@ ANALYTIC = (1.0, 1.0, 1.0, 2.0)
 # Search for a singularity, with the forcing amplitude f and x = (f/|k3|)^(1/3):
 # STARTS: number of start times in half a forcing cycle.
 # LARGE: |Z1| at which an integration towards the singularity stops, in units of x.
-# LAST_CHANGE: largest last change of the estimated position, in units of 1/(x sqrt|k3|).
+# LAST_CHANGE: change of the estimated position that ends the search, in units of 1/(x sqrt|k3|).
 # CLOSE: fraction of the estimated distance that the next integration covers.
 STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 
@@ -59,8 +59,8 @@ STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 def asymptotic_harmonic(damper, frequency) -> float:
     """Return the harmonic number N above which the predicted powers can hold; 1 without a damper.
 
-    The period of harmonic N is at most the duration of a contact (appendix B). With a dashpot N
-    is at least r1/(c W), above which the jump of its force, c Z2', outweighs the slope's, r1 Z2'.
+    The period of harmonic N is at most the duration of a contact (appendix B). With a dashpot also
+    N >= r1/(c W): here the jump of its force, c Z2', outweighs the jump of the slope, r1 Z2'.
     """
     if damper is None:
         return 1.0
@@ -72,7 +72,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Return the predicted decrease of each error in `MEASURES` with the highest harmonic N."""
+    """Return the predicted decrease of MEASURES with N: kind, and powers of 1/N or rates."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
@@ -81,9 +81,9 @@ def decay(damper, p, state) -> tuple:
 def singularity_distance(p, state) -> float:
     """Return the distance from the real time axis to the nearest singularity of a free motion.
 
-    The motion is integrated in the direction of imaginary time. Near a singularity T* it is Z1 =
-    sqrt(-2/k3)/(T - T*), so T* is estimated as T + Z1/Z1', and approached again along a straight
-    line.
+    The motion is integrated along imaginary time. Near a singularity T* the motion is
+    Z1 = sqrt(-2/k3)/(T - T*), so T + Z1/Z1' estimates T*. Integration along a straight line towards
+    the estimate improves it.
     """
     frequency, (stiffness, cubic) = p[FREQUENCY], cubic_spring(p)
     if cubic == 0:
@@ -135,7 +135,7 @@ def singularity_distance(p, state) -> float:
 
 SAMPLES = 2**14  # values of Z1 in a cycle of the exact orbit for its Fourier coefficients
 SAME = 1e-6  # largest relative difference of the coefficients of equal solutions
-ROUNDING = 1e-12  # smallest error that fits of the decrease use
+ROUNDING = 1e-12  # smallest error used in the fits of the decrease
 FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 
@@ -147,9 +147,9 @@ def ladder(highest) -> np.ndarray:
 
 
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
-    """Return symmetric motions by harmonic balance with odd harmonics, their stability and errors.
+    """Return a dataset of symmetric motions by harmonic balance, their stability and errors.
 
-    Newton's method starts from the last balance that converged, for N in `cold` also from one term.
+    Newton's method starts from the last converged balance, for N in `cold` also from one term.
     """
     harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
@@ -189,7 +189,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Return the flag `cold_status` of the balance of `warm`, solved from a single term."""
+    """Return the flag `cold_status` for the balance of the solution `warm`, started at `first`."""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)

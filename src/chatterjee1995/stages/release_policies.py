@@ -1,4 +1,4 @@
-"""Rules that say when to switch the damper off, compared by trials of migration."""
+"""Policies of when to switch the damper off, compared by trials of migration to a small motion."""
 
 import math
 from typing import NamedTuple
@@ -45,7 +45,7 @@ POLICIES = ["settled", "hold", "phase", "state"]
 # Fixed numbers of cycles that are tried, each about 1.6 times the one before.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # of the cycles until the goal
-# Results of a hold: cycles and contacts, Z1 and Z1' at the next strobe, and cycles until then.
+# Results of a hold (a time with the damper on); `state` and cycles `ahead` are of the next strobe.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
@@ -54,7 +54,7 @@ RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
 class Outcome(NamedTuple):
-    """Results of n trials; without success `cycles`, until the goal, are infinite."""
+    """Results of n trials; `cycles` are those until the goal, infinite without success."""
 
     reached: np.ndarray
     cycles: np.ndarray
@@ -66,7 +66,7 @@ class Outcome(NamedTuple):
 def release_policies(
     oscillator, dampers, frequencies, *, trials=200, cells=64, seed=1995, settling, workers=1
 ):
-    """Compare rules of release for dampers, over frequencies with both free motions of period 1."""
+    """Compare policies for each damper and frequency; both free motions must have period 1."""
     shape = len(dampers), len(frequencies), len(POLICIES)
     data = {
         "policy_success": np.empty((*shape, 3)),
@@ -107,7 +107,7 @@ class Trials(NamedTuple):
     workers: int = 1
 
     def rules(self, trials, seed):
-        """Return the rule of each policy, as in RULE; chosen in trials of their own."""
+        """Return the rule (see RULE) of each policy, the best one in separate trials."""
 
         def costs(rules):
             cycles = [outcome.cycles for outcome in self.run(rules, trials, seed)]
@@ -123,7 +123,7 @@ class Trials(NamedTuple):
         return [(SETTLED, 0.0, 0), best, *chosen]
 
     def run(self, rules, trials, seed):
-        """Return the `Outcome` of trials with each rule, all run together to fill the lanes."""
+        """Return the `Outcome` of trials for each rule; all trials run together to save time."""
         generator, limit = np.random.default_rng(seed), float(PAPER_CYCLES)
         owner = self.releases.attractors.owner
         resonance, count = owner[-1], len(rules) * trials
@@ -132,7 +132,7 @@ class Trials(NamedTuple):
         reached, running = np.zeros(count, bool), np.arange(count)
         rules = np.repeat(np.array(rules, RULE), trials)
         while len(running):
-            # Random phase and place of switching on, phase of release, and state of free motion.
+            # Random phase and place of switching on, phase of release, and index of the start.
             draws = generator.random((trials, 4))[running % trials]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first
@@ -167,7 +167,7 @@ class Trials(NamedTuple):
         return held
 
     def labels(self, states):
-        """Return the attractor to which each state at a strobe leads, and the cycles until then."""
+        """Return the attractor that each state at a strobe reaches, and the cycles it takes."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
         return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings
@@ -176,10 +176,10 @@ class Trials(NamedTuple):
 
 @kernel
 def hold_many(on, off, starts, draws, limits, rules, depth, half, tolerance, held, stop):
-    """Switch the damper on, `hold`, and run the free motion to the next strobe, for each trial.
+    """Per trial switch the damper on, `hold` it on, and run on to the next strobe (W T = pi/2).
 
-    `starts` (n, 2) are Z1 and Z1' at the strobe before switching on; `draws` give the phase of
-    switching on, the place of the loose mass and the phase of release; `held` receives the results.
+    `starts` (n, 2) are Z1 and Z1' at the strobe before switching on. `draws` give the phase of
+    switching on, the place of the loose mass and the phase of release. `held` receives the results.
     """
     none, path, work, y = np.empty((0, 4)), np.empty((0, 5)), workspace(), np.empty(4)
     period, first = 2.0 * math.pi / on[FREQUENCY], strobe_time(on)

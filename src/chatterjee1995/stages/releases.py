@@ -1,4 +1,4 @@
-"""Migration by many runs of the controller, and releases of the damper (section 5 of the paper)."""
+"""Runs of migration control, and releases: the damper is switched off (section 5 of the paper)."""
 
 from dataclasses import replace
 from itertools import count
@@ -31,14 +31,14 @@ from impact_damper.motions.sweep import Catalogue
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-LEAD = 20  # first cycles of a run, which depend on its start; no release lies in them
-PAPER_CYCLES = 350  # within which, by the paper, its controller reaches the non-resonance branch
-CAPTURE = 0.1  # largest difference in Z1 or Z1' of a run from the orbit that has captured it
-# One release: phase in forcing cycles after a strobe, Z1 and Z1', and the resulting free motion.
+LEAD = 20  # number of first cycles of a run, without release because they depend on the start
+PAPER_CYCLES = 350  # cycles within which the paper's controller reaches the non-resonance branch
+CAPTURE = 0.1  # largest difference in Z1 or Z1' between a captured run and its orbit
+# A release: phase in cycles after a strobe (W T = pi/2), Z1 and Z1', and the resulting free motion.
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
 )
-# Names of the kinds of motion with the damper and without, except the first name, "none".
+# Names of the kinds of motion with and without the damper; the first name, "none", is left out.
 KINDS = list(DAMPED_MOTION)[1:]
 DESTINATIONS = list(FREE_MOTION)[1:]
 
@@ -59,7 +59,7 @@ def migration(
     workers=1,
     progress=None,
 ):
-    """Return runs of the controller, one as an `example`, and motions to which releases lead."""
+    """Return a dataset of runs of the controller, with one `example`, and of releases."""
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
     generators = map(np.random.default_rng, roots[0].spawn(trials))
@@ -91,7 +91,7 @@ def migration(
 
 
 def _example(totals):
-    """Return the first run with the median number of switchings of those that arrive, or 0."""
+    """Return the index of the first run that arrives with the median of switchings, or 0."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
         return 0
@@ -100,7 +100,7 @@ def _example(totals):
 
 
 def _summary(switchings, totals):
-    """Return shares of all runs, and numbers of releases by the motions before and after them."""
+    """Return the shares of runs that arrive, and numbers of releases by motion before and after."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     within = reached & (totals["total_time"] <= PAPER_CYCLES)
     before, after = switchings["released_from"], switchings["destination"]
@@ -122,11 +122,11 @@ def _release(case, state, wait, settling, stop=NEVER):
 
 
 def watch_runs(case, seeds, lifetime, settling, workers, progress):
-    """Run with the damper on from the resonance branch, release each run once; return both records.
+    """Return runs with the damper on from the resonance branch, and one release from each run.
 
-    The release follows strobe LEAD, and precedes the capture by an orbit or `lifetime`.
+    The release lies after strobe LEAD, and before capture by an orbit or the end at `lifetime`.
     """
-    # Phase and place of switching on, strobe of the release, and phase after this strobe.
+    # Random phase and place of switching on, strobe of the release, and phase after this strobe.
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     motions = np.zeros(len(draws), MOTION)
     entries = np.full(len(draws), np.array((np.nan,) * 3 + (FREE_MOTION["none"],), RELEASE))
@@ -161,7 +161,7 @@ def _life(p, path, record, tolerance):
 
 
 def release_data(case, motions, entries, settling):
-    """Return the variables of `entries` and of releases spread evenly over each settled motion."""
+    """Return the variables of the releases `entries`, and of even releases from settled motions."""
     number = len(entries)
     rows = [entries]
     for record in motions:
@@ -190,9 +190,9 @@ def release_data(case, motions, entries, settling):
 
 
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
-    """Return the settled motions of records, random states and (7), by ascending max |Z1|."""
+    """Return settled motions, `known` or from random states and solutions of (7), by max |Z1|."""
     on = pack(oscillator, damper, frequency)
-    # As starts these solutions, for elastic contact, also serve for an inelastic damper.
+    # The solutions for elastic contact are good starts for an inelastic damper too.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
     angle = balance.phase + np.pi / 2
     columns = [
@@ -225,7 +225,7 @@ def release_scan(
     workers=1,
     progress=None,
 ):
-    """Release the damper from each damped motion at each frequency, and once before it settles."""
+    """Return a dataset of the free motions after releases from settled and unsettled motions."""
     cases = [release_case(oscillator, damper, frequency, settling) for frequency in frequencies]
     search = {"starts": starts, "radius": radius, "seed": seed, "settling": settling}
     response = frequency_response(
@@ -259,7 +259,7 @@ def _scan_records(response):
 
 
 def _padded(values, length):
-    """Return an array, extended along its first axis to a length by NaN, or by -1 for integers."""
+    """Return an array whose first axis is extended to `length` by NaN, or by -1 for integers."""
     missing = np.nan if values.dtype.kind == "f" else -1
     widths = [(0, length - len(values))] + [(0, 0)] * (values.ndim - 1)
     return np.pad(values, widths, constant_values=missing)

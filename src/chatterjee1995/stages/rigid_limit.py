@@ -44,7 +44,7 @@ STIFF = 1e4  # r1 above which contacts are short, for the fit of the order of th
 def rigid_limit(
     oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling
 ):
-    """Compare rigid walls with compliant ones; ArithmeticError without a quiet motion to follow."""
+    """Compare rigid with compliant walls; raise ArithmeticError if no quiet motion is found."""
     frequencies, stiffnesses = np.array(frequencies, float), np.array(stiffnesses, float)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
     compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)
@@ -67,7 +67,7 @@ def rigid_limit(
 
 
 def _quiet(oscillator, damper, frequency, starts, seed, settling):
-    """Return the quiet orbit to which random starts lead; ArithmeticError if there is none."""
+    """Return the quiet orbit to which random starts lead; raise ArithmeticError without one."""
     motion, _ = extreme_motions(oscillator, damper, frequency, starts, seed, settling)
     if motion is not None and motion["period"] == 1:
         p = pack(oscillator, damper, frequency)
@@ -90,7 +90,7 @@ def _spread(correct, points, cell, own_point, orbit):
 
 
 def _reached(followed, key):
-    """Return the orbit at the end of a line, or raise an ArithmeticError for the axis `key`."""
+    """Return the orbit at the end of a line, or raise ArithmeticError with the argument `key`."""
     if not followed.arrived:
         raise ArithmeticError(f"{key}: the quiet motion cannot be followed into this grid")
     return followed.orbit
@@ -139,7 +139,7 @@ def _errors(oscillator, damper, frequencies, stiffnesses, compliant, rigid):
 
 
 def _verdict(soft, hard):
-    """Return the name of the verdict on a compliant and a rigid orbit, None where not found."""
+    """Return the name of the verdict on a compliant and a rigid orbit; a missing orbit is None."""
     if soft is None or hard is None:
         return "neither" if soft is hard else "rigid_only" if soft is None else "compliant_only"
     stable = [abs(orbit.multiplier) < 1 for orbit in (soft, hard)]

@@ -70,7 +70,7 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
-    # A value out of range is at an end of its sorted axis, and is found here before hours of work.
+    # Check both ends of each sorted axis, where values out of range are, before hours of work.
     for end in (0, -1):
         random_states(0, radius, system([end] * len(AXES))[1], seed)
     warn_if_narrow(oscillator, axes["frequency"], radius)
@@ -110,7 +110,7 @@ def _condensed(runs):
 
 
 def gather_chunks(paths, path) -> None:
-    """Write the chunks of a study into one file; a BrokenFileError names one that does not fit."""
+    """Write the chunks of a study into one file; BrokenFileError names a chunk that is wrong."""
     chunks = [load(each) for each in paths]
     head, done = chunks[0], 0
     for chunk, each in zip(chunks, paths, strict=True):

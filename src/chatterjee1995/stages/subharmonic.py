@@ -33,7 +33,7 @@ switched_share | frequency | | | share of starts on the free subharmonic that le
 )
 
 SEARCHED = 81  # frequencies at which the free subharmonic is searched for
-BEYOND = 0.1  # share of its range of W by which the frequencies extend beyond each end
+BEYOND = 0.1  # margin of W at each end, as a fraction of the range of the free subharmonic
 
 
 def subharmonic_suppression(
@@ -48,9 +48,9 @@ def subharmonic_suppression(
     workers=1,
     progress=None,
 ):
-    """Find all motions with the damper at frequencies at which the free subharmonic exists.
+    """Find all motions with the damper over the range of W of the free subharmonic.
 
-    These take the place of `frequencies`; half of the starts switch the damper on during it.
+    This range replaces that of `frequencies`. Half of the starts are on the free subharmonic.
     """
     if oscillator.cubic == 0:
         raise ValueError(
@@ -93,7 +93,7 @@ def _switch_half(oscillator, parameters, free, states, seed):
 
 
 def switched_on(oscillator, p, state, loose, generator):
-    """Return the next states at W T = 0 mod 2 pi after the damper is switched on at random times.
+    """Switch the damper on at random times; return the states at the next W T = 0 mod 2 pi.
 
     Z2 and Z2' are the last columns of `loose` (m, 4); in every second row Z2' is 0.
     """
@@ -129,7 +129,7 @@ def is_subharmonic(data):
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return both ends of a branch of a `sweep`, or its last points where none was located."""
+    """Return both ends of a branch of a `sweep`, or its last frequency where no end was located."""
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):
@@ -148,7 +148,7 @@ def branch_ends(data, branch, grid, rows):
 
 
 class FreeSubharmonic(NamedTuple):
-    """Packed parameters and strobe states of the free subharmonic, and its `ends`, NaN without."""
+    """The free subharmonic: packed parameters, states at W T = pi/2, and `ends`, NaN if absent."""
 
     parameters: np.ndarray
     states: np.ndarray
@@ -170,7 +170,7 @@ class FreeSubharmonic(NamedTuple):
 def free_subharmonic(
     oscillator, first, last, *, starts=96, radius=None, seed=1995, settling, workers=1
 ) -> FreeSubharmonic:
-    """Find the branch of free symmetric motions of period 3 that has the most frequencies."""
+    """Find the branch of free symmetric motions of period 3 with the largest number of points."""
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     systems = [(None, value) for value in frequencies]
