@@ -1,1 +1,1 @@
-"""The integrators and models compared with the library's Taylor series, and what they get wrong."""
+"""The integrators and models compared with the library's Taylor series, and their errors."""

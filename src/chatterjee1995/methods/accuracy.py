@@ -117,7 +117,7 @@ def _integrations(scene, settings, slow_periods):
         run = orbit_models.rigid(p, restitution, *given[1:], tolerance)
         yield "rigid", tolerance, run, scene.periods
     for label, (integrator, locate) in runs_of_accuracy().items():
-        # Without a damper there are no contacts to locate: both values of `locate` give one run.
+        # Without a damper there are no contacts, and both values of `locate` give the same run.
         if scene.damper is None and locate and False in integrator.located:
             continue
         tolerances, periods, most = settings[integrator.tolerances], scene.periods, None

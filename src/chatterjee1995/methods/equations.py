@@ -59,7 +59,7 @@ def moved(y, h, k):
 
 @kernel_only
 def largest_within(x, v, x_end, v_end, h):
-    """Return the largest |Z1| in a step h with Z1' linear in time; Z1 is x, x_end, Z1' v, v_end."""
+    """Return the largest |Z1| in a step h from (x, v) to (x_end, v_end), for Z1' linear in time."""
     largest = max(abs(x), abs(x_end))
     if v * v_end < 0.0:
         largest = max(largest, abs(x + 0.5 * h * v * v / (v - v_end)))

@@ -26,7 +26,7 @@ def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
 
 
 def product_samples(harmonics, degree) -> int:
-    """Return the number of samples for a product of `degree` series, free of aliasing."""
+    """Return the number of samples that a product of `degree` series needs to avoid aliasing."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 

@@ -16,7 +16,7 @@ EDGE = 1e-2
 class Exponents(NamedTuple):
     """Floquet exponents per unit of T, by ascending real part; NaN unless the status is "found".
 
-    The status is "not_separated" if the number of eigenvalues with |Im lambda| < W is wrong.
+    The status is "not_separated" unless 2 (with a damper 4) eigenvalues have |Im lambda| < W.
     """
 
     values: np.ndarray
@@ -37,7 +37,7 @@ def exponents(solution) -> Exponents:
         copies = _near_zero(*(balance.operator(orbit, contacts, power) for power in range(3)))
     except ArpackNoConvergence:
         return Exponents(unknown, "not_converged")
-    # Copies of an exponent are 2 W apart, as the linearised equations have half the period.
+    # Copies of an exponent are 2 W apart, as the linearised equations repeat after half a cycle.
     height = copies.imag / balance.frequency
     inside = np.where(height > 1 - EDGE, copies.real + 1j * balance.frequency, copies)
     inside = inside[(height > -1 + EDGE) & (height < 1 + EDGE)]

@@ -42,9 +42,9 @@ class Integrator:
     number of steps in a cycle if steps are `fixed`, and otherwise a tolerance.
 
     Figures show integrators in the order of `place`. A stage in `compared` calls its methods in
-    REQUIRED. The stage `accuracy` reads `located` (values of `locate` in runs), `tolerances` (of
+    REQUIRED. The stage `accuracy` reads `located` (values of `locate`), `tolerances` (a name in
     `labels.TOLERANCE_KEYS`) and `slow` (whether runs are limited). The stage `stable_steps` reads
-    `stability_limit`: an undamped oscillation is stable up to this step times its frequency.
+    `stability_limit`, the largest stable product of step and frequency without damping.
     """
 
     REQUIRED: ClassVar = {

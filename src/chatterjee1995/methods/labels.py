@@ -2,7 +2,7 @@
 
 from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
 
-# Quantities whose errors the stage `accuracy` compares; for a chaotic motion STATISTICS, averages.
+# Quantities whose errors the stage `accuracy` compares; STATISTICS are averages of chaotic motions.
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 STATISTICS = ("contact_rate", "displacement", "exponent")
 

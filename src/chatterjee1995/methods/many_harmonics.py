@@ -182,7 +182,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return the solution of (7) with the smallest |a|; without a damper that with the largest."""
+    """Return coefficients of the solution of (7) with the least |a|, or the largest free one."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2
@@ -196,7 +196,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
 
 
 def refine(balances, start) -> list:
-    """Return a `Solution` of each balance, from the last one that converged as first guess."""
+    """Return a `Solution` of each balance; the last converged one is the next first guess."""
     solutions = []
     for balance in balances:
         solutions.append(solve(balance, start))

@@ -36,7 +36,7 @@ expected_unseen | method_tolerance depth | | | expected share of contacts at ran
 )
 
 # `unseen`: the computed motion passes the wall and returns within one step. `not_reached`: the
-# motion does not reach the wall, as its error exceeds the depth. `failed`: the run has no end.
+# motion does not reach the wall, as its error exceeds the depth. `failed`: the run breaks off.
 OUTCOMES = ("found", "unseen", "not_reached", "failed")
 
 
@@ -45,7 +45,7 @@ def missed_contacts(
 ):
     """Return a dataset with the numbers of contacts near grazing that integrators find and miss.
 
-    `tolerances` increase. Integrators with equal steps take numbers of `steps` in a cycle instead.
+    `tolerances` increase. Integrators with equal steps use `steps`, numbers of steps in a cycle.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
@@ -113,7 +113,7 @@ def _count_table(p, passages, depths, tolerances, steps):
 def _expected(passages, depths, steps, period):
     """Return expected shares of unseen contacts (steps, depth), for steps at random times.
 
-    Each is the mean of max(0, 1 - b/h), b = 2 sqrt(2 depth/|Z2''|) the time beyond the wall.
+    Each is the mean of max(0, 1 - b/h): step h, time beyond the wall b = 2 sqrt(2 depth/|Z2''|).
     """
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])

@@ -25,7 +25,7 @@ class Passage(NamedTuple):
 
 @kernel
 def largest_of_flight(p, y, t, end):
-    """Return time and size of the largest |Z2| over [t, end], and its |Z2''|, 0 at both ends."""
+    """Return time, size and |Z2''| of the largest |Z2| over [t, end]; at an end |Z2''| is 0."""
     work = workspace()
     flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
     c = np.zeros(FLIGHT_ORDER + 1)

@@ -33,7 +33,7 @@ class CompliantOrbit(NamedTuple):
 
 
 def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
-    """Return the `CompliantOrbit` by Newton's method from a guess, or None, and a status."""
+    """Return a `CompliantOrbit` or None, found by Newton's method from a guess, and a status."""
     state = np.array(guess, float)
     converged, _, multiplier = polish(p, state, 1, reach, tolerance)
     if not converged:
@@ -48,14 +48,14 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between cells, divided by their distance
-# A row ends at a fold if extrapolation predicts a fold within NEAR SHORTEST of its last orbit.
+# A row ends at a fold if extrapolation predicts a fold within NEAR * SHORTEST of its last orbit.
 NEAR = 4
 
 
 class QuietOrbits(NamedTuple):
     """Quiet orbits on a grid, NaN in cells without one; shape (rows, columns).
 
-    multiplier: Multiplier of the root with the largest modulus and an imaginary part >= 0.
+    multiplier: Eigenvalue of the root with the largest modulus and an imaginary part >= 0.
     displacement, harmonic: max |Z1|, and amplitude of the first harmonic of Z1.
     end: Fractional columns at which the orbits of each row end; shape (rows, 2).
     end_event: Events at these ends: map_ends, no_orbit, fold, contacts_change or not_converged.
@@ -83,7 +83,7 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Return the quiet orbits of a grid, followed from known `states` at W T = pi/2, else NaN."""
+    """Return the quiet orbits of a grid, followed from `states` at W T = pi/2, NaN if unknown."""
     grid = Grid(parameters, find_quiet_orbit, shortest=SHORTEST, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
         at_strobe = shoot(parameters[cell], states[cell], 1, STROBE)

@@ -1,4 +1,4 @@
-"""The largest equal steps with which methods keep the quiet motion, for each stiffness r1."""
+"""The largest equal steps with which methods keep max |Z1| of the quiet motion, over r1."""
 
 import itertools
 import math
@@ -78,7 +78,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
 
 
 def _in_steps(own, targets):
-    """Return `own` and all targets in order, with values inserted up to ratios of FACTOR."""
+    """Return `own` and all targets in order; values between them limit the ratios to FACTOR."""
     cells = [np.array([own])]
     for before, target in itertools.pairwise([own, *targets]):
         count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)

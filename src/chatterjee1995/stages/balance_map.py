@@ -67,7 +67,7 @@ HIGH = 0.5  # fraction of the free resonance amplitude below which a motion is q
 class Cells(NamedTuple):
     """Solutions of harmonic balance in all cells, and starts at T = 0; NaN without a solution.
 
-    `resonance` is the amplitude of the free resonance branch; cells beyond its end have that of the
+    `resonance` is the amplitude of the free resonance branch, beyond its end the amplitude at the
     end. Without a high solution `high_start` is on the branch, with the loose mass at rest.
     """
 
@@ -131,7 +131,7 @@ def _cell(oscillator, damper, frequency):
 
 @lru_cache(4096)
 def _solutions(oscillator, damper, frequency):
-    """Return the solutions of (7) and their growth rates, cached for cells with a different e."""
+    """Return the solutions of (7) and their growth rates; cells that differ in e share them."""
     solutions = impacting_solutions(oscillator, damper, frequency)
     return solutions, growth_rate(fixed_points(solutions), oscillator, damper, frequency)
 

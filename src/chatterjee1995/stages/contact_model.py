@@ -58,7 +58,7 @@ def contact_model(
 ):
     """Compute the contact for each restitution and load, and the loads of simulated motions.
 
-    `used` are the restitutions of motions, of which each has the smallest and largest of `starts`.
+    Each restitution in `used` has two motions, the smallest and the largest of `starts` runs.
     """
     used, frequencies = np.array(used, float), np.array(frequencies, float)
     data = contact_map(restitutions, loads) | unloaded_table(used)
@@ -116,7 +116,7 @@ def unloaded_table(restitutions):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Return the smallest settled and the largest motion with contacts, None if there is none."""
+    """Return the smallest settled and the largest motion with contacts, None for an absent one."""
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
     motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)

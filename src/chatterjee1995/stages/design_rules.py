@@ -45,14 +45,14 @@ STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
 # A minimum is smooth or a kink. From the distance CLOSE to half of CLOSE the rise of a displacement
 # falls to 1/4 at a smooth minimum, and to 1/2 at a kink. KINK is the limit between 1/4 and 1/2.
 CLOSE, KINK = 1e-3, 0.36
-ABSENT = 1e3  # displacement where the motion does not exist, because the search needs a number
+ABSENT = 1e3  # displacement given to a motion that does not exist, for the search
 IMPULSES = 400  # number of impulses for which the theory of straight flight is evaluated
 
 
 def design_rules(
     oscillator, mass_ratios, restitutions, contact_stiffnesses, frequencies, *, progress=None
 ):
-    """Find the optimum clearance of each damper and frequency of a grid, and errors of rules."""
+    """Return a dataset: optimum clearances and errors of rules, over dampers and frequencies."""
     given = mass_ratios, restitutions, contact_stiffnesses, frequencies
     axes = {name: np.array(values, float) for name, values in zip(SWEPT, given, strict=True)}
     shape = tuple(map(len, axes.values()))
@@ -129,7 +129,7 @@ class QuietMotion:
         return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """Return the ratio at the local minimum downhill of a guess, and the kind of minimum."""
+        """Return the ratio at the local minimum reached from a guess, and the kind of minimum."""
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
         def size(ratio):

@@ -225,7 +225,7 @@ def errors(solutions, multipliers, exact):
 
 
 def _farthest(values, references):
-    """Return the largest distance between values and references, paired for the smallest sum."""
+    """Return the largest distance in pairs of values and references with the least total one."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)

@@ -44,7 +44,7 @@ policy_phase | case frequency policy | angle | | phase Omega T of the release th
 POLICIES = ["settled", "hold", "phase", "state"]
 # Fixed numbers of cycles that are tried, each about 1.6 times the one before.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
-QUANTILES = [0.5, 0.95]  # of the cycles until the goal
+QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
 # Results of a hold (a time with the damper on); `state` and cycles `ahead` are of the next strobe.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
@@ -107,7 +107,7 @@ class Trials(NamedTuple):
     workers: int = 1
 
     def rules(self, trials, seed):
-        """Return the rule (see RULE) of each policy, the best one in separate trials."""
+        """Return the rule (see RULE) of each policy; separate trials choose cycles and phase."""
 
         def costs(rules):
             cycles = [outcome.cycles for outcome in self.run(rules, trials, seed)]

@@ -1,4 +1,4 @@
-"""Runs of migration control, and releases: the damper is switched off (section 5 of the paper)."""
+"""Runs of migration control, and releases (switching the damper off), section 5 of the paper."""
 
 from dataclasses import replace
 from itertools import count
@@ -31,7 +31,7 @@ from impact_damper.motions.sweep import Catalogue
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-LEAD = 20  # number of first cycles of a run, without release because they depend on the start
+LEAD = 20  # number of cycles at the beginning of a run, which depend on its start, without release
 PAPER_CYCLES = 350  # cycles within which the paper's controller reaches the non-resonance branch
 CAPTURE = 0.1  # largest difference in Z1 or Z1' between a captured run and its orbit
 # A release: phase in cycles after a strobe (W T = pi/2), Z1 and Z1', and the resulting free motion.
@@ -91,7 +91,7 @@ def migration(
 
 
 def _example(totals):
-    """Return the index of the first run that arrives with the median of switchings, or 0."""
+    """Return the index of the first arriving run with the median number of switchings, or 0."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
         return 0
@@ -161,7 +161,7 @@ def _life(p, path, record, tolerance):
 
 
 def release_data(case, motions, entries, settling):
-    """Return the variables of the releases `entries`, and of even releases from settled motions."""
+    """Return variables of the releases `entries` and of evenly spaced ones in settled motions."""
     number = len(entries)
     rows = [entries]
     for record in motions:
@@ -190,7 +190,7 @@ def release_data(case, motions, entries, settling):
 
 
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
-    """Return settled motions, `known` or from random states and solutions of (7), by max |Z1|."""
+    """Return settled motions, sorted by max |Z1|: `known`, from random states, and from (7)."""
     on = pack(oscillator, damper, frequency)
     # The solutions for elastic contact are good starts for an inelastic damper too.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)

@@ -147,7 +147,7 @@ def _verdict(soft, hard):
 
 
 def _needed(stiffnesses, errors):
-    """Return the stiffness, interpolated, above which |error| stays below each threshold."""
+    """Return the interpolated stiffness above which |error| stays below each threshold."""
     shape = len(THRESHOLDS), len(errors)
     needed, status = np.full(shape, np.nan), np.full(shape, flag("needed_status", "absent"))
     for j, row in enumerate(np.abs(errors)):

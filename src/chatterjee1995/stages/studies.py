@@ -33,7 +33,7 @@ best_clearance | mass_ratio frequency restitution | | d0 | clearance of the grid
 
 AXES = ("mass_ratio", "clearance", "frequency", "restitution")
 OUTCOMES = tuple(name for name, value in OUTCOME.items() if value >= 0)
-# Results of a cell: numbers of starts by outcome and on the quiet orbit, and displacements.
+# Results of a cell: numbers of starts with each outcome, and with the quiet orbit; displacements.
 CELL = np.dtype(
     [
         ("outcome_count", "i4", len(OUTCOMES)),
@@ -59,7 +59,7 @@ def study_chunk(
 ):
     """Return the motions to which random starts lead, in a range of cells of a grid.
 
-    `cells` are the numbers of the first cell of the chunk and of the first one after it.
+    `cells` are the number of the first cell of the chunk, and one plus that of the last cell.
     """
     axes = {name: np.asarray(axes[name], float) for name in AXES}
     shape, (first, last) = [len(values) for values in axes.values()], cells

@@ -95,7 +95,7 @@ def _switch_half(oscillator, parameters, free, states, seed):
 def switched_on(oscillator, p, state, loose, generator):
     """Switch the damper on at random times; return the states at the next W T = 0 mod 2 pi.
 
-    Z2 and Z2' are the last columns of `loose` (m, 4); in every second row Z2' is 0.
+    Z2 and Z2' are the last columns of `loose` (m, 4); in every second row Z2' is set to 0.
     """
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_map.strobe_time(p)

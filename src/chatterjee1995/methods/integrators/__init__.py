@@ -16,7 +16,7 @@ def integrators(stage=None) -> dict:
 
 @cache
 def runs_of_accuracy() -> dict:
-    """Return the integrator and the value of `locate` for each label of runs of `accuracy`."""
+    """Return the integrator and the value of `locate` for each run label of `accuracy`."""
     return {
         each.label(located): (each, located)
         for each in integrators("accuracy").values()

@@ -27,7 +27,7 @@ def forcing(p, t, h):
 
 @kernel_only
 def verlet_step(p, drives, h, y):
-    """Return the state after a step of velocity Verlet, order 2, with extrapolated speeds."""
+    """Return the state after a step of velocity Verlet, order 2; k2 uses extrapolated speeds."""
     k1 = rate_by_position(p, drives[0], y)
     x = y[0] + h * (y[1] + 0.5 * h * k1[1])
     z = y[2] + h * (y[3] + 0.5 * h * k1[3])

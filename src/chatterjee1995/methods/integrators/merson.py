@@ -75,7 +75,7 @@ def located(p, side, t, h, y, tolerance):
 
 @kernel
 def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
-    """Integrate y in place from t to end, with a first step h; put time and state into `ends`.
+    """Integrate y in place from t to end. The first step is h. `ends` receives time and state.
 
     Return the wall in contact, the length of the next step, the number of accepted steps (-1 if the
     run failed), and the number of computed steps.

@@ -17,7 +17,7 @@ UNLIMITED = 2**62  # number of evaluations of the rate that no run reaches
 
 @kernel
 def derivative(t, y, p, side, left):
-    """Return the rate; `left` holds the number of evaluations left, with 0 raise OverflowError."""
+    """Return the rate, or raise OverflowError if `left` has no more evaluations to spend."""
     left[0] -= 1
     if left[0] < 0:
         raise OverflowError("too many evaluations")
@@ -41,7 +41,7 @@ def solved(method, p, y, span, side, tolerance, left, **options):
 
 
 def parts(method, p, start, t, end, tolerance, locate, left):
-    """Yield results of `solve_ivp`; `locate` divides a run where contacts begin and end."""
+    """Yield results of `solve_ivp`; with `locate` a run is divided where contacts begin and end."""
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
     while status == 1:
@@ -57,7 +57,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods; `operations` are for an evaluation, `factorising` for a matrix."""
+    """One of SciPy's methods. An evaluation takes `operations`, a factorisation `factorising`."""
 
     tolerances = "scipy"
     slow = True
