@@ -31,7 +31,7 @@ def follow_line(
 
 
 class Grid:
-    """Orbits by cell of a grid of parameters `points`, followed along `axes` in the given order."""
+    """Orbits in the cells of a grid `points` of parameters, followed along `axes` in this order."""
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
         self.points, self.correct = points, correct

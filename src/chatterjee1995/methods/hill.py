@@ -9,7 +9,7 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 # Above DENSE unknowns only the eigenvalues nearest zero are computed, COPIES for each exponent.
 DENSE, COPIES = 100, 3
 # The exponent of a negative real multiplier has copies with the imaginary parts W and -W. An
-# imaginary part within EDGE W of W is set to W. A copy within EDGE W of -W is left out.
+# imaginary part within EDGE * W of W is set to W. A copy as near to -W is left out.
 EDGE = 1e-2
 
 

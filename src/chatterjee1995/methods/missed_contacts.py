@@ -68,7 +68,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return numbers of passages (depth, outcome) and of spurious contacts, and a median error."""
+    """Return counts of passages by depth and outcome, of spurious contacts, and a median error."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)

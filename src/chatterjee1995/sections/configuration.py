@@ -212,7 +212,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return a configuration without null entries, in figures too, and without empty figures."""
+    """Return a configuration without null entries, their names in figures, and empty figures."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}

@@ -1,7 +1,7 @@
 """Accuracy of each design rule: the clearance it predicts, compared with the exact optimum.
 
-The quiet orbit is smallest at the optimum. Its first guess is a straight flight. With the forcing
-amplitude f clearances are given as ratios rm W^2 d0/f (1 by rule (18)), displacements as W^2 Z1/f.
+The quiet orbit is smallest at the optimum. Its first guess is a straight flight. Clearances
+are given as rm W^2 d0/f (1 by rule (18)), displacements as W^2 Z1/f, with the forcing amplitude f.
 """
 
 import itertools

@@ -32,7 +32,7 @@ class Impact(NamedTuple):
 @names_arguments
 @dataclass(frozen=True)
 class HertzContact:
-    """Contact between a loose mass, a ball or a body with a rounded face, and the walls of its gap.
+    """Contact of the loose mass (a ball or a body with a rounded face) with the walls of its gap.
 
     Each value is a number in the SI unit, text with units, or a quantity of pint. For curved walls
     1/radius is the sum of the curvatures of loose mass and wall.

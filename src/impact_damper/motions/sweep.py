@@ -1,8 +1,8 @@
 """Find the motions along a sweep of one parameter, by runs from start states and by following.
 
-At each value Newton's method also finds stable orbits, because hardly any random start leads to
-some of them. Settled motions are followed to the next values, upward and downward. Motions that
-have not settled are matched between neighbouring values by outcome, period and size.
+At each value Newton's method also finds stable orbits to which hardly any random start leads.
+Settled motions are followed to the next values, upward and downward. Motions that have not settled
+are matched between neighbouring values by outcome, period and size.
 """
 
 import math

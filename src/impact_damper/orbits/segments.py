@@ -121,7 +121,7 @@ def cut(orbit, cycle, between=()):
 
 
 def _sections(orbit, cycle, between):
-    """Return the possible phases of cuts, from the longest flight on, and the necessary ones."""
+    """Return phases of possible cuts, the first in the longest flight, and of forced cuts."""
     log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
     following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)

@@ -122,7 +122,7 @@ class FixedStep(Integrator):
         return self.seen(p, np.concatenate([[[0.0, *state]], ends]), time)
 
     def seen(self, p, ends, time):
-        """Return |Z2| at the `ends` of steps, rows of time and state, and |Z2| at `time`."""
+        """Return |Z2| at the `ends` of steps (rows of time and state) and at `time`."""
         last = ends[ends[:, 0] <= time][-1]
         there = np.empty((1, 5))
         fixed_ends(self.number, p, last[1:].copy(), last[0], time - last[0], there)
