@@ -14,7 +14,7 @@ from impact_damper.data.shares import bounding_rank, starts_needed
 from impact_damper.design import promise
 from impact_damper.design.cells import BLOCK, HORIZON, Cell, Motions, return_level
 from impact_damper.design.cells import run as run_cells
-from impact_damper.design.confirm import find_gap
+from impact_damper.design.confirm import evaluate_gap, find_gap
 from impact_damper.design.promise import Promise, beside_peak, is_peak_known
 from impact_damper.design.task import NOMINAL
 from impact_damper.motions.start_states import random_starts
@@ -27,7 +27,8 @@ BOARD = idm.Machine(
 )
 PUMP = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
 # Machine and damper, band with tolerances, least and greatest gap (mm) that are known to be good,
-# and the displacement (mm) below which starts stay there.
+# and the displacement (mm) below which starts stay there. A search takes a minute, so the gap is
+# searched for two of them and given for the others; `benchmarks/promises.py` searches for all.
 EXAMPLES = {
     "hardening": (
         {"machine": HARDENING, "mass": 1.2, "restitution": 0.8, "contact": 1e7},
@@ -37,14 +38,14 @@ EXAMPLES = {
     ),
     "board": (
         {"machine": BOARD, "mass": 0.015, "restitution": 0.7, "contact": 1e7},
-        {"band": (165, 195)},
-        (0.8, 2),
+        {"band": (165, 195), "gap": 1.34e-3},
+        (1.34, 1.34),
         0.85,
     ),
     "pump": (
         {"machine": PUMP, "mass": 1.2, "restitution": 0.6, "contact": 2e7},
-        {"band": (20, 21)},
-        (3.1, 4.6),
+        {"band": (20, 21), "gap": 3.89e-3},
+        (3.89, 3.89),
         3.1,
     ),
     "lighter": (
@@ -93,7 +94,7 @@ def test_the_peak_of_a_resonance_is_found_between_points():
     assert sizes.max() == pytest.approx(50, rel=0.011)
 
 
-def new_sizes(made, cell, count, seed, lead=300):
+def new_sizes(made, cell, count, seed, lead=1000):
     """Return the largest displacements (mm) of new starts by Boost.odeint, from `lead` cycles on.
 
     A run has CYCLES cycles.
@@ -116,8 +117,8 @@ def allowed(count):
 def test_a_design_finds_the_good_gap_and_new_starts_of_another_program_keep_its_promise(name):
     """At the gap, at both ends of its tolerance, and between points of the grid."""
     damper, asked, (low, high), known = EXAMPLES[name]
-    made = task(**damper, **asked, frequencies=7, candidates=8, starts=96)
-    found = find_gap(made)
+    made = task(**damper, **asked, frequencies=7, candidates=4 if "gap" in asked else 8, starts=96)
+    found = evaluate_gap(made) if "gap" in asked else find_gap(made)
     gap, promised = float(found["design_gap"]), float(found["promised_displacement"])
     assert low <= gap <= high and promised < known
     worst, sets = float(found["promised_frequency"]), found["promise_factor"].values
