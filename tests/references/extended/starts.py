@@ -51,6 +51,7 @@ KINDS = {
     "moving base": {"linear_frequency": (0.3, 2.0), "cubic": (0.1, 1.0), "base": (0.5, 1.0)},
     "gravity": {"gravity": (0.05, 2.0)},
     "walls that never pull": {"restitution": (0.05, 0.9), "gravity": (-0.5, 0.5)},
+    "narrow gap, never pull": {"clearance": (0.02, 0.1), "restitution": (0.3, 0.9)},
 }
 # Other parameters of the oscillator are drawn one at a time.
 _DRAWN = set(USUAL).union(*KINDS.values())
@@ -119,7 +120,7 @@ def draw(kind, count, seed):
 
 def _start(random, kind, index):
     """Return one row of `Starts`."""
-    rule = "no_tension" if kind == "walls that never pull" else "zero_penetration"
+    rule = "no_tension" if "never pull" in kind else "zero_penetration"
     p = _parameters(random, USUAL | KINDS[kind], index % 2 == 0, rule)
     period = 2 * math.pi / p[FREQUENCY]
     start = random.uniform(0, period)

@@ -125,7 +125,9 @@ def step_outside(a, i, t):
     slope = wall * w
     f = q + lag * slope
     rise = slope + lag * wall * (a[Z1_CURVE + i] + a[SWAY_CURVE + i])
-    fine = ROUNDING * (clearance + lag * abs(slope))
+    # Rounding of Z1 and Z1', from which Z2 and Z2' are computed, may exceed the clearance's.
+    fine = abs(a[Y0 + i]) + clearance + lag * (abs(a[Y1 + i]) + abs(slope))
+    fine *= ROUNDING
     bent = bound + lag * a[JERK_BOUND + i]
     # Both q and f must be positive for a contact with this wall.
     deep = safe_advance(-q, slope, bound) if q <= fine else 0.0
