@@ -258,8 +258,8 @@ SECTIONS = {
 KINDS = (
     Kind("contact_model", "methods", "contact_model", ("contact_model",)),
     Kind("rigid_limit", "methods", "rigid_limit", ("rigid_limit",)),
-    Kind("missed_contacts", "methods", "missed_contacts", ("missed_contacts",), most=1),
-    Kind("stable_steps", "methods", "stable_steps", ("stable_steps",)),
+    Kind("missed_contacts", "methods", "failures", ("missed_contacts",), most=1),
+    Kind("stable_steps", "methods", "failures", ("stable_steps",)),
     Kind("accuracy", "methods", "accuracy", ("accuracy",)),
 )
 TABLES = (

@@ -5,7 +5,7 @@ import pandas as pd
 
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading.datasets import Missing
-from chatterjee1995.tables.columns import parameter_columns
+from chatterjee1995.tables.files import parameter_columns
 from impact_damper.data.datasets import decode, is_settled, parameters_of
 from impact_damper.data.shares import wilson
 

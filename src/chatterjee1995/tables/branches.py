@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from chatterjee1995.reading import datasets as reading
-from chatterjee1995.tables.columns import DAMPER, parameter_columns
+from chatterjee1995.tables.files import DAMPER, parameter_columns
 from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true
 

@@ -5,7 +5,7 @@ import pandas as pd
 
 from chatterjee1995.methods.quiet_orbits import RULES, rule_ratios
 from chatterjee1995.reading import datasets as reading
-from chatterjee1995.tables.columns import parameter_columns
+from chatterjee1995.tables.files import parameter_columns
 from impact_damper.data.datasets import damper_of, decode, oscillator_of, parameters_of
 
 WITHIN = (1, 10)  # error bounds in per cent; the table counts the optima predicted within each

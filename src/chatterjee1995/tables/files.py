@@ -1,4 +1,4 @@
-"""Tables written as CSV and as Markdown."""
+"""Tables written as CSV and as Markdown, and columns that several of them have."""
 
 import numbers
 import re
@@ -6,12 +6,23 @@ from functools import partial
 
 import numpy as np
 
+from impact_damper.data.datasets import parameters_of
 from impact_damper.data.whole_files import whole
 from impact_damper.model.text import number
 
 # Significant digits of numbers in CSV and in Markdown files.
 DIGITS, FEW_DIGITS = 6, 4
 SHOWN = 9  # number of columns that the page of a table shows
+HEADS = {
+    "damping": "damping h",
+    "linear_frequency": "linear frequency ωl",
+    "frequency": "forcing frequency Ω",
+    "mass_ratio": "mass ratio rm",
+    "clearance": "clearance d0",
+    "restitution": "restitution e",
+    "contact_stiffness": "contact stiffness r1",
+}
+DAMPER = ("mass_ratio", "clearance", "restitution")
 
 
 def as_markdown(frame) -> str:
@@ -62,3 +73,9 @@ def _rounded(value, digits=DIGITS):
     if isinstance(value, str | numbers.Integral) or np.isinf(value or 0):
         return str(value)
     return "" if value is None or np.isnan(value) else number(value, digits)
+
+
+def parameter_columns(data, *names) -> dict:
+    """Return the values of those named parameters that a dataset has."""
+    parameters = parameters_of(data)
+    return {HEADS[name]: parameters[name] for name in names if name in parameters}

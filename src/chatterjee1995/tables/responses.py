@@ -7,7 +7,7 @@ from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading import orbits
 from chatterjee1995.reading.bands import high_motions
 from chatterjee1995.reading.datasets import Missing
-from chatterjee1995.tables.columns import DAMPER, parameter_columns
+from chatterjee1995.tables.files import DAMPER, parameter_columns
 from impact_damper.data.motion_variables import OUTCOME
 
 # Stage that stores the outcome of each start -> its name in the table `outcomes`.

@@ -8,7 +8,7 @@ from helpers.known_orbits import PAPER
 from numpy.testing import assert_allclose
 from scipy.stats import binom
 
-from chatterjee1995.figures.missed_contacts import draw_missed_contacts
+from chatterjee1995.figures.failures import draw_missed_contacts
 from chatterjee1995.methods import missed_contacts as missed
 from chatterjee1995.methods.integrators import integrators, merson
 from chatterjee1995.methods.passages import draw_passages
