@@ -97,7 +97,7 @@ def basins(
         - the median convergence time, and the longest after `shock`, infinite without a return;
         - the finite-time basin stability: the share of states that converge `within` the limit;
         - the minimal critical shock: the smallest impulse at the phase of the plane after which the
-          motion does not return. The search begins with 256 steps to the plane's largest |Z1'|.
+          motion does not return. The search begins with 256 steps to the plane's largest speed.
 
         Without a damper: unstable orbits with the periods of the attractors, and the stable
         manifolds of these orbits, which are the boundaries of basins.
