@@ -38,7 +38,8 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
             returned = np.inf if leaves.any() else periods.max()
         critical = min(_critical(found, index, states, most) for most in (-widest, widest))
         share = np.mean(own & (found.periods <= within))
-        rows.append((np.median(found.periods[own]), share, critical, returned))
+        middle = np.median(found.periods[own]) if own.any() else np.nan
+        rows.append((middle, share, critical, returned))
     names = ("attractor_time", "attractor_within", "attractor_shock", "attractor_return")
     return dict(zip(names, np.reshape(rows, (-1, 4)).T, strict=True))
 
