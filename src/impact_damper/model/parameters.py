@@ -243,7 +243,7 @@ def _kind(part, name):
 
 def parameters_in(part) -> list:
     """Return the fields of a dataclass, or of its instance, that hold parameters."""
-    return [each for each in fields(part) if "symbol" in each.metadata]
+    return [each for each in fields(part) if each.type in (int, float)]
 
 
 # Powers of Z1 in the nonlinear terms of the spring's force, keyed by name; the highest power.

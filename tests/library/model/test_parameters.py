@@ -8,7 +8,8 @@ from numpy.testing import assert_allclose
 
 from impact_damper.model import packed
 from impact_damper.model.packed import pack
-from impact_damper.model.parameters import Damper, Oscillator
+from impact_damper.model.parameters import Damper, Oscillator, describe
+from impact_damper.model.settling import Settling
 
 
 @pytest.mark.parametrize("mass_ratio", [0.01, 0.25, 10.0])
@@ -28,3 +29,9 @@ def test_without_a_damper_walls_are_out_of_reach_and_exert_no_force():
     p = pack(Oscillator(0.04, 0.9), None, 1.7)
     assert p[packed.CLEARANCE] == np.inf
     assert not np.any(p[[packed.CONTACT_STIFFNESS, packed.INVERSE_MASS_RATIO, packed.DASHPOT]])
+
+
+def test_datasets_store_the_parameters_of_a_run():
+    stored = describe(Oscillator(0.2), Damper(0.1, 2.0), Settling(limit=700))
+    assert {"damping", "clearance", "gravity", "friction"} < stored.keys()
+    assert stored["limit"] == 700
