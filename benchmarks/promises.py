@@ -95,26 +95,38 @@ def drawn(number) -> tuple:
     return machine, asked
 
 
-def exceeded(task, design) -> list:
-    """Return the shares of new starts that exceed the promise in four cells."""
-    gap, promised = 1e-3 * float(design["design_gap"]), float(design["promised_displacement"])
-    worst, sets = float(design["promised_frequency"]), design["promise_factor"].values
+def cells_of(task, design) -> list:
+    """Return four cells: the gap, both ends of its tolerance, and between points of the grid."""
+    gap, worst = 1e-3 * float(design["design_gap"]), float(design["promised_frequency"])
+    sets = design["promise_factor"].values
     between = task.grid[:-1] + np.diff(task.grid) / 2
     between = between[np.argmin(np.abs(between - worst))]
     harmful = sets[int(design["promised_set"])]
     ends = np.array([harmful, harmful])
     ends[:, 0] = sets[:, 0].min(), sets[:, 0].max()
     conditions = [(worst, sets[0]), (between, harmful), *((worst, each) for each in ends)]
-    shares = []
-    for number, (frequency, factors) in enumerate(conditions):
-        cell = Cell(gap, frequency, tuple(factors))
-        system = task.system(*cell)
-        states, _ = random_starts(*system, STARTS, [2026, number], task.effort.settling)
-        period = 2 * math.pi / system[2]
-        given = 0.0, LEAD * period, CYCLES * period, TOLERANCE
-        sizes = odeint_runs.largest(task.packed(*cell), states, *given)
-        shares.append(np.mean(~(task.millimetres(sizes) <= promised)))
-    return shares
+    return [Cell(gap, frequency, tuple(factors)) for frequency, factors in conditions]
+
+
+def new_sizes(task, cell, count, number, lead=LEAD, tolerance=TOLERANCE) -> np.ndarray:
+    """Return the largest displacements (mm) of new starts by Boost.odeint, from `lead` cycles on.
+
+    `number` is a part of the seed.
+    """
+    system = task.system(*cell)
+    states, _ = random_starts(*system, count, [2026, number], task.effort.settling)
+    period = 2 * math.pi / system[2]
+    given = 0.0, lead * period, CYCLES * period, tolerance
+    return task.millimetres(odeint_runs.largest(task.packed(*cell), states, *given))
+
+
+def exceeded(task, design) -> list:
+    """Return the shares of new starts that exceed the promise in four cells."""
+    promised = float(design["promised_displacement"])
+    return [
+        np.mean(~(new_sizes(task, cell, STARTS, number) <= promised))
+        for number, cell in enumerate(cells_of(task, design))
+    ]
 
 
 def swept(task) -> tuple:

@@ -47,7 +47,7 @@ def _growth(series, width):
 
 
 def _remaining(datasets, names):
-    """Return max |Z1| of each exact quiet orbit at Wp, divided by that of the free resonance."""
+    """Return max |Z1| of each exact quiet orbit at Wp in units of the free resonance amplitude."""
     return [
         float(reading.design_point(orbit).orbit_displacement)
         / orbits.resonance_fold(orbits.free_of(datasets, orbit))[1]

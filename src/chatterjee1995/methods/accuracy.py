@@ -41,7 +41,7 @@ meets_accuracy | run | | | whether the run meets the accuracy required by the sc
     """
 )
 
-LONGER = 4  # cycles of the reference run of a chaotic motion, divided by those of compared runs
+LONGER = 4  # length of the reference run of a chaotic motion, in lengths of a compared run
 # Allowed error of the contacts per cycle of chaos: CONTACTS_OFF of them plus SURE standard errors.
 CONTACTS_OFF, SURE = 0.1, 2
 
@@ -193,14 +193,14 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return the times at which contacts begin by a model, paired with those of the reference.
+    """Return when contacts begin by a model; contact k belongs to contact k of the reference.
 
-    If a cycle has another number of contacts, only the length of the result has a meaning.
+    If a cycle has another number of contacts the times are NaN, and only their number is right.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods
     if len(model.contact_phases) != count or count == 0:
-        return np.empty(len(model.contact_phases) * scene.periods)
+        return np.full(len(model.contact_phases) * scene.periods, np.nan)
     last = reference.contact_times[-count:]
     found = model.contact_phases / p[FREQUENCY]
     turns = np.round((last[:, None] - found) / period)

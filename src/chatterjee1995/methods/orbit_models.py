@@ -177,7 +177,7 @@ def rigid_impacts(oscillator, damper, frequency, start):
             continue
         given = found.p, found.restitution, found.state, strobe_time(found.p)
         run = rigid(*given, 1, POLISH_TOLERANCE)
-        # The work of one map is that of a cycle with variational equations.
+        # A map integrates one cycle together with the variational equations.
         each = each or run.operations / step_work(FLIGHT) * step_work(FLIGHT, tangents=True)
         work += found.maps * each
         phases = frequency * run.contact_times % (2 * math.pi)

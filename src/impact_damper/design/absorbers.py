@@ -57,6 +57,10 @@ class LinearMachine(NamedTuple):
     unit: float
     natural_frequency: float
 
+    def load(self, mass_ratio) -> float:
+        """Return b: on a moving base the absorber passes its own load on to the machine."""
+        return 1 + mass_ratio if self.based else 1.0
+
 
 def absorber_responses(
     machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None, own=None
@@ -157,8 +161,7 @@ def maxima(linear, tuning, band):
     carried = (4 * z1 * z * f + mass * f**2) * s
     real = np.convolve(host, own) - np.append(carried, 0.0)
     imaginary = 2 * (z1 * own + z * f * host - mass * z * f * s)
-    # A moving base also loads the absorber. Its spring and dashpot pass this load to the machine.
-    load = 1 + mass if linear.based else 1.0
+    load = linear.load(mass)
     passed = np.array([load * f**2 - 1, -width])
     above = np.convolve(passed, passed) + np.append((2 * z * f * load) ** 2 * s, 0.0)
     below = polynomial.polyadd(
@@ -226,7 +229,7 @@ def _squared(linear, tuning, frequency):
     (mass, f, z), z1 = tuning, linear.damping_ratio
     real = (1 - s) * (f**2 - s) - 4 * z1 * z * f * s - mass * f**2 * s
     imaginary = 2 * (z1 * (f**2 - s) + z * f * (1 - s) - mass * z * f * s)
-    load = 1 + mass if linear.based else 1.0
+    load = linear.load(mass)
     above = (load * f**2 - s) ** 2 + (2 * z * f * load) ** 2 * s
     return forcing * above / (real**2 + s * imaginary**2)
 

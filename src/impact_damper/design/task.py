@@ -334,18 +334,18 @@ class Task:
 
     def bare_at(self, frequencies) -> np.ndarray:
         """Return the largest displacements (mm) without damper by harmonic balance."""
-        turning = self.scales.from_si(np.asarray(frequencies), "frequency")
-        oscillator = self.machine.oscillator()
-        sizes = [balance_amplitudes(oscillator, w) for w in turning]
-        return self.millimetres(np.array([ascending[-1] for ascending in sizes]))
+        return self.millimetres(np.array([sizes[-1] for sizes in self._balances(frequencies)]))
 
     @property
     def migration_offer(self) -> str:
         """Whether the machine without damper has a small motion beside a large one in the band."""
-        turning = self.scales.from_si(self.grid, "frequency")
+        return "yes" if any(len(sizes) > 1 for sizes in self._balances(self.grid)) else "no"
+
+    def _balances(self, frequencies) -> list:
+        """Return the ascending dimensionless amplitudes without damper at each frequency (Hz)."""
         oscillator = self.machine.oscillator()
-        sizes = [balance_amplitudes(oscillator, w) for w in turning]
-        return "yes" if any(len(each) > 1 for each in sizes) else "no"
+        turning = self.scales.from_si(np.asarray(frequencies), "frequency")
+        return [balance_amplitudes(oscillator, w) for w in turning]
 
     @property
     def absorber_band(self) -> tuple[float, float]:

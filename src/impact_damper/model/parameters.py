@@ -227,18 +227,19 @@ class Damper:
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)
 
 
+def beyond_closed_forms(oscillator, damper) -> list:
+    """Return part and name of each parameter that is not 0, as closed forms with a damper need."""
+    terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
+    return [(part, name) for part, name in terms if getattr(part, name)]
+
+
 def check_closed_form(oscillator, damper):
     """Raise TypeError or ValueError if closed forms do not hold for a damper of an oscillator."""
     check_damper(damper)
-    told = oscillator.scales.told
     why = "must be 0 in closed forms and harmonic balance with a damper; simulate it instead"
-    for part, name in ((damper, "gravity"), (damper, "friction"), (oscillator, "base")):
-        if getattr(part, name):
-            raise ValueError(f"{told(name, getattr(part, name), _kind(part, name))}: {why}")
-
-
-def _kind(part, name):
-    return part.__dataclass_fields__[name].metadata["kind"]
+    for part, name in beyond_closed_forms(oscillator, damper):
+        kind = part.__dataclass_fields__[name].metadata["kind"]
+        raise ValueError(f"{oscillator.scales.told(name, getattr(part, name), kind)}: {why}")
 
 
 def parameters_in(part) -> list:

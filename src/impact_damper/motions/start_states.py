@@ -19,6 +19,7 @@ import numpy as np
 from impact_damper.model.bounds import FREQUENCY_RANGE, RADIUS_RANGE, check_number, warn
 from impact_damper.model.families import FORCING
 from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.model.parameters import beyond_closed_forms
 from impact_damper.motions import ensemble, strobe_map, traces
 from impact_damper.motions.simulate import random_states
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
@@ -188,7 +189,7 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
         for place in PLACES
         for velocity in VELOCITIES
     ]
-    if damper.gravity or damper.friction or oscillator.base:
+    if beyond_closed_forms(oscillator, damper):
         return np.array(rows)
     try:
         # For starts the solutions for elastic contact suffice.

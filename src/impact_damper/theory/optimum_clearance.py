@@ -6,6 +6,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from impact_damper.data.datasets import flag
+from impact_damper.model.parameters import beyond_closed_forms
 from impact_damper.theory import single_harmonic as balance
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
@@ -17,7 +18,7 @@ def _analytical(oscillator, damper, frequency):
     """Return a of the stable solution of (7) with the smallest |a|, and `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
-    if damper.gravity or damper.friction or oscillator.base:
+    if beyond_closed_forms(oscillator, damper):
         return np.nan, "unknown"
     try:
         solutions = balance.impacting_solutions(oscillator, damper, frequency)

@@ -9,6 +9,7 @@ from helpers.design_tasks import task
 from scipy.stats import binom
 
 import impact_damper as idm
+from benchmarks import promises
 from benchmarks.rivals import odeint_runs
 from impact_damper.data.shares import bounding_rank, starts_needed
 from impact_damper.design import promise
@@ -17,15 +18,10 @@ from impact_damper.design.cells import run as run_cells
 from impact_damper.design.confirm import evaluate_gap, find_gap
 from impact_damper.design.promise import Promise, beside_peak, is_peak_known
 from impact_damper.design.task import NOMINAL
-from impact_damper.motions.start_states import random_starts
 
-HARDENING = idm.Machine(
-    mass=20, linear_stiffness=1.5e5, cubic_stiffness=8e8, damping_ratio=0.004, force=60
+HARDENING, BOARD, PUMP = (
+    idm.Machine(**each) for each in (promises.HARDENING, promises.BOARD, promises.PUMP)
 )
-BOARD = idm.Machine(
-    mass=0.35, linear_stiffness=4.477e5, damping_ratio=0.01111, base_acceleration=3 * 9.80665
-)
-PUMP = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
 # Machine and damper, band with tolerances, least and greatest gap (mm) that are known to be good,
 # and the displacement (mm) below which starts stay there. A search takes a minute, so the gap is
 # searched for two of them and given for the others; `benchmarks/promises.py` searches for all.
@@ -55,8 +51,7 @@ EXAMPLES = {
         2.4,
     ),
 }
-# New starts of another program in each of four cells, and cycles of a run.
-NEW, CYCLES = 60, 1500
+NEW = 60  # new starts of another program in each of four cells
 needs_odeint = pytest.mark.skipif(
     bool(odeint_runs.obstacle()), reason=odeint_runs.obstacle() or "runs"
 )
@@ -94,18 +89,6 @@ def test_the_peak_of_a_resonance_is_found_between_points():
     assert sizes.max() == pytest.approx(50, rel=0.011)
 
 
-def new_sizes(made, cell, count, seed, lead=1000):
-    """Return the largest displacements (mm) of new starts by Boost.odeint, from `lead` cycles on.
-
-    A run has CYCLES cycles.
-    """
-    system = made.system(*cell)
-    states, _ = random_starts(*system, count, [2026, seed], made.effort.settling)
-    period = 2 * np.pi / system[2]
-    given = 0.0, lead * period, CYCLES * period, 1e-6
-    return made.millimetres(odeint_runs.largest(made.packed(*cell), states, *given))
-
-
 def allowed(count):
     """Return how many of new starts may exceed a bound that holds for 95 % of all."""
     return binom.ppf(0.999, count, 0.05)
@@ -121,16 +104,9 @@ def test_a_design_finds_the_good_gap_and_new_starts_of_another_program_keep_its_
     found = evaluate_gap(made) if "gap" in asked else find_gap(made)
     gap, promised = float(found["design_gap"]), float(found["promised_displacement"])
     assert low <= gap <= high and promised < known
-    worst, sets = float(found["promised_frequency"]), found["promise_factor"].values
-    between = made.grid[:-1] + np.diff(made.grid) / 2
-    between = between[np.argmin(np.abs(between - worst))]
-    harmful = sets[int(found["promised_set"])]
-    ends = np.array([harmful, harmful])
-    ends[:, 0] = sets[:, 0].min(), sets[:, 0].max()
-    conditions = [(worst, sets[0]), (between, harmful), *((worst, each) for each in ends)]
     exceeded = [
-        np.sum(~(new_sizes(made, Cell(1e-3 * gap, f, tuple(factors)), NEW, k) <= promised))
-        for k, (f, factors) in enumerate(conditions)
+        np.sum(~(promises.new_sizes(made, cell, NEW, number, tolerance=1e-6) <= promised))
+        for number, cell in enumerate(promises.cells_of(made, found))
     ]
     assert max(exceeded) <= allowed(NEW)
     assert sum(exceeded) <= allowed(NEW * len(exceeded))
@@ -146,7 +122,7 @@ def test_chaotic_motions_of_one_regime_have_one_bound_that_new_starts_keep(gap):
     sizes, known = motions.numbers(0)
     for regime in motions.regimes(0):
         assert len(np.unique(sizes[regime])) == 1 and known[regime].all()
-    sizes = new_sizes(made, cell, 60, gap)
+    sizes = promises.new_sizes(made, cell, 60, gap, lead=300, tolerance=1e-6)
     assert np.sum(sizes > made.millimetres(bound)) <= 0.05 * 60
 
 

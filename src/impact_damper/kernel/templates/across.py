@@ -74,6 +74,21 @@ def find_sway(a):
 
 
 @kernel_only
+def flight_values(a):
+    """Compute Z1 and SWAY with their derivatives at T, from which those of Z2 follow."""
+    flight_slope(a)
+    flight_curve(a)
+    find_sway(a)
+
+
+@kernel_only
+def penetration_values(a):
+    """Compute Z1 and the penetration with their derivatives at T, which need SWAY first."""
+    find_sway(a)
+    contact_values(a)
+
+
+@kernel_only
 def find_return(a):
     """Find the contact within [0, T] of lanes whose loose mass begins behind the wall's surface.
 
@@ -101,9 +116,7 @@ def find_return(a):
         a[T + i] = 0.0 if searched else t
         running += 1 if searched else 0
     while running > 0:
-        flight_slope(a)
-        flight_curve(a)
-        find_sway(a)
+        flight_values(a)
         running = 0
         for i in range(LANES):
             t = a[T + i]

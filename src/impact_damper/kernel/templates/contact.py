@@ -163,9 +163,7 @@ def search_contact(a):
         flight_bound(a)
     running = 1
     while running > 0:
-        flight_slope(a)
-        flight_curve(a)
-        find_sway(a)
+        flight_values(a)
         running = 0
         for i in range(LANES):
             t = a[T + i]

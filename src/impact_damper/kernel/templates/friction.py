@@ -139,12 +139,9 @@ def find_turn(a, touching):
         running += 1 if rough else 0
     while running > 0:
         if touching:
-            find_sway(a)
-            contact_values(a)
+            penetration_values(a)
         else:
-            flight_slope(a)
-            flight_curve(a)
-            find_sway(a)
+            flight_values(a)
         running = 0
         for i in range(LANES):
             if a[TURN + i] == MARCH:
@@ -158,7 +155,7 @@ def step_to_turn(a, i, touching):
     t, bound = a[T + i], a[BOUND + i]
     stuck = a[STUCK + i] > 0.0
     if touching:
-        w, curve, rise = a[DEPTH_SLOPE + i], a[DEPTH_CURVE + i], 0.0
+        w, curve = a[DEPTH_SLOPE + i], a[DEPTH_CURVE + i]
     else:
         w = a[Z1_SLOPE + i] + (a[Y3 + i] - a[Y1 + i]) + a[SWAY_SLOPE + i]
         curve = a[Z1_CURVE + i] + a[SWAY_CURVE + i]

@@ -89,8 +89,7 @@ def find_separation(a):
     deviation of at most G/R + D/2. q + LAG q' is zero twice in a turn. If the deviation is below
     PHASE_MARGIN w, it has at most one root in the step, and the search begins in mode BRACKET.
     """
-    find_sway(a)
-    contact_values(a)
+    penetration_values(a)
     uncertain = 0
     for i in range(LANES):
         q = a[SIDE + i] * a[Q + i]
@@ -114,8 +113,7 @@ def find_separation(a):
         uncertain += 0 if certain and not stuck else 1
     if uncertain > 0:
         bound_lagging(a)
-        find_sway(a)
-        contact_values(a)
+        penetration_values(a)
     running = 1
     while running > 0:
         running = 0
@@ -142,8 +140,7 @@ def find_separation(a):
             store_end(a, i, DEPTH, END_DEPTH, move, a[MODE + i] <= ENDING)
             running += store_search(a, i, mode, t, move)
         if running > 0:
-            find_sway(a)
-            contact_values(a)
+            penetration_values(a)
 
 
 @kernel_only

@@ -34,11 +34,10 @@ QUANTITIES = {
     "damping": "damping",
     "force": "excitation",
 }
+HARDLY = 0.2  # impacts in a cycle, below which the loose mass is only ballast
 # Columns of tables: name of a variable or key, description, unit, factor (GIVEN divides by it,
 # COSTS multiplies by it), key of the tolerance.
 TABLES = {
-    # Number of impacts in a cycle, below which the loose mass is only ballast.
-    "HARDLY": 0.2,
     "GIVEN": (
         ("mass", "mass without the loose mass", "kg", 1, None),
         ("linear_stiffness", "stiffness of the spring", "N/m", 1, "stiffness"),
@@ -106,6 +105,7 @@ def numbers_of(data) -> dict:
             asked["machine"].get(f"base_{each}") for each in ("displacement", "acceleration")
         ),
         "hits": _hits(data),
+        "ballast": _hits(data) < HARDLY,
         "linear": not asked["machine"].get("cubic_stiffness"),
         "condition": _condition(data, ends),
         "keeping": (
