@@ -34,8 +34,8 @@ from impact_damper.theory.tuned_mass_damper import Tuning, exact_optimum
 # Largest imaginary part of a root that is taken as real, divided by the width of the resonance.
 REAL = 1e-6
 # Grid of the first search for the optimum, around the closed form `exact_optimum`. On each side lie
-# STEPS tunings, whose logarithms differ from the closed form by NARROW sqrt(mass ratio) to WIDE.
-# DAMPINGS multiply its damping ratio. A band adds PLACES tunings and the ratios BAND_DAMPINGS.
+# STEPS tunings, at logarithmic distances from NARROW sqrt(mass ratio) to WIDE. DAMPINGS multiply
+# the damping ratio. A given band adds PLACES tunings and the damping ratios BAND_DAMPINGS.
 STEPS, NARROW, WIDE = 10, 0.1, 0.4
 DAMPINGS = np.geomspace(0.3, 10, 12)
 PLACES = 9
@@ -49,7 +49,7 @@ DETUNINGS = (-0.1, 0.0, 0.1)
 
 
 class LinearMachine(NamedTuple):
-    """Linear machine: z1, coefficients of g(s), moving base or not, unit (m), frequency (Hz)."""
+    """Linear machine: z1, g(s), moving base or not, unit of displacement (m), frequency (Hz)."""
 
     damping_ratio: float
     forcing: np.ndarray
@@ -107,8 +107,8 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
     """Return the absorber that minimises the largest displacement of the linear machine.
 
     The cubic stiffness of the machine is ignored. `mass` is in kg and `band` in Hz, by default all
-    frequencies. At the optimum two points are equally high: the two highest maxima, or the highest
-    maximum and an end of the band.
+    frequencies. At the optimum the response is equally large at two frequencies: at the two highest
+    maxima, or at the highest maximum and an end of the band.
     """
     ratio, linear = mass / machine.mass, linear_machine(machine)
     limits = (0.0, math.inf) if band is None else tuple(f / linear.natural_frequency for f in band)

@@ -42,7 +42,7 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 def other_masses(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset of the damper and a heavier one, empty if the damper is good enough.
 
-    A short search finds the gap of the heavier damper. No damper is heavier than the machine.
+    A short search finds the gap of the heavier damper, which is at most as heavy as the machine.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"
@@ -64,7 +64,7 @@ def other_masses(task, decision, progress=None) -> xr.Dataset:
 
 
 def _force(task, gap, frequency):
-    """Return the largest contact force (N) in the largest motion at a gap (mm), frequency (Hz)."""
+    """Return the largest contact force (N) of the largest motion at a gap (mm), frequency (Hz)."""
     cell = Cell(1e-3 * gap, frequency)
     motions = run(task, [cell], task.effort.starts, ("masses",))
     k, p = int(np.argmax(motions.peaks[0])), task.packed(*cell)
@@ -76,7 +76,7 @@ def _force(task, gap, frequency):
 
 
 def competitors(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of responses without the damper: machine alone, and with tuned absorbers."""
+    """Return a dataset of responses of the machine alone and with tuned absorbers."""
     band = task.absorber_band
     found = absorber_responses(
         task.machine, task.mass, task.grid, SHARES, band=band, own=task.absorber

@@ -84,7 +84,7 @@ class Motions:
     peaks : array, shape (m, n)
         Largest displacement of the orbit, or record of a motion that has not settled.
     blocks : array of arrays, shape (m,)
-        Peaks of each cell, shape (n, blocks): one for BLOCK cycles, NaN if a motion was not run.
+        Peaks of each cell, shape (n, blocks), NaN in blocks in which a motion was not run.
     """
 
     task: object
@@ -104,7 +104,7 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime) -> tuple:
-        """Return a regime's displacement, if it is known, and if later peaks stayed below it."""
+        """Return a regime's displacement; True if it is known; True if later peaks stayed below."""
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
         pooled = BLOCK * np.isfinite(peaks).sum()
@@ -129,7 +129,7 @@ class Motions:
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return the `rank`-th largest displacement of each cell, its start, and if it is known."""
+        """Return the `rank`-th largest displacement of each cell; its start; 1 if it is known."""
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)
@@ -159,7 +159,7 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Double the cycles run by a regime of cell k. The first call runs half of POOLED cycles.
+        """Double the cycles run by a regime of cell k. The first call runs POOLED/2 cycles.
 
         Records of the first run are forgotten, because they may include transients.
         """

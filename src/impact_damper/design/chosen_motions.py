@@ -35,8 +35,7 @@ COSTS = {
 
 def response_and_costs(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset of the response with the chosen damper, and of costs of large motions."""
-    # Motions that have not settled are run further, to classify them. The search for the gap does
-    # not run them further, to save time.
+    # Motions that have not settled are run further, to classify them. The search saves this time.
     effort = task.effort
     settling = replace(effort.settling, further=FURTHER)
     searched = {"starts": effort.starts, "seed": effort.seed, "settling": settling}

@@ -13,10 +13,10 @@ from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import Curve, score, search, search_around
 from impact_damper.design.task import NOMINAL, SIDES, VARIED, Task, labelled
 
-# Largest ratio of the promised displacement to the least one in the search, up to which a gap is
-# confirmed, and largest number of gaps that are tried.
+# A gap is confirmed if its promised displacement is at most CONFIRMED times the least displacement
+# of the search. At most ROUNDS gaps are tried.
 CONFIRMED, ROUNDS = 1.1, 4
-# Ratio of a promised displacement to that of the search, above which nearby gaps are run again.
+# Nearby gaps are run again if the promised displacement exceeds SURPRISE times the searched one.
 SURPRISE = 1.1
 
 
@@ -198,5 +198,5 @@ def _end(beyond, size):
 
 
 def _tolerated(task, curve: Curve):
-    """Return the largest displacement within the tolerance of each searched gap."""
+    """Return the largest displacement (mm) within the tolerance of each searched gap."""
     return curve.within(*task.gap_ends(curve.gaps))

@@ -57,7 +57,7 @@ def design_damper(
     contact : float, str or HertzContact
         Stiffness of the contact, N/m, or the contact of curved bodies. The stiffness of curved
         bodies is computed for the speed with which the loose mass crosses the gap of the paper's
-        rule (18) in half a forcing cycle. Their pressure is computed for the impacts of the design.
+        rule (18) in half a forcing cycle. The pressure is computed for the impacts of the design.
     mount : dict, optional
         Arguments of `machine.mounting`: inclination of the gap, such as {"inclination": "90 deg"},
         friction_coefficient, and normal_force between the loose mass and its floor. By default the
@@ -67,7 +67,7 @@ def design_damper(
         damping and force. A deviation is relative, such as {"gap": "10 %"}, or absolute with a
         unit, such as {"gap": "0.2 mm"}. By default only the gap deviates, by 20 %.
     displacement_limit : float or str, optional
-        Largest displacement that is allowed, m. The promised one is compared with this limit.
+        Largest displacement that is allowed, m, to be compared with the promised displacement.
     share : float
         Share of all starts for which the promised displacement holds.
     absorber : dict, optional
@@ -185,7 +185,7 @@ def evaluate_damper(
 
 
 def answer(task, decide, title, folder, progress) -> xr.Dataset:
-    """Return the dataset of the decision of a task and of its additions.
+    """Return the dataset of a task: the decision, and the additions to the decision.
 
     An addition that fails with a numerical error is left out, and flagged in `addition_status`.
     """
@@ -229,7 +229,7 @@ class Steps:
         return self.step
 
     def step(self, name, compute, *given):
-        """Return the dataset of `compute`, from its file if that was made from the same inputs."""
+        """Return the dataset of `compute`, from a file if the file is made from the same inputs."""
         title = name.capitalize() if self.progress else None
         if self.folder is None:
             return compute(*given, progress=title)

@@ -40,15 +40,15 @@ def migration(
     Each release is a run of `migrate`. During the large free motion the damper is switched on at a
     random phase, with the loose mass at a random place. The damper is switched off at a random
     phase after the motion has settled, or after `longest_hold` cycles. At least the share `share`
-    of all releases must succeed. By default the gaps (m) cover those that the machine can touch.
+    of all releases must succeed. By default the gaps (m) cover the range of `design_damper`.
     `effort` has the numbers of frequencies, of gaps (`candidates`) and of releases for each gap and
     frequency (`starts`). The other arguments are as for `design_damper`.
 
     The dataset has, for each gap and frequency, the share of releases that succeed, their median
     time and `migration_bound`: the time in which the share `share` of all releases succeed, at 95 %
-    confidence, or infinity. From the `sure_frequency` of a gap on, this time is finite at all
-    higher frequencies. `migration_gap` is the gap with the lowest `sure_frequency`. A ValueError is
-    raised if the machine without damper has one motion at each frequency.
+    confidence, or infinity. At the `sure_frequency` of a gap and at all higher frequencies this
+    time is finite. `migration_gap` is the gap with the lowest `sure_frequency`. A ValueError is
+    raised if the machine without damper has only one motion at each frequency.
     """
     effort = Effort() if effort is None else effort
     task = Task(
@@ -98,7 +98,7 @@ def _case(task, gap, frequency):
 
 
 def release_time(case, seed, longest_hold, settling, stop) -> float:
-    """Return the cycles from switching on the damper to the small motion, infinite if missed."""
+    """Return the cycles from switching on to the small motion, or infinity if it is not reached."""
     draws = np.random.default_rng(seed).random((1, 3))
     _, log = control(case, draws, longest_hold, settling, 0, None, stop)
     reached = log["destination"][0] == FREE_MOTION["non_resonance"]

@@ -11,15 +11,15 @@ from impact_damper.design.task import VARIED
 
 # Largest number of corners, which are sets of factors with each value at an end of its tolerance.
 CORNERS = 8
-# Frequencies are added beside the peak of each set of factors that reaches NEAR times the largest
-# peak, at most SPLITS times. A peak is known if the last frequencies raised the peak by at most the
-# fraction PEAK, and a parabola through the peak and its neighbours exceeds it by at most PEAK.
+# Frequencies are added beside the peak of a set of factors if the peak is at least NEAR times the
+# largest peak, at most SPLITS times. A peak is known if the last frequencies raised the peak by at
+# most the fraction PEAK, and if a parabola through three points exceeds the peak by at most PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-# Least number of frequencies at which a set that deviates is run first; otherwise half of the grid.
+# Sets that deviate are run first at half of the grid's frequencies, but at FEWEST at least.
 FEWEST = 9
-# A cell has rare motions if its bound exceeds RARE times the displacement that twice the allowed
-# share of its starts exceed. SOME such cells at a time are run again with MORE times as many
-# starts. No more cells follow if a new bound exceeds KEPT times the least old one.
+# Twice the allowed share of starts exceed the usual displacement of a cell. A cell has rare motions
+# if its bound exceeds RARE times the largest usual displacement. SOME such cells at a time are run
+# again with MORE times as many starts, until a new bound exceeds KEPT times the least old bound.
 RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
@@ -72,7 +72,7 @@ class Promise:
         return [Cell(self.gap, f, tuple(self.sets[k])) for k, f in cells]
 
     def _repeat_rare(self) -> None:
-        """Run cells that have rare motions again, with more starts.
+        """Run cells with rare motions again, with more starts.
 
         The probability that one of the two bounds of a cell is wrong is at most DOUBT.
         """
@@ -131,7 +131,7 @@ class Promise:
 
     @property
     def worst(self) -> tuple:
-        """Index of the set, and frequency, of the largest displacement."""
+        """Index of the set of factors, and frequency (Hz), at which the displacement is largest."""
         return self.cells[int(np.argmax(self.bounds))]
 
 
@@ -160,7 +160,7 @@ def beside_peak(frequencies, bounds) -> list:
 
 
 def factor_sets(task, gap) -> np.ndarray:
-    """Return sets of factors at a gap (mm): nominal, both ends of its tolerance, the corners."""
+    """Return sets of factors: nominal, gap (mm) at both ends of its tolerance, and corners."""
     widths = task.deviations(gap)
     signs = [(-1, 1) if width else (0,) for width in widths]
     corners = np.array(list(itertools.product(*signs)), float)
@@ -176,7 +176,7 @@ def factor_sets(task, gap) -> np.ndarray:
 
 
 def other_sets(task, gap) -> np.ndarray:
-    """Return the different `factor_sets` of the other values, with the nominal gap."""
+    """Return the `factor_sets` with the nominal gap in place of other gaps, each set once."""
     rows = factor_sets(task, gap)
     rows[:, 0] = 1
     return np.unique(rows, axis=0)

@@ -1,7 +1,7 @@
 """The search for the gap: a curve of largest displacements over the gap, refined where it is small.
 
-Few starts at few frequencies give the first curve. Near the best gaps other values deviate too. The
-value of a nominal gap is the largest displacement within the tolerance of the gap.
+Few starts at few frequencies give the first curve. Near the best gaps, values besides the gap
+deviate too. The value of a nominal gap is the largest displacement within the gap's tolerance.
 """
 
 from typing import NamedTuple
@@ -15,7 +15,7 @@ from impact_damper.design.task import NOMINAL, Task
 
 # First search over all gaps: largest number of gaps, numbers of frequencies and of starts.
 GAPS, FREQUENCIES, STARTS = 40, 9, 12
-# Comparison near the best gaps: numbers of frequencies, of starts, and of rounds of `candidates`.
+# Comparison near the best gaps: numbers of frequencies, of starts, and of rounds.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
 # Typical ratio of `cells.return_level` to the largest displacement of few unsettled motions.
 RECORD = 1.2
@@ -27,7 +27,7 @@ JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
 # least value of all gaps, the widest is chosen.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
-# Significant digits of a gap: least number, and number from which a gap is not rounded.
+# A gap is rounded to at least DIGITS and fewer than MOST_DIGITS significant digits, or not at all.
 DIGITS, MOST_DIGITS = 3, 9
 # Displacement in place of infinity, mm.
 HUGE = 1e9
@@ -52,7 +52,7 @@ class Curve:
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements at gaps. Without `replace` the larger one is kept at a known gap."""
+        """Add displacements. At a known gap the larger one is kept, with `replace` the new one."""
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
             if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
@@ -92,7 +92,7 @@ class Curve:
         return gaps, self.within(*self.task.gap_ends(gaps))
 
     def ranges(self) -> list:
-        """Return the candidates: each `Range` of nominal gaps with values near the least one."""
+        """Return the candidates: ranges of nominal gaps whose values are near the least value."""
         gaps, values = self.nominal()
         found = []
         for first, after in runs_of_true(values <= CANDIDATE * values.min()):
@@ -111,9 +111,9 @@ class Curve:
         return max(good, key=lambda each: each.high / each.low)
 
     def keeping(self, gap, size) -> tuple:
-        """Return both ends of the gaps around `gap` with at most `size`, and displacements beyond.
+        """Return both ends of a range of gaps around `gap`, and the displacements just beyond.
 
-        The range of gaps always includes the tolerance of `gap`.
+        Displacements in the range are at most `size`. The range includes the tolerance of `gap`.
         """
         ends, beyond = [], []
         for end, step in zip(self.task.gap_ends(gap), (-1, 1), strict=True):
@@ -125,7 +125,7 @@ class Curve:
         return ends, beyond
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return sets of factors with the worst gap tolerated, none if it is `gap` or an end."""
+        """Return sets of factors with the worst tolerated gap, none if this is `gap` or an end."""
         low, high = self.task.gap_ends(gap)
         inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
         known = np.array([low, gap, high])
@@ -136,7 +136,7 @@ class Curve:
         return rows
 
     def critical(self) -> np.ndarray:
-        """Return frequencies of the largest displacements at gaps with values near the least."""
+        """Return the worst frequencies of the gaps with displacements near the least one."""
         return np.unique(self.worst[self.sizes <= CANDIDATE * self.nominal()[1].min()])
 
     def unclear(self) -> np.ndarray:
@@ -175,9 +175,9 @@ def middle_gap(first, last) -> float:
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
     """Return displacements (mm) at gaps (mm), and the frequency and set of factors of each one.
 
-    Each is the largest one over frequencies and sets. At each frequency and set the largest motions
-    are left out, half as many as the share of the task allows. The displacement of a motion that
-    has not settled is RECORD times its largest displacement so far.
+    Displacements are the largest over frequencies and sets. In each cell the largest motions are
+    left out, the fraction (1 - share)/2. The displacement of a motion that has not settled is
+    RECORD times its largest displacement so far.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
@@ -209,7 +209,7 @@ def search(task, progress=None, rounds=ROUNDS) -> Curve:
 
 
 def search_around(task, gap, sets, progress=None) -> Curve:
-    """Return a curve around a given gap (mm) for sets of factors of the other values."""
+    """Return a curve around a given gap (mm): the largest displacements over sets of factors."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = gap * np.geomspace(0.5, 2, 2 * task.effort.candidates + 1)
     curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress, sets)[:2])

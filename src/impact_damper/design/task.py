@@ -38,7 +38,7 @@ NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 # Labels of the ends of a range or of a confidence interval.
 SIDES = ["lower", "upper"]
-# Largest relative deviation, and physical quantities of absolute ones (the force has several).
+# Largest relative deviation, and quantities of absolute deviations, except for the excitation.
 MOST_DEVIATION = 0.9
 ABSOLUTE = {
     "gap": "displacement",
@@ -55,7 +55,7 @@ ESCAPING = 4.0
 # highest frequency of band and resonance.
 ABSORBED = 0.5, 2.0
 # Comparisons of many gaps stop a chaotic motion after PATIENT decay times of the machine, at least
-# LEAST_PATIENCE cycles. Others are stopped after LONG x PATIENT decay times, at least LEAST_LIMIT.
+# LEAST_PATIENCE cycles, and all motions after LONG x PATIENT decay times, at least LEAST_LIMIT.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
 # Least number of cycles over which a motion that has not settled is measured.
@@ -63,7 +63,7 @@ WATCHED = 100
 
 
 def labelled(values, **coordinates) -> xr.Dataset:
-    """Return a dataset of registered variables. Displacements are in mm, others in SI units."""
+    """Return a dataset of registered variables, displacements in mm and others in SI units."""
     made = {name: shown_variable(name, value) for name, value in values.items()}
     known = {name: shown_variable(name, value) for name, value in coordinates.items()}
     return xr.Dataset(made, known, {"source": SOURCE})
@@ -77,7 +77,7 @@ class Effort:
     Attributes
     ----------
     frequencies : int
-        Number of frequencies over the band. Those nearest to resonances are moved onto them.
+        Number of frequencies over the band. Resonances replace the frequencies nearest to them.
     candidates : int
         Largest number of gaps in each comparison after the first search over all gaps.
     starts : int
@@ -231,7 +231,7 @@ class Task:
                 self.packed(gap, frequency, factors)
 
     def _checked_tolerances(self):
-        """Return relative deviations as numbers. An absolute deviation of the gap is a text."""
+        """Return relative deviations as numbers, and an absolute deviation of the gap as text."""
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
@@ -314,14 +314,14 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances in the band, Hz: without the loose mass, and with the loose mass fixed."""
+        """Resonances in the band, Hz, without the loose mass and with it fixed to the machine."""
         ratio = math.sqrt(1 + self.mass / self.machine.mass)
         found = [each for end in self.resonance for each in (end / ratio, end)]
         return [each for each in found if self.band[0] < each < self.band[1]]
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Frequencies over the band, Hz: evenly spaced, the nearest ones moved to resonances."""
+        """Evenly spaced frequencies over the band, Hz. Resonances replace the nearest ones."""
         values = np.linspace(*self.band, self.effort.frequencies)
         for frequency in self.resonances:
             values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
@@ -359,14 +359,14 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return `count` frequencies of `grid` (Hz), and also the worst, resonances, `others`."""
+        """Return `count` frequencies of `grid`, the worst one, resonances and `others`, Hz."""
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(self.grid[places], [self.worst_frequency, *resonances, *others])
 
     @property
     def scales(self):
-        """Scales of the machine."""
+        """Scales between SI units and dimensionless values of the machine."""
         return self.machine.scales
 
     def rule_gap(self, frequency) -> float:
@@ -412,7 +412,7 @@ class Task:
         return pack(*self.system(gap, frequency, factors))
 
     def millimetres(self, displacement):
-        """Return dimensionless displacements in mm, the unit of datasets."""
+        """Return dimensionless displacements converted to mm, the unit of datasets."""
         return 1e3 * self.scales.to_si(displacement, "displacement")
 
     def describe(self) -> dict:
@@ -439,7 +439,7 @@ class Task:
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the least and greatest of natural frequency, peak of one harmonic, and folds, Hz."""
+    """Return the least and greatest resonance, Hz: natural frequency, free peak, and folds."""
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
     found = [point.frequency for point in free_folds(oscillator)]

@@ -30,7 +30,7 @@ from impact_damper.model.packed import (
 )
 from impact_damper.motions.records import envelope
 
-# The machine without the damper, and with it.
+# Labels of the machine without and with its damper.
 EQUIPMENT = ("bare", "damped")
 # Largest local error of an integration step.
 TOLERANCE = 1e-10
@@ -43,9 +43,9 @@ STEEPEST = 0.01
 # Before a sweep the first frequency is held until transients without the damper have decayed to the
 # fraction SETTLED, but for at most HELD forcing cycles.
 SETTLED, HELD = 0.01, 10**5
-# A decay ends when the energy above rest falls to that of REST times the first displacement, or
-# after MOST_WINDOWS windows. A window is a period of the unforced vibration, at most LONGEST
-# periods of small vibrations. With a softening spring the period is infinite at the barrier.
+# A decay ends when the energy, measured from rest, falls to the energy of a displacement of REST
+# times the first one, or after MOST_WINDOWS windows. A window is a period of the unforced vibration
+# (infinite at the barrier of a softening spring), at most LONGEST periods of small vibrations.
 REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
 
