@@ -22,8 +22,8 @@ KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 # Purposes for which starts are drawn. The index of a purpose is part of the seed. A choice and its
 # confirmation therefore have different starts.
 STREAMS = ("search", "compared", "confirmed", "orbit", "forces", "masses", "repeated")
-# Number of cells for which a thread draws starts at once, of motions that a thread runs at once,
-# and of cells whose motions are run further before bounds are compared again.
+# Cells for which a thread draws starts at once (DRAWN), motions that a thread runs at once
+# (FOLLOWED), cells whose motions are run further between two comparisons of bounds (TOGETHER).
 DRAWN, FOLLOWED, TOGETHER = 4, 8, 8
 # Largest ratio of neighbouring records in a regime, in order of size.
 APART = 1.3

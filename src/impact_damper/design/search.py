@@ -22,9 +22,9 @@ RECORD = 1.2
 # JUMP: ratio of neighbouring displacements above which they are a jump. SMOOTH and FINE: largest
 # intervals of the logarithm of the gap that are not split, in general and at a jump.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
-# Gaps with at most CANDIDATE times the least value of all gaps form candidate ranges. A range ends
-# at LEVEL times its own least value. Among the ranges whose least value is at most ALIKE times the
-# least value of all gaps, the widest is chosen.
+# Gaps with values of at most CANDIDATE times the least value form candidate ranges. A range ends at
+# LEVEL times its own least value. The widest range is chosen, of those whose own least value is at
+# most ALIKE times the least value of all gaps.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
 # A gap is rounded to at least DIGITS and fewer than MOST_DIGITS significant digits, or not at all.

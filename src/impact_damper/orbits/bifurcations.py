@@ -12,7 +12,7 @@ from impact_damper.orbits.continuation import Point, point_at_distance
 # The place of an event is its distance from the beginning of a step, along the branch.
 # Largest tolerance of the place of a bifurcation, divided by the length of the step.
 FINE = 1e-3
-# Tolerance of the place of a change of contact, divided by the length of a step longer than 1.
+# Tolerance of the place of a change of contact, divided by the larger of 1 and the step's length.
 PLACE = 1e-12
 # Smallest imaginary part of a complex multiplier.
 COMPLEX = 1e-6
@@ -30,7 +30,7 @@ class Event(NamedTuple):
     """An event of a branch, with the walls touched (`Orbit.sequence`) before and after the event.
 
     At a grazing a contact appears or vanishes in flight. At a merging two contacts with one wall
-    become one, or the reverse. The other kinds are those of TESTS.
+    become one, or one contact parts in two. The other kinds are the keys of TESTS.
     """
 
     kind: str
@@ -48,7 +48,7 @@ def _reversal(point, symmetric):
     """Return the product of mu + 1 over the multipliers mu of a cycle.
 
     The cycle of a symmetric orbit is half its period. The orbit loses its symmetry where mu = -1.
-    Another orbit doubles its period there. If the orbit is not of the kind `symmetric`, return 1.
+    An asymmetric orbit doubles its period there. Return 1 if `symmetric` does not fit the orbit.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0
@@ -78,7 +78,7 @@ TESTS = {
 
 
 def bifurcations_between(point_at, start, end, first, last):
-    """Locate the bifurcations between two points; return (place, event) pairs and number lost."""
+    """Locate bifurcations between two points; return pairs (place, event) and the number lost."""
     located, lost = [], 0
     for kind, (test, precision) in TESTS.items():
         if test(start) * test(end) >= 0:
@@ -109,7 +109,7 @@ def bifurcations_between(point_at, start, end, first, last):
 
 
 def events_between(start, end, length):
-    """Locate the events on a step; return a list of them, and the number of events lost."""
+    """Locate the events on a step; return a list of events, and the number of lost events."""
 
     known = {0.0: start, length: end}
 
@@ -132,7 +132,7 @@ def events_between(start, end, length):
 
 
 def _is_complex_pair(multipliers):
-    """Return whether those two multipliers with the product nearest to 1 are a conjugate pair."""
+    """Return whether the two multipliers whose product is nearest to 1 are a conjugate pair."""
     values = multipliers[np.isfinite(multipliers)]
     first, second = PAIRS[len(values)]
     k = np.argmin(np.abs(values[first] * values[second] - 1))
@@ -166,7 +166,7 @@ def _changes_of_contact(point_at, start, end, length):
 def _contact_event(orbit):
     """Return the kind of event at which the slowest contact of an orbit appears.
 
-    The kind is a merging if the contact follows one with the same wall after a very short flight.
+    The kind is a merging if a very short flight parts this contact from one with the same wall.
     """
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))

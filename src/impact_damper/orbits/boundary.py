@@ -1,6 +1,7 @@
 """Boundaries of the free oscillator's basins, which are stable manifolds of its unstable orbits.
 
-A manifold is computed backwards in time. Nearby curves then approach the manifold: errors decrease.
+A manifold is computed backwards in time, in which nearby curves approach it: errors decrease. It is
+followed within the half widths `reach` of Z1 and Z1', and kept within the half widths `window`.
 """
 
 import math
@@ -120,7 +121,7 @@ def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
 def _wide(states, window, spacing, reach):
     """Return the mask of the pairs of neighbouring states that are too far apart.
 
-    A pair with an unknown state (NaN) is too far apart if the known one lies in or near the window.
+    A pair with one unknown state (NaN) is too far apart if the other lies in or near the window.
     """
     apart = np.abs(np.diff(states, axis=0))
     inside = np.all(np.abs(states) <= window + 2 * spacing, axis=1)

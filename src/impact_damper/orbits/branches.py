@@ -17,17 +17,17 @@ MOST_POINTS = 10_000
 SAME = 1e-5
 # Largest difference of max |Z1| between an orbit and a step that `Branch.holds` compares with it.
 NEARBY = 0.02
-# Largest distance from the span of the parameter to which a family is continued linearly.
+# Largest distance beyond the range of the parameter to which packed parameters are extrapolated.
 EXTENDED = 1e-3
 # Largest speed at which a contact begins on the last orbit of a branch that loses its contacts.
 WEAK = 0.02
-# Largest ratio of the deviation (`Orbit.deviation`) at a fold to that of the point before, if the
-# branch meets a branch of more symmetry at the fold.
+# Largest ratio of `Orbit.deviation` at a fold to the deviation at the point before, if the branch
+# meets a branch of more symmetry (symmetric orbits, or half the period) at the fold.
 VANISHED = 0.5
 # Longest failed step after which a grazing is searched for; reach of the search, in step lengths.
 CLOSE_STEP, REACH = 2e-3, 8.0
-# Shortest step that is halved if an event on it is not located, if it may contain two folds, or if
-# it may cross another branch.
+# Shortest step that is halved, because an event was not located, or because the step may contain
+# two folds or cross another branch.
 CLEAR_STEP = 1e-4
 
 
@@ -83,7 +83,7 @@ def between(point, ahead, value):
 
 
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
-    """Follow a branch from an orbit both ways, each up to `beyond` unstable points in a row."""
+    """Follow a branch from an orbit both ways, each way up to `beyond` unstable points in a row."""
     family = _extended(family, span)
     problem = continuation.Problem.of(family, orbit)
     walks = []
@@ -169,10 +169,10 @@ def _walk(problem, first, span, beyond) -> Branch:
 
 
 def _next_pieces(point, span, length, search):
-    """Return the pieces (`_through_grazing`) of the next step, [] if it must be shorter.
+    """Return the pieces (`_through_grazing`) of the next step, [] if the step must be shorter.
 
-    Further results: the factor for the length of the following step, and whether a grazing has been
-    searched for, which `search` allows.
+    Also return the factor for the length of the following step, and whether a grazing was searched
+    for. `search` allows this search.
     """
     ahead, factor = continuation.next_point(point, span, length)
     changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
@@ -196,7 +196,7 @@ def _next_pieces(point, span, length, search):
 
 
 def _ending(piece, first, span):
-    """Return the reason why a branch ends on a piece, or ""; its events; and the number lost there.
+    """Return why a branch ends on a piece, or ""; the piece's events; the number of lost events.
 
     `first` is the first point of a branch that may be closed, otherwise None.
     """
@@ -238,8 +238,8 @@ def _through_grazing(point, reach):
 def _meeting(events, orbit):
     """Return the index of the event at which a branch meets a branch of more symmetry, or None.
 
-    The meeting is a fold of the branch at which the deviation vanishes. The deviation can also turn
-    as a vector without a meeting. If there is no fold, the meeting is lost: return len(events).
+    The meeting is a fold of the branch at which the deviation vanishes. The vector can also reverse
+    without a meeting. If there is no fold, the meeting is lost: return len(events).
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))
@@ -258,7 +258,7 @@ def _loss(last):
 
 
 def _passes(point, ahead, first):
-    """Return the point between two points whose orbit is that of the point `first`, or None.
+    """Return the point between two points that has the same orbit as the point `first`, or None.
 
     The parameter must change on the step in the same direction as at the beginning of the branch.
     """

@@ -52,7 +52,7 @@ def clearance_sweep(
     frequency : float
         Forcing frequency W, or Hz for a machine.
     clearances : sequence of float
-        Increasing clearances d0; for a machine on each side, m.
+        Increasing clearances d0 on each side of the loose mass, for a machine in m.
     method : str
         "simulated" finds the motions. "harmonic_balance" returns only the amplitude by (7) and the
         rules.
@@ -158,8 +158,8 @@ def _peak_rule(oscillator, mass_ratio):
 def _quiet_motions(data, clearances, rule):
     """Return states and max |Z1| (NaN if absent) of quiet motions by clearance, and a row or None.
 
-    A quiet motion has period 1, is symmetric and has two contacts in a cycle. The row is the one
-    with a quiet motion nearest to the clearance `rule`. All states lie on the branch of this one.
+    A quiet motion has period 1, is symmetric and has two contacts in a cycle. The row has the
+    clearance nearest to `rule` with a quiet motion. All states lie on the branch of this motion.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -199,8 +199,8 @@ def _stable_part(p, state, span):
 
 # Ratio of max |Z1| to its minimum at the ends of the range of clearances near the minimum.
 NEAR_MINIMUM = 1.1
-# Step of the difference quotient, and largest distance from the numerical minimum at which its zero
-# is searched for; both divided by the clearance.
+# Step of the difference quotient, and largest distance of its zero from the numerical minimum, both
+# divided by the clearance.
 DIFFERENCE, WIDE = 3e-5, 1e-4
 
 
@@ -255,7 +255,7 @@ def _kind(size_at, best, least, longest):
     rises = [
         size_at(best + step) + size_at(best - step) - 2 * least for step in (longest, longest / 2)
     ]
-    # 0.36 lies between a quarter and a half: it is close to their geometric mean.
+    # 0.36 is close to the geometric mean of a quarter and a half.
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
 
 

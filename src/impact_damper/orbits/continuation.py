@@ -36,12 +36,12 @@ REFINED, UNMOVED = 1e-4, 5e-6
 SINGULAR = 1e-8
 # First and shortest step along a branch, as a distance in the metric of `Problem`.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# Longest step for symmetric or stable orbits, and for others, divided by the length of the vector
-# of unknowns; smallest length that is used for this vector.
+# Longest step, divided by the length of the vector of unknowns: for symmetric or stable orbits, and
+# for other orbits. Smallest length that is used for the vector of unknowns.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
 # Largest distance of the first guess of `Problem.at_value` from the given point.
 FARTHEST_GUESS = 0.08
-# Largest sum of corrections, divided by the step; a larger sum may lead to another branch. Newton's
+# Largest sum of corrections, divided by the step. A larger sum may lead to another branch. Newton's
 # method stops if the first correction exceeds FAILING times the largest sum.
 ASIDE, FAILING = 0.2, 2.0
 
@@ -72,7 +72,7 @@ class Problem:
 
     The function `family` maps the parameter to packed parameters. `loose` is Z2 - Z1 and Z2' - Z1',
     constant without a damper. If `symmetric`, the segments cover half the period and all orbits are
-    symmetric; the equations are then regular where an orbit loses its symmetry. `rough` is the
+    symmetric. Such equations are regular where an orbit loses its symmetry. `rough` is the
     largest norm of the derivative of a segment when the orbit was divided, 0 for one segment.
     """
 
@@ -167,7 +167,7 @@ class Problem:
     def correct(self, x, border, most=np.inf):
         """Return the point that Newton's method reaches from the unknowns x, or None if it fails.
 
-        The corrections are orthogonal to the vector `border`. The first one is at most `most` long.
+        Corrections are orthogonal to the vector `border`. The first correction is at most `most`.
         """
         x, size, moved, row = x.copy(), np.inf, 0.0, self.metric * border
         rate, slopes = None, None
@@ -236,7 +236,7 @@ class Problem:
         return near._replace(tangent=near.tangent * turned)
 
     def begin(self, orbit, value, direction):
-        """Return the point of an orbit, or None; `direction`: sign of the parameter's change."""
+        """Return the point of an orbit, or None. `direction` is the sign of `tangent[-1]`."""
         x = self.unknowns(orbit, value)
         return self.correct(x, direction * np.eye(len(x))[-1])
 
@@ -287,8 +287,8 @@ def _cubic(point, ahead, fraction):
 # A step beyond these bounds may lead to another branch and is not accepted: largest angle between
 # the tangents at both ends; largest difference between the unit vectors of chord and mean tangent.
 TURNED, SKEW = 0.5, 0.03
-# Length of the next step: fraction of TURNED and SKEW at which it aims; largest ratio to the step
-# before; smallest ratio to a step that was not accepted.
+# Length of the next step: fraction of TURNED and SKEW that the step aims at; largest ratio to the
+# step before; smallest ratio to a step that was not accepted.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 

@@ -14,12 +14,12 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
 
-# Heights |Z2| - d0 of points on the side with more contacts, in modulus: ratio of successive ones,
+# Moduli of the heights of points on the side with more contacts: ratio of successive moduli,
 # smallest, largest.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 # Largest number of divisions of a failed step: through a grazing, and between two points there.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# Largest ratio of `Orbit.deviation` to its last value on a step to a branch of more symmetry.
+# A step in which `Orbit.deviation` falls below FALLEN times its value leads to another branch.
 FALLEN = 0.01
 # Heights of points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
@@ -28,7 +28,7 @@ LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction):
-    """Return the point at which an extremum has a height, and the extremum, or None; x: a guess."""
+    """Return the point near x at which an extremum has a height, and the extremum; or None."""
     x = x.copy()
     for _ in range(NEWTON):
         orbit = problem.shoot(x)
@@ -86,7 +86,7 @@ class Passage(NamedTuple):
 
 
 def guess(point, turn, height):
-    """Return the unknowns on the tangent of a point at which an extremum has about a height."""
+    """Return the unknowns on a point's tangent at which an extremum has about the given height."""
     return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
 
 
@@ -138,7 +138,7 @@ def _along(point, turn, targets, direction, contacts):
 def _before(height, target):
     """Return the height at which a failed step is divided.
 
-    This height is the geometric mean of both, or lies closer to 0 if their signs differ.
+    This height is the geometric mean of both heights, or lies closer to 0 if the signs differ.
     """
     if height * target > 0:
         return height * (target / height) ** 0.5

@@ -23,12 +23,12 @@ from impact_damper.orbits import segments
 # Phase W T, radian: length of a forcing cycle; the strobe, at which states are compared.
 TURN = 2 * math.pi
 STROBE = math.pi / 2
-# Largest residual of a converged orbit, divided by its largest state: without contacts; with
-# contacts, divided also by the natural frequency of contacts, which multiplies rounding errors.
+# Largest residual of a converged orbit, divided by its largest state. With contacts it is divided
+# also by the natural frequency of contacts, which multiplies rounding errors.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # Smallest distance of the first phase of an orbit from a contact, radian.
 MARGIN = 0.15
-# First room in arrays: contacts in a forcing cycle, and extrema of Z2 in a segment.
+# First size of arrays: contacts in a forcing cycle, and extrema of Z2 in a segment.
 CONTACTS, TURNS = 64, 256
 
 
@@ -40,7 +40,7 @@ class Orbit:
     phases: Phases W T at the beginnings of segments and at the last end, shape (m + 1,).
     states, ends: States at the beginnings and, by integration, at the ends of segments, (m, 4).
     sign: -1 if the segments cover half the period of a symmetric orbit, otherwise 1.
-    factors: Derivatives of `ends` by `states`, shape (m, 4, 4); the last one is times `sign`.
+    factors: Derivatives of `ends` by `states`, (m, 4, 4); the last is multiplied by `sign`.
     contact_time: Total time in contact in all segments.
     maps: Number of integrations over all segments by Newton's method.
     """
@@ -218,7 +218,7 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """State minus the state half a period later, which is mirrored for odd n; shape (4,).
+        """State minus the state half a period later, or minus its mirror image for odd n; (4,).
 
         The deviation changes its sign where a branch meets a branch of symmetric orbits or of half
         the period. If `sign` is -1, ones replace the deviation.

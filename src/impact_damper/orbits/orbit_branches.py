@@ -23,7 +23,7 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import follow_others, met_by
 
 # Largest sum of the periods, in forcing cycles, of unstable orbits in a row on a branch of a period
-# above 1. Beyond them stable parts of the branch are narrower than 0.01 in W.
+# above 1. Stable parts of the branch beyond this sum are narrower than 0.01 in W.
 BEYOND = 300
 
 
@@ -141,9 +141,9 @@ def orbit_branches(
         reliable these numbers are. For each `event`: its kind, which is fold, symmetry breaking,
         period doubling, Neimark-Sacker bifurcation, grazing (a contact appears or vanishes in
         flight) or merging (two contacts with a wall become one). For each (branch, edge): the
-        reason why the branch ends. With `motions`: the number `seeds` of settled motions, with a
-        damper only those with contacts, and the number `seeds_lost` of those to which no orbit was
-        found. A branch and its mirror image are one branch.
+        reason why the branch ends. With `motions`: the number `seeds` of settled motions (with a
+        damper: of settled motions with contacts), and the number `seeds_lost` of seeds for which no
+        orbit was found. A branch and its mirror image are one branch.
 
     Raises
     ------
@@ -189,7 +189,7 @@ def orbit_branches(
 
 
 def _all_branches(system, damper, span, motions, progress):
-    """Return a dataset of the branches through all settled motions, and of branches that leave."""
+    """Return a dataset of branches through all settled motions, and of branches that leave them."""
     model = read_system(system, damper)
     damper = model.damper
     span = read_span(model.scales, "span", span, "frequency", **bounds.FREQUENCY_RANGE)
@@ -257,8 +257,8 @@ def _seeds(motions, damper):
             )
 
 
-# Largest |Z2'| at the beginning of a contact near grazing. Multipliers are valid for very small
-# disturbances d only there, because a term d^(3/2) grows near grazing.
+# Largest |Z2'| at the beginning of a contact near grazing. Multipliers are valid there only for
+# very small disturbances d, because a term d^(3/2) grows near grazing.
 SLOW = 0.01
 
 

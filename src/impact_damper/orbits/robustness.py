@@ -1,7 +1,7 @@
 """Robustness of attractors against shocks, and in finite time.
 
-The names *convergence time*, *finite-time basin stability* and *minimal critical shock* are those
-of Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
+The names *convergence time*, *finite-time basin stability* and *minimal critical shock* come from
+Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
 
 from collections.abc import Callable
@@ -17,9 +17,9 @@ SHOCKS = (256, 64, 64, 64)
 
 
 class Labelled(NamedTuple):
-    """Labels (m, n) of states, forcing cycles (m, n) until a label is known, and attractors.
+    """Labels (m, n) of n states of a plane with m loose masses, and the attractors' `records`.
 
-    `records` are those of the attractors. `label` returns labels and cycles of more states (k, 4).
+    `periods` (m, n): cycles until a label is known. `label` returns both for more states (k, 4).
     """
 
     labels: np.ndarray

@@ -7,11 +7,11 @@ import numpy as np
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import STROBE, TURN, Orbit, integrate
 
-# Newton's method: largest number of corrections, and their largest size.
+# Newton's method: largest number and largest size of corrections.
 ITERATIONS, FAR = 20, 10.0
 # Largest residual of an approximate orbit whose state can be integrated to another phase.
 NEAR = 1e-6
-# Largest norm of the derivative over a cycle; above it, multiple shooting is used.
+# Norm of the derivative over a cycle, above which multiple shooting is used.
 AMPLIFYING = 100.0
 # Largest number of divisions of an orbit; norm of a segment's derivative, divided by
 # `segments.AMPLIFIED`, above which the orbit is divided again.

@@ -115,12 +115,12 @@ def _at_heights(leaving):
 
 
 def _is_other(orbit, doubled):
-    """Return whether an orbit has twice the period, or, if not `doubled`, is asymmetric."""
+    """Return whether an orbit has twice the period if `doubled`, otherwise whether asymmetric."""
     return not orbit.repeats_sooner() if doubled else orbit.record["asymmetry"] > SYMMETRIC
 
 
-# Periods of branches from which unstable branches are followed; longest period of a new branch from
-# other branches; longest period of a branch from whose end a branch of more symmetry is followed.
+# Periods of branches from which also unstable new branches are followed; longest period of a new
+# branch from other branches; longest period of a branch that leads to a branch of more symmetry.
 WHOLE, STABLE, MET = (1, 3), 9, 4
 # Largest differences of the parameter and of max |Z1| between an event and the end of the branch
 # that leaves there. The end is a fold, whose error is 1e-7 in branch length.
@@ -130,7 +130,7 @@ NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Append to `branches` the branches that leave them or that they meet at their ends.
+    """Append to `branches` all branches that leave at an event or that are met at an end.
 
     The function `follow` returns the `Branch` of an orbit at a value of the parameter.
     """
@@ -157,8 +157,8 @@ def _more_symmetric(branches, branch, edge):
 def _new_branch(branches, branch, place, event):
     """Return a point of a new branch that leaves at an event, or None.
 
-    If the first branch has a period in WHOLE, a period doubling must lie next to stable orbits. If
-    not, the new branch must begin stable, next to stable orbits, with a period up to STABLE.
+    If the first branch has a period in WHOLE, a period doubling must lie next to stable orbits.
+    Otherwise the new branch must begin stable, next to stable orbits, with a period up to STABLE.
     """
     if event.kind not in LEAVING or _is_end(branch, place, event):
         return None
