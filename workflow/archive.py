@@ -31,7 +31,7 @@ def listed(root, results):
 
 
 def write(root, archive, results):
-    """Write the archive of the results of the project in a folder."""
+    """Write the archive of the project in the folder `root` with its results."""
     paths = listed(root, results)
     try:
         metadata, count = crate(root, results, paths)
@@ -45,7 +45,7 @@ def write(root, archive, results):
 
 
 def check(archive, job):
-    """Compare all digests of an archive, and run one of its jobs again, to the same bytes."""
+    """Compare the digests of all files of an archive, and run one of its jobs again."""
     with tempfile.TemporaryDirectory() as folder:
         with zipfile.ZipFile(archive) as file:
             file.extractall(folder)
@@ -62,12 +62,12 @@ def check(archive, job):
 
 
 def names(linked):
-    """Return the names of one entity or of several that a property links to."""
+    """Return the names of the entities to which a property links, one or several."""
     return [unquote(each["@id"]) for each in (linked if isinstance(linked, list) else [linked])]
 
 
 def cheapest(entities):
-    """Return the job with the shortest time among those that read no dataset and write one."""
+    """Return the name of the shortest job that reads no dataset and writes one."""
 
     def has_datasets(action, key):
         return any(name.endswith(".nc") for name in names(action[key]))

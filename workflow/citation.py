@@ -1,7 +1,7 @@
 """Write CITATION.cff and codemeta.json from pyproject.toml: `make citation`.
 
-The table [tool.citation] of pyproject.toml holds what [project] has no key for. An address goes
-there into [project.urls], a DOI and a date into [tool.citation], once they exist.
+The table [tool.citation] of pyproject.toml holds what [project] has no key for. Once they exist,
+an address goes into [project.urls], and a DOI and a date go into [tool.citation].
 """
 
 import json

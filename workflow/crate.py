@@ -1,8 +1,8 @@
 """Contents of an RO-Crate that describes a run: the Provenance Run Crate, version 0.5.
 
-https://www.researchobject.org/workflow-run-crate/profiles/provenance_run_crate says what it must
-hold: files, rules as steps of the workflow, and each job with its function, parameters, inputs,
-outputs and times. Snakemake's records of jobs in `.snakemake/metadata` and the timings hold these.
+https://www.researchobject.org/workflow-run-crate/profiles/provenance_run_crate lists the contents:
+files, rules as steps of the workflow, and each job with its function, parameters, inputs,
+outputs and times. The sources are Snakemake's records in `.snakemake/metadata`, and the timings.
 """
 
 import ast
@@ -34,7 +34,7 @@ UNITS = {"seconds": "SEC", "cpu_seconds": "SEC", "peak_memory_mb": "MegaBYTE"}
 
 
 def entity(name, kind, /, **properties):
-    """Return an entity of the crate: None and empty lists left out, lists of one value opened."""
+    """Return an entity without None and empty lists; a list of one value becomes this value."""
     given = {key: value for key, value in properties.items() if value not in (None, [])}
     for key, value in given.items():
         if isinstance(value, list) and len(value) == 1:
@@ -63,10 +63,10 @@ def stamp(seconds):
 
 
 def jobs_of(root, files):
-    """Return the record of each job by the name of its log, with `output` and `values`."""
+    """Return a dict: name of a job's log -> Snakemake's record with all outputs and parameters."""
     folder, jobs = root / ".snakemake/metadata", {}
     for path in sorted(each for each in folder.rglob("*") if each.is_file()):
-        # Snakemake names a record by its output in base64, long names in folders that begin with @.
+        # Snakemake names a record by its output in base64; long names are split into @-folders.
         name = path.relative_to(folder).as_posix().replace("/", "").replace("@", "")
         output = base64.urlsafe_b64decode(name + "=" * (-len(name) % 4)).decode()
         record = json.loads(path.read_text())

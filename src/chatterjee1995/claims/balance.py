@@ -111,7 +111,7 @@ def _elastic_orbits(datasets):
 
 
 def design_multipliers(datasets):
-    """Return the largest Floquet multiplier modulus at Wp of each exact quiet orbit of figure 3."""
+    """Return the largest modulus of the multipliers of each exact quiet orbit of figure 3 at Wp."""
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     return np.array([reading.largest_multiplier(reading.design_point(each)) for each in followed])
 

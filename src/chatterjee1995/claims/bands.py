@@ -38,7 +38,7 @@ def widening(datasets):
 
 
 def _growth(series, width):
-    """Return the smallest ratio of the widths of two successive designs in several series."""
+    """Return the smallest ratio of a design's width to the width of the design before it."""
     return min(
         float(width(after) / width(before))
         for designs in series
@@ -47,7 +47,7 @@ def _growth(series, width):
 
 
 def _remaining(datasets, names):
-    """Return max |Z1| of each exact quiet orbit at Wp in units of the free resonance amplitude."""
+    """Return max |Z1| of exact quiet orbits at Wp, divided by max |Z1| of the free resonance."""
     return [
         float(reading.design_point(orbit).orbit_displacement)
         / orbits.resonance_fold(orbits.free_of(datasets, orbit))[1]

@@ -1,4 +1,4 @@
-"""Claims 12 to 14 and 19. A release switches the damper off. `case` is a dataset of `migration`."""
+"""Evidence for claims 12 to 14 and 19, from datasets of `migration` and releases (damper off)."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return for each damped motion of a kind the share of releases that lead to a free motion."""
+    """Return the shares of releases to a free motion, one for each damped motion of a kind."""
     rows = case.damped_kind.values == flag("damped_kind", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]
@@ -42,7 +42,7 @@ def release_phase(datasets):
 
 
 def _scanned(datasets, case):
-    """Return by W whether the phase of release selects the motion, in scans of a case's damper."""
+    """Return a dict: W -> whether the phase of release selects the motion, for a case's damper."""
     wanted = oscillator_of(case), damper_of(case)
     found = {}
     for scan in datasets.get("release_scan", {}).values():
@@ -56,7 +56,7 @@ def _scanned(datasets, case):
 
 
 def _nearest_range(decides, frequency):
-    """Return the ends of the range of W, nearest to `frequency`, in which `decides` is true."""
+    """Return both ends of the range of W nearest to `frequency` in which `decides` is true."""
     scanned = list(decides)
     ends = [
         (scanned[first], scanned[last - 1]) for first, last in runs_of_true(list(decides.values()))
@@ -93,7 +93,7 @@ def total_cycles(datasets):
 
 
 def early_release(datasets):
-    """Return the numbers of claim 19: release at W = 1.85 first leads to period 3, later to 1."""
+    """Return the numbers of claim 19: at W = 1.85 an early release leads to period 3."""
     case = reading.get(datasets, "migration", "figure_16")
     counts = case.destination_count.sel(damped_motion="unsettled")
     shares = counts / counts.sum()
@@ -115,7 +115,7 @@ def early_release(datasets):
 
 
 def by_policy(datasets, case, policy):
-    """Return a policy's share of runs that arrive, and their median cycles; NaN without data."""
+    """Return a policy's share of runs that arrive, and the median cycles of all runs, or NaN."""
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"
     for data in datasets.get("release_policies", {}).values():

@@ -7,11 +7,11 @@ from chatterjee1995.reading import orbits
 
 # Names of dampers with light masses, with a heavy mass, and on an oscillator with low damping.
 LIGHT, HEAVY, LOW_DAMPING = reading.BY_MASS[:2], reading.BY_MASS[2], "figure_08"
-AS_LARGE = 0.95  # least ratio to the free amplitude at which a subharmonic is called unchanged
+AS_LARGE = 0.95  # least ratio of damped to free size at which a subharmonic is called unchanged
 
 
 def _remaining(datasets, name):
-    """Return widths in W with stable subharmonics, and largest ratios of damped to free size."""
+    """Return widths in W of stable subharmonics, and the largest ratios of damped to free size."""
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
     edges = reading.band_edges(reading.get(datasets, "harmonic_balance", name))

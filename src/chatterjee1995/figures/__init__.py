@@ -1,1 +1,1 @@
-"""Figures, one module for each kind. A figure only draws: all numbers come from datasets."""
+"""Figures, one function for each kind. A figure only draws: all numbers come from datasets."""

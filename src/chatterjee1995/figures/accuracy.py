@@ -19,7 +19,7 @@ MODELS = {
     "many_harmonics": (style.SKY, "h", "-"),
     "shooting": (style.BLACK, "*", "none"),
 }
-# Marker and line of integrators that locate contacts or do not; below, of other Taylor orders.
+# Whether contacts are located -> marker and line. OTHER_ORDERS: the same for other Taylor series.
 LOCATED = {True: ("^", "-"), False: ("v", ":")}
 OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]
 # Quantity of the required accuracy -> variable or statistic of the dataset, and label of the axis.
@@ -32,7 +32,7 @@ QUANTITIES = {
     "displacement": ("displacement", r"Relative error of mean max $|Z_1|$"),
     "exponent": ("exponent", "Relative error of the Lyapunov exponent"),
 }
-FINEST = 1e-16  # smallest error drawn: below the rounding error of a double
+FINEST = 1e-16  # smallest error drawn, which is below the rounding error of a double
 # Values of `run_status` of runs that have a result.
 ENDED = "ok", "missed_contacts", "invented_contacts"
 DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
@@ -99,7 +99,7 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the runs of one method, doubtful ones with open markers; `bars`: standard errors."""
+    """Draw the runs of one method; doubtful runs get open markers. `bars` are standard errors."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     if bars is None:

@@ -1,4 +1,4 @@
-"""Errors of harmonic balance: with many harmonics, and as maps over two parameters."""
+"""Figures of the errors of harmonic balance: against harmonics, and as maps of two parameters."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap

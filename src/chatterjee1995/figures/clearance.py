@@ -1,4 +1,4 @@
-"""Optimum clearances: figures 6, 7 and 11 of the paper, design rules, and studies (grids)."""
+"""Figures of optimum clearances (the paper's 6, 7 and 11), of design rules and of studies."""
 
 from itertools import product
 
@@ -80,7 +80,7 @@ def _draw_sweep(axes, data, name):
 
 
 def _draw_errors(axes, datasets):
-    """Draw the share of optima that each rule predicts within an error, against the error."""
+    """Draw for each rule, against an error, the share of optima predicted within this error."""
     for rule, look in RULES.items():
         errors = np.concatenate(
             [

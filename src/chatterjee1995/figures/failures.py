@@ -1,4 +1,4 @@
-"""Contacts that integrators miss near grazing, and largest steps that keep the quiet motion."""
+"""Figures of contacts missed near grazing, and of the largest steps that keep the quiet motion."""
 
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -66,7 +66,7 @@ def _panel(axes, data, name):
 
 @style.context()
 def draw_stable_steps(*, stable_steps):
-    """Draw the largest step that keeps the motion against contact stiffness, a panel per damper."""
+    """Draw the largest stable step over contact stiffness, one panel for each damper."""
     drawn = style.figure("double", 3.9)
     panels = drawn.subplots(1, len(stable_steps), sharey=True, squeeze=False)[0]
     for axes, data in zip(panels, stable_steps, strict=True):

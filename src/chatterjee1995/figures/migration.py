@@ -1,4 +1,4 @@
-"""Migration control: figures 13 to 16, basins, and policies of release (switching off)."""
+"""Figures of migration control (13 to 16), of basins, and of policies of release (damper off)."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from impact_damper.plot.basin_plane import basins as basins_plot
 from impact_damper.plot.motions import migration as migration_plot
 
 AROUND = -15, 25  # first and last cycle of the detail panel, relative to the last release
-# Destination of a release -> marker. Below: motion with damper -> panel title.
+# Motion after a release -> marker. MOTIONS: motion with damper before the release -> panel title.
 DESTINATIONS = {
     "non_resonance": style.markers(
         "released to the non-resonance motion", style.BLUE, ".", markerfacecolor=style.BLUE
@@ -50,7 +50,7 @@ def draw_migration(*, migration):
 
 @style.context()
 def draw_release(*, migration):
-    """Draw the states at which the damper is switched off, with a marker for each destination."""
+    """Draw the states at which the damper is switched off; markers show the motion that follows."""
     sources = [(runs, row) for runs in migration for row in range(runs.sizes["damped"])]
     columns = 3 if len(sources) % 3 == 0 else 2
     drawn, panels = style.grid(len(sources), 2.6, 0.6, columns)

@@ -1,4 +1,4 @@
-"""Responses, branches of orbits and shares of starts: figures 2 to 5, 8 and 10 of the paper."""
+"""Figures of responses, branches and shares of starts: 2 to 5, 8 and 10 of the paper."""
 
 from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
 from impact_damper.plot import style

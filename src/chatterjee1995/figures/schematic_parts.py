@@ -5,7 +5,7 @@ from matplotlib.patches import Circle, FancyArrowPatch, Rectangle
 
 from impact_damper.plot import style
 
-STROKES = {"outline": 1.1, "detail": 0.8, "fine": 0.5}  # points
+STROKES = {"outline": 1.1, "detail": 0.8, "fine": 0.5}  # line widths in points
 LETTER = {"ha": "center", "va": "center", "size": 10.0}
 
 

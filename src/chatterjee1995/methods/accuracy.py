@@ -42,7 +42,7 @@ meets_accuracy | run | | | whether the run meets the accuracy required by the sc
 )
 
 LONGER = 4  # length of the reference run of a chaotic motion, in lengths of a compared run
-# Allowed error of the contacts per cycle of chaos: CONTACTS_OFF of them plus SURE standard errors.
+# In chaos the contacts per cycle may err by a fraction CONTACTS_OFF and by SURE standard errors.
 CONTACTS_OFF, SURE = 0.1, 2
 
 
@@ -105,7 +105,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield label, tolerance, `Run` and its cycles; slow integrators run `slow_periods` cycles."""
+    """Yield label, tolerance, `Run` and its cycles, `slow_periods` of slow integrators."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:
@@ -156,7 +156,7 @@ def _errors(scene, settings, reference):
 
 
 def _status(ended, wrong):
-    """Return the flag `run_status`, from the status of a `Run` and the excess of contacts in it."""
+    """Return the flag `run_status`, from the status of a `Run` and its excess of contacts."""
     if ended != "ended":
         return flag("run_status", ended)
     if wrong == 0:
@@ -193,9 +193,9 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return when contacts begin by a model; contact k belongs to contact k of the reference.
+    """Return the times at which contacts begin by a model, in the order of the reference.
 
-    If a cycle has another number of contacts the times are NaN, and only their number is right.
+    If the contacts do not match those of the reference, each contact of the model has the time NaN.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods

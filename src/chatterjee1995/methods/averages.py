@@ -13,7 +13,7 @@ from impact_damper.motions.strobe_map import strobe_time
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return the contacts per cycle and the mean over cycles of the largest |Z1|, by batch."""
+    """Return for each batch the contacts per cycle, and the mean over its cycles of max |Z1|."""
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
     contacts = np.histogram(run.contact_times, edges)[0]
@@ -28,7 +28,7 @@ def of_run(p, run, begin, periods, batch):
 
 
 def exponents(p, start, tolerance, periods, batch, restitution=None):
-    """Return the largest Lyapunov exponent of each batch, for rigid walls with `restitution`."""
+    """Return the largest Lyapunov exponent of each batch; a `restitution` makes walls rigid."""
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)
@@ -45,7 +45,7 @@ def exponents(p, start, tolerance, periods, batch, restitution=None):
 
 
 def estimates(batches):
-    """Return means and standard errors (rows) of STATISTICS (columns), NaN where one is missing."""
+    """Return means and standard errors (rows) of STATISTICS (columns), NaN if not measured."""
     table = np.full((2, len(STATISTICS)), np.nan)
     for k, name in enumerate(STATISTICS):
         if name in batches:

@@ -75,7 +75,7 @@ def contact(restitution, load, rule) -> Exit:
 
 
 def pull_time(restitution, load) -> float:
-    """Return the fraction of the time until u = 0 with a tensile wall force, NaN without end."""
+    """Return the fraction of the time until u = 0 in which the wall pulls, NaN without end."""
     penetration, force = _waves(restitution, load)
     end = penetration.first_fall()
     return math.nan if end == math.inf else (end - min(force.first_fall(), end)) / end

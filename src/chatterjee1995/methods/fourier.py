@@ -8,8 +8,7 @@ import numpy as np
 from scipy.fft import next_fast_len
 from scipy.optimize import brentq
 
-# In the search for crossings, intervals narrower than SHORTEST (in radian) are not halved.
-SHORTEST = 1e-9
+SHORTEST = 1e-9  # width in radian below which the search for crossings halves no interval
 
 
 def samples(coefficients, harmonics, count) -> np.ndarray:

@@ -6,8 +6,7 @@ import numpy as np
 
 from impact_damper.motions.following import Followed, follow
 
-# A step that fails is halved; the shortest is this fraction of the distance between two cells.
-SHORTEST = 1 / 32
+SHORTEST = 1 / 32  # shortest step along the line between two cells, divided by their distance
 
 
 def follow_line(

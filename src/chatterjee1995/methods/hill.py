@@ -8,15 +8,15 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
 # Above DENSE unknowns only the eigenvalues nearest zero are computed, COPIES for each exponent.
 DENSE, COPIES = 100, 3
-# The exponent of a negative real multiplier has copies with the imaginary parts W and -W. An
-# imaginary part within EDGE * W of W is set to W. A copy as near to -W is left out.
+# If the multiplier of half a cycle is real and negative, the exponent has copies with imaginary
+# parts W and -W. A part within EDGE * W of W is set to W. A copy as near to -W is left out.
 EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
     """Floquet exponents per unit of T, by ascending real part; NaN unless the status is "found".
 
-    The status is "not_separated" unless 2 (with a damper 4) eigenvalues have |Im lambda| < W.
+    Status "not_separated": more or fewer than 2 (4 with damper) eigenvalues have |Im lambda| <= W.
     """
 
     values: np.ndarray

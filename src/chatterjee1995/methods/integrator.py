@@ -8,15 +8,14 @@ from numpy.polynomial.polynomial import polyder, polyval
 from chatterjee1995.methods.equations import rate, wall_at
 from impact_damper.model.packed import CLEARANCE
 
-# Number of bisections that locate a root to the accuracy of floating-point numbers.
-HALVINGS = 54
+HALVINGS = 54  # bisections that locate a root to the accuracy of floating-point numbers
 
 
 class Run(NamedTuple):
     """A motion by an integrator; `status` is "ended", "failed", or "capped" after too much work.
 
     `operations` is the number of floating-point operations. Contacts begin at `contact_times`.
-    `peaks` are the local maxima of |Z1| and |Z1| at both ends of the run, and have `peak_times`.
+    `peaks` are |Z1| at its local maxima and at both ends of the run, at the times `peak_times`.
     """
 
     status: str
@@ -41,10 +40,10 @@ class Integrator:
     forcing cycles. If `locate` is true, steps end where contacts begin and end. `resolution` is the
     number of steps in a cycle if steps are `fixed`, and otherwise a tolerance.
 
-    Figures show integrators in the order of `place`. A stage in `compared` calls its methods in
-    REQUIRED. The stage `accuracy` reads `located` (values of `locate`), `tolerances` (a name in
-    `labels.TOLERANCE_KEYS`) and `slow` (whether runs are limited). The stage `stable_steps` reads
-    `stability_limit`, the largest stable product of step and frequency without damping.
+    Figures show integrators in the order of `place`. Each stage in `compared` calls the methods
+    that REQUIRED names. The stage `accuracy` reads `located` (values of `locate`), `tolerances` (a
+    name in `labels.TOLERANCE_KEYS`) and `slow` (whether runs are limited). The stage `stable_steps`
+    reads `stability_limit`, the largest stable product of step and frequency without damping.
     """
 
     REQUIRED: ClassVar = {
@@ -95,7 +94,7 @@ def read_off(p, work, times, ends):
 
 
 def _beginnings(p, times, ends):
-    """Return the times at which |Z2| = d0, in all steps from the gap to a wall or beyond it."""
+    """Return the times at which |Z2| = d0, one in each step from the gap to a wall or beyond."""
     place, distance = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
     inside = (distance > 0) | ((distance == 0) & (place * ends[:, 3] < 0))
     steps = np.flatnonzero(inside[:-1] & ~inside[1:])

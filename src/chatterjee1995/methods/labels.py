@@ -22,7 +22,7 @@ TOLERANCE_KEYS = ("taylor", "merson", "scipy")
 
 
 def method_in_words(label) -> str:
-    """Return the title for the label of a model, an integrator or a run, or else the label."""
+    """Return the title of a model, an integrator or a run by its label; an unknown label stays."""
     if label in MODELS:
         return MODELS[label]
     if label in integrators():

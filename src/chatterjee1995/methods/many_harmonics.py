@@ -131,8 +131,8 @@ def _real(by_value, by_conjugate):
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
 
 
-# Newton's method converges when a step changes coefficients by at most TOLERANCE times the largest
-# one. It takes at most ITERATIONS steps, each multiplied by a factor of at least LEAST_DAMPING.
+# Newton's method has converged if no coefficient changes by more than TOLERANCE times the largest.
+# It takes at most ITERATIONS steps, each multiplied by a factor of at least LEAST_DAMPING.
 TOLERANCE, ITERATIONS, LEAST_DAMPING = 1e-11, 40, 1e-4
 
 
@@ -152,7 +152,7 @@ def solve(balance, start) -> Solution:
     """Solve the equations of a balance by the damped Newton's method.
 
     The natural monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
-    3.3) decides whether a step is halved. The residual cannot, as the stiff contact dominates it.
+    3.3) decides whether a step is halved. The residual cannot decide: stiff contact dominates it.
     """
     count = len(balance.harmonics)
     now = np.zeros((len(start), count), complex)
@@ -182,7 +182,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return coefficients of the solution of (7) with the least |a|, or the largest free one."""
+    """Return coefficients of the solution of (7) with the least |a|, or of the largest free one."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2

@@ -1,4 +1,4 @@
-"""Contacts near grazing that integrators miss; one run without walls is judged for all walls."""
+"""Contacts near grazing that integrators miss; one run without walls serves for all depths."""
 
 import math
 
@@ -68,7 +68,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return counts of passages by depth and outcome, of spurious contacts, and a median error."""
+    """Return counts of passages (depth, outcome) and of spurious contacts, and the median error."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)

@@ -1,4 +1,4 @@
-"""Passages: random flights without walls, with their largest |Z2| up to rounding errors."""
+"""Passages: random flights without walls, and their largest |Z2|, exact but for rounding."""
 
 import math
 from typing import NamedTuple

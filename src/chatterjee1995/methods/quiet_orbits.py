@@ -44,7 +44,7 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
 
 
-# Phase W T of the states, in flight. Contacts lie in about -0.2 ... pi/2, and half a cycle later.
+# Phase W T of the states, without contact. Contacts lie in about -0.2 ... pi/2 and half a cycle on.
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between cells, divided by their distance
@@ -83,7 +83,7 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Return the quiet orbits of a grid, followed from `states` at W T = pi/2, NaN if unknown."""
+    """Return the quiet orbits of a grid, followed from those cells whose `states` are not NaN."""
     grid = Grid(parameters, find_quiet_orbit, shortest=SHORTEST, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
         at_strobe = shoot(parameters[cell], states[cell], 1, STROBE)
@@ -161,7 +161,7 @@ RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return both optima of rm W^2 d0/f for e = 1, to first order in `contact` and `damping`."""
+    """Return rm W^2 d0/f of both CRITERIA for e = 1, to first order in `contact` and `damping`."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio

@@ -28,7 +28,7 @@ from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE, strobe
 # Impacts in a cycle at which the integration stops; with e < 1 infinitely many can follow.
 MOST_IMPACTS = 200
 ITERATIONS = 12  # most steps of Newton's method
-SAME_SPEED = 1e-6  # largest relative difference of both approach speeds in a symmetric orbit
+SAME_SPEED = 1e-6  # largest relative difference of the two approach speeds in a symmetric orbit
 
 
 @kernel
@@ -62,7 +62,7 @@ def rigid_map(p, restitution, y, tolerance):
 
     The dashpot in p must be 0. Return the final state, its derivative by y, the number of impacts,
     the smallest |Z2'| before an impact, |Z2'| and the acceleration of Z1 towards the wall before
-    the first impact, and the largest |Z1|. After MOST_IMPACTS only their number is valid.
+    the first impact, and the largest |Z1|. After MOST_IMPACTS only the number is valid.
     """
     state = y.copy()
     tangents = np.eye(4)

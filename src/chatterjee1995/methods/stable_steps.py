@@ -38,11 +38,11 @@ contact_frequency | contact_stiffness | | omega_c | natural frequency of an unda
     """
 )
 
-ACCURACIES = (0.01, 0.1)  # relative differences of max |Z1| from the exact orbit, in any cycle
-# Largest ratio of successive r1 in following orbits; largest distance of a state from its guess.
+ACCURACIES = (0.01, 0.1)  # allowed relative error of max |Z1| in each cycle
+# FACTOR: largest ratio of successive r1. REACH: largest distance of an orbit from its first guess.
 FACTOR, REACH = 10.0**0.0625, 0.2
 EXACT = 1e-13  # local error allowed in the exact orbits, the reference of the runs
-CONFIRMED = 4  # number of smallest steps that must all keep the motion for a stable step
+CONFIRMED = 4  # number of smallest tested steps, all of which must keep the motion
 STIFF = 1e3  # r1 above which contacts are short, for the fit of the exponent of the stable step
 
 
@@ -87,7 +87,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step that holds with all smaller ones, NaN if fewer than CONFIRMED do."""
+    """Return the largest step that holds with all smaller steps; NaN if fewer than CONFIRMED."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0

@@ -41,9 +41,9 @@ def quiet_motions(response, free):
 
 
 def suppression_band(datasets, name):
-    """Return the `Band` of a curve, without violent motions; it ends where the free resonance ends.
+    """Return the `Band` of a curve, from the last violent motion to the end of the free resonance.
 
-    The resolution is 0 if a branch of orbits ends at `lower`, else at most one frequency step.
+    The resolution is 0 if all violent motions are periodic, else at most one frequency step.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

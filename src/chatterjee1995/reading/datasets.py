@@ -8,7 +8,7 @@ import numpy as np
 from impact_damper.data.datasets import decode, flag, has_damper, parameters_of
 
 # Entries of the configuration. CAPTIONS: dampers with d0 of the captions of figure 3, by increasing
-# omega_l. RULES: CAPTIONS with d0 by rule (19). BY_MASS: dampers of figure 5, by increasing rm.
+# omega_l. RULES: the same with d0 by rule (19). BY_MASS: dampers of figure 5, by increasing rm.
 # ELASTIC: all simulated responses with elastic contact. INELASTIC: BY_MASS[1] with e < 1.
 CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")
 RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")
@@ -123,7 +123,7 @@ def quiet_balance(design):
 
 
 def design_point(orbit):
-    """Return the exact quiet orbit at Wp, the last of its branch in damping, or raise Missing."""
+    """Return the exact quiet orbit at Wp, with the least h of its branch, or raise Missing."""
     if int(orbit.design_orbit_status) != flag("design_orbit_status", "found"):
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))

@@ -1,6 +1,7 @@
 """Branches of exact periodic orbits, cut into pieces and evaluated at any frequency.
 
-`free` are branches without damper. A high (violent) orbit exceeds half of the free resonance.
+`free` are branches without damper. A high (violent) orbit has more than half the max |Z1| of the
+free resonance.
 """
 
 import numpy as np
@@ -35,8 +36,8 @@ def pieces(branches) -> pd.DataFrame:
 
     `lower` and `upper` are the ends in W. `size` is max |Z1| in the middle. `amplitude` and `loose`
     are the complex first harmonic of Z1 there, with the phase relative to Z2 and to x2. A name with
-    `_change` holds the difference between the ends. `fewest` and `contacts` are the least and most
-    contacts of both orbits. `restitution` is their least ratio of departure to approach speed.
+    `_change` holds the difference between the ends. `fewest` and `contacts` are the smaller and the
+    larger number of contacts. `restitution` is the least ratio of departure to approach speed.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])

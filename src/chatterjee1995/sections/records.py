@@ -41,7 +41,7 @@ class Shown:
     name: str
     chapter: str
     module: str  # name in the package `tables` or `figures`, or full name
-    stages: tuple[str, ...]  # stages read; a drawn entry of `curves` must have the first one
+    stages: tuple[str, ...]  # stages read; drawn entries of `curves` must list the first stage
 
     room: ClassVar[str]
 

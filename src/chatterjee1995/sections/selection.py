@@ -6,7 +6,7 @@ from chatterjee1995.sections.registry import KINDS, PAPER, STAGES, TABLES, secti
 from impact_damper.model.parameters import SYMBOLS
 from impact_damper.model.text import number
 
-MANY = 3  # longest list printed in full; of a longer list the text gives smallest and largest value
+MANY = 3  # length above which the text gives only the smallest and the largest value of a list
 # Key of an entry that holds several values of a parameter -> name of the parameter.
 SWEPT = {
     "mass_ratios": "mass_ratio",
@@ -31,7 +31,7 @@ def job(config, stage, name) -> dict:
 
 
 def read_by(config, stage, name) -> dict:
-    """Return a dict: keyword -> stages whose datasets of the entry `name` the job reads."""
+    """Return a dict: keyword of a job -> stages whose datasets of its entry `name` are read."""
     return {
         key: [each for each in stages if name in entries(config, each)]
         for key, stages in STAGES[stage].reads.items()
@@ -39,7 +39,7 @@ def read_by(config, stage, name) -> dict:
 
 
 def figure_data(config, name) -> dict:
-    """Return the entries that a figure draws, by stage; `branches` include free oscillators."""
+    """Return the entries that a figure draws, by stage; of `branches` also those without damper."""
     figure = config.figures[name]
     kind, found = KINDS[figure.kind], {}
     for stage in kind.stages:

@@ -1,4 +1,4 @@
-"""Map of the errors of single-term harmonic balance, for quiet and for high (resonant) motions."""
+"""Map of the errors of single-term harmonic balance, for quiet and for high (violent) motions."""
 
 from dataclasses import replace
 from functools import lru_cache, partial
@@ -60,15 +60,15 @@ high_verdict | map_value frequency_ratio | | | high motion: result of harmonic b
     """
 )
 
-NEAR = 0.2  # relative difference of max |Z1| from its prediction up to which a motion is "near"
+NEAR = 0.2  # largest relative difference of max |Z1| from the prediction of a "near" motion
 HIGH = 0.5  # fraction of the free resonance amplitude below which a motion is quiet, else high
 
 
 class Cells(NamedTuple):
     """Solutions of harmonic balance in all cells, and starts at T = 0; NaN without a solution.
 
-    `resonance` is the amplitude of the free resonance branch, beyond its end the amplitude at the
-    end. Without a high solution `high_start` is on the branch, with the loose mass at rest.
+    `resonance` is the amplitude on the free resonance branch or, beyond the branch, at its end.
+    Without a high solution `high_start` is on this branch, with the loose mass at rest.
     """
 
     resonance: np.ndarray
@@ -83,8 +83,8 @@ class Cells(NamedTuple):
 def balance_cells(rows) -> Cells:
     """Solve the harmonic balance (7) in all cells of a map.
 
-    The quiet solution is that with the smallest |a|, if |a| < HIGH times the free resonance. The
-    high solution is the stable one with the largest |a|, if |a| is not below this limit.
+    The quiet solution has the smallest |a|, which must be below HIGH times the free resonance. The
+    high solution has the largest |a| of stable solutions, which must not be below this limit.
     """
     cells = [
         [_cell(oscillator, damper, frequency) for frequency in frequencies]

@@ -1,7 +1,7 @@
 """Map of the contact model over restitution and load, and the loads of simulated motions.
 
-The load is G = g/(wn v0). All forces except that of the contact cause the acceleration g towards
-the wall, wn is the natural frequency of the contact, and v0 the approach speed.
+The load is G = g/(wn v0). All forces except the contact force cause the acceleration g towards the
+wall. The natural frequency of the contact is wn, and the approach speed is v0.
 """
 
 from dataclasses import replace
@@ -38,7 +38,7 @@ contact_load | contact | | | load at the beginning of a contact
     """
 )
 
-LINEAR = 1e-3  # |G| below about which the loads of the map are evenly spaced
+LINEAR = 1e-3  # |G| below which the loads of the map are spaced almost evenly
 CLOSE, FAIR = 0.01, 0.05  # largest relative errors of a "close" and of a "fair" restitution
 SIZES = ("smallest", "largest")  # simulated motions at each restitution and frequency
 
@@ -58,7 +58,7 @@ def contact_model(
 ):
     """Compute the contact for each restitution and load, and the loads of simulated motions.
 
-    Each restitution in `used` has two motions, the smallest and the largest of `starts` runs.
+    For each `used` restitution and frequency, `starts` runs yield a smallest and a largest motion.
     """
     used, frequencies = np.array(used, float), np.array(frequencies, float)
     data = contact_map(restitutions, loads) | unloaded_table(used)

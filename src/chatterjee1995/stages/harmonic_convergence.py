@@ -42,8 +42,8 @@ decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmon
     """
 )
 
-# Errors; predicted powers of 1/N at which they decrease, for elastic and for inelastic contacts;
-# predicted rates of exponential decrease without contacts, in units of W `singularity_distance`.
+# Errors, and the decrease predicted for each: the power of 1/N with elastic or inelastic contacts,
+# and without contacts the rate of exponential decrease in units of W `singularity_distance`.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
@@ -140,7 +140,7 @@ FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 
 def ladder(highest) -> np.ndarray:
-    """Return odd numbers N up to `highest`: all up to 15, then three for each doubling."""
+    """Return odd numbers N up to `highest`: all up to 15, and above three in each doubling."""
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
     return np.unique(chosen[chosen <= highest])
@@ -149,7 +149,7 @@ def ladder(highest) -> np.ndarray:
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     """Return a dataset of symmetric motions by harmonic balance, their stability and errors.
 
-    Newton's method starts from the last converged balance, for N in `cold` also from one term.
+    Newton's method starts from the last converged balance; for N in `cold` also from one harmonic.
     """
     harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
@@ -225,7 +225,7 @@ def errors(solutions, multipliers, exact):
 
 
 def _farthest(values, references):
-    """Return the largest distance in pairs of values and references with the least total one."""
+    """Return the largest distance in the pairs of both arrays with the least total distance."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)
@@ -233,7 +233,7 @@ def _farthest(values, references):
 
 
 def decay_table(harmonics, data, damper, p, exact):
-    """Return the predicted decrease of errors and the one fitted above `asymptotic_harmonic`."""
+    """Return the decrease of errors, predicted and fitted above `asymptotic_harmonic`."""
     lowest = asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = decay(damper, p, exact.strobe_states[0])
     scale = np.log(harmonics) if kind == "algebraic" else harmonics

@@ -45,7 +45,7 @@ POLICIES = ["settled", "hold", "phase", "state"]
 # Fixed numbers of cycles that are tried, each about 1.6 times the one before.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
-# Results of a hold (a time with the damper on); `state` and cycles `ahead` are of the next strobe.
+# Results of a hold, a time with the damper on. The next strobe is `ahead` cycles off, with `state`.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
@@ -176,7 +176,7 @@ class Trials(NamedTuple):
 
 @kernel
 def hold_many(on, off, starts, draws, limits, rules, depth, half, tolerance, held, stop):
-    """Per trial switch the damper on, `hold` it on, and run on to the next strobe (W T = pi/2).
+    """In each trial switch the damper on, call `hold`, and run to the next strobe (W T = pi/2).
 
     `starts` (n, 2) are Z1 and Z1' at the strobe before switching on. `draws` give the phase of
     switching on, the place of the loose mass and the phase of release. `held` receives the results.

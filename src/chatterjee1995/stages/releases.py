@@ -31,7 +31,7 @@ from impact_damper.motions.sweep import Catalogue
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-LEAD = 20  # number of cycles at the beginning of a run, which depend on its start, without release
+LEAD = 20  # cycles at the beginning of a run without a release, in which the start has an influence
 PAPER_CYCLES = 350  # cycles within which the paper's controller reaches the non-resonance branch
 CAPTURE = 0.1  # largest difference in Z1 or Z1' between a captured run and its orbit
 # A release: phase in cycles after a strobe (W T = pi/2), Z1 and Z1', and the resulting free motion.
@@ -100,7 +100,7 @@ def _example(totals):
 
 
 def _summary(switchings, totals):
-    """Return the shares of runs that arrive, and numbers of releases by motion before and after."""
+    """Return shares of runs that arrive, and numbers of releases by motions before and after."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     within = reached & (totals["total_time"] <= PAPER_CYCLES)
     before, after = switchings["released_from"], switchings["destination"]
@@ -190,7 +190,7 @@ def release_data(case, motions, entries, settling):
 
 
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
-    """Return settled motions, sorted by max |Z1|: `known`, from random states, and from (7)."""
+    """Return settled motions by max |Z1|: `known` ones, and those from random states and (7)."""
     on = pack(oscillator, damper, frequency)
     # The solutions for elastic contact are good starts for an inelastic damper too.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)

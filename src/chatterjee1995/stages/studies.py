@@ -59,7 +59,7 @@ def study_chunk(
 ):
     """Return the motions to which random starts lead, in a range of cells of a grid.
 
-    `cells` are the number of the first cell of the chunk, and one plus that of the last cell.
+    `cells` are the number of the first cell of the chunk, and the number after its last cell.
     """
     axes = {name: np.asarray(axes[name], float) for name in AXES}
     shape, (first, last) = [len(values) for values in axes.values()], cells

@@ -50,7 +50,8 @@ def subharmonic_suppression(
 ):
     """Find all motions with the damper over the range of W of the free subharmonic.
 
-    This range replaces that of `frequencies`. Half of the starts are on the free subharmonic.
+    This range with margins replaces the ends of `frequencies`. Half of the starts are on the free
+    subharmonic.
     """
     if oscillator.cubic == 0:
         raise ValueError(
@@ -129,7 +130,7 @@ def is_subharmonic(data):
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return both ends of a branch of a `sweep`, or its last frequency where no end was located."""
+    """Return both ends of a branch of a `sweep`; an end not located is its last frequency."""
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):

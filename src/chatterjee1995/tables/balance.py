@@ -31,7 +31,7 @@ TRUTHS = {
 
 
 def harmonic_balance(datasets) -> pd.DataFrame:
-    """Return for each curve the d0 of rule (19), and harmonic balance and exact orbit at Wp."""
+    """Return for each curve d0 by rule (19), and amplitudes at Wp by balance and exact orbits."""
     rows = []
     for name, data in reading.damped(datasets, "harmonic_balance").items():
         peak = float(data.peak_frequency)
@@ -125,7 +125,7 @@ def _needed(highest, error, accuracy):
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Return the numbers of map cells with each verdict, with chaos, and with near amplitudes."""
+    """Return the numbers of map cells with each verdict, with chaos, and with a near amplitude."""
     rows = []
     for name, data in datasets.get("balance_map", {}).items():
         found = []

@@ -1,4 +1,4 @@
-"""Tables written as CSV and as Markdown, and columns that several of them have."""
+"""Tables written as CSV and as Markdown, and columns that several tables have."""
 
 import numbers
 import re

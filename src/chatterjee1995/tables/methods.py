@@ -21,7 +21,7 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return by scene (test case) and method the cheapest accurate, else the most accurate run."""
+    """Return for each scene and method the cheapest accurate run, or else the most accurate run."""
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
         asked = parameters_of(data)["accuracy"]
@@ -130,7 +130,7 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return, by r1 and accuracy, the largest step up to which all steps are accurate."""
+    """Return for each method, accuracy and r1 the largest step up to which all are accurate."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         cycle = 2 * np.pi / reading.parameter(data, "frequency")

@@ -99,7 +99,7 @@ class Job:
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Return the result of the stage's function; it gets what it accepts of `offered`."""
+        """Return the result of the stage's function, with those of `offered` that it accepts."""
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}
@@ -186,7 +186,7 @@ def _write_timing(path):
 
 
 def peak_memory() -> float:
-    """Return the peak memory of this process in MB; `ru_maxrss`, read last, includes a parent's."""
+    """Return the peak memory of this process in MB; the fallback `ru_maxrss` may be a parent's."""
     status = Path("/proc/self/status")
     if status.exists():
         lines = status.read_text().splitlines()

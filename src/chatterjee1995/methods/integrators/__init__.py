@@ -7,7 +7,7 @@ from importlib import import_module
 
 @cache
 def integrators(stage=None) -> dict:
-    """Return integrators by name in the order of `place`: those a stage compares, or all."""
+    """Return a dict of all integrators, or of those of a stage, by name in the order of `place`."""
     modules = [import_module(f"{__name__}.{each.name}") for each in pkgutil.iter_modules(__path__)]
     declared = [each for module in modules for each in module.INTEGRATORS]
     declared.sort(key=lambda each: each.place)
@@ -16,7 +16,7 @@ def integrators(stage=None) -> dict:
 
 @cache
 def runs_of_accuracy() -> dict:
-    """Return the integrator and the value of `locate` for each run label of `accuracy`."""
+    """Return a dict: label of a run of the stage `accuracy` -> integrator and `locate`."""
     return {
         each.label(located): (each, located)
         for each in integrators("accuracy").values()

@@ -12,8 +12,8 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
 # Floating-point operations of a step: five evaluations of the rate, and their combinations.
 STEP_OPERATIONS = 366
-# A run fails if a step is shorter than SHORTEST, or with more than MOST_STEPS steps in one call of
-# `advance_merson`, MOST_ENDS steps in a forcing cycle, or MOST_FLIGHT_ENDS steps in a flight.
+# A run fails if a step is shorter than SHORTEST, or if there are more than MOST_STEPS steps in a
+# call of `advance_merson`, MOST_ENDS in a forcing cycle, or MOST_FLIGHT_ENDS in a flight.
 SHORTEST = 1e-12
 MOST_STEPS, MOST_ENDS, MOST_FLIGHT_ENDS = 10**6, 400_000, 10**5
 FIRST = 1e-3  # length of the first step in forcing cycles
@@ -21,7 +21,7 @@ FIRST = 1e-3  # length of the first step in forcing cycles
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return state and error/tolerance after a step; `by_position` takes the wall from Z2."""
+    """Return state and error/tolerance after a step; with `by_position` Z2 determines the wall."""
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
     k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
@@ -41,7 +41,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Return length and end state of the step to |Z2| = d0 within h, and the number of trials."""
+    """Return length and end state of the step <= h to |Z2| = d0, and the number of trials."""
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])

@@ -24,9 +24,9 @@ from impact_damper.motions import traces
 FLIGHT, MEETING, CONTACT = range(3)
 # Orders of the series in flight and in contact with which the library integrates.
 ORDERS = FLIGHT_ORDER, CONTACT_ORDER
-# Columns of the row of a step: time at its beginning, length, wall in contact before it, and after
-# it (-1, 1, or 0 for none); columns from SERIES on: coefficients of the series of Z1. ROWS is the
-# largest number of steps in one call of `take_steps`.
+# Columns of the row of a step: time at the beginning, length, wall in contact before the step, wall
+# after the step (-1, 1, or 0 for none), and from SERIES on the coefficients of the series of Z1.
+# ROWS is the largest number of steps in one call of `take_steps`.
 ROWS, SERIES = 4096, 4
 PARTS = 8  # number of parts of a step; a velocity is assumed to vanish at most once in a part
 
