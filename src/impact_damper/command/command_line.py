@@ -304,7 +304,7 @@ def answer(decide, made, machine_file, file, force, as_json):
 
 
 def damper(given, gap):
-    """Return the damper with a gap and with a design's contact stiffness; None without a gap."""
+    """Return a damper with a gap and the contact stiffness of a design, or None without a gap."""
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.task import Task
 
@@ -325,7 +325,7 @@ def quantity(text):
 
 
 def write_report(data, file, folder):
-    """Write the page of the dataset in a file into a folder; return the path of the page."""
+    """Write the page of a dataset, stored as `file`, into a folder; return the path of the page."""
     from impact_damper.plot.pages.render import write_page
 
     name = Path(data.attrs.get("input_file", file.name)).stem

@@ -232,7 +232,7 @@ _Loader.add_implicit_resolver(
     list("-+.0123456789"),
 )
 # Values of keys that a file may leave out. If all of 73 starts lead to quiet (small) motions, the
-# lower end of Wilson's 95 % interval of their share is 0.95, the value of `share`.
+# lower end of Wilson's 95 % interval of the share of quiet motions is 0.95, the value of `share`.
 DEFAULTS = {"candidates": 8, "starts": 73, "share": 0.95, "tolerances": {"gap": 0.2}}
 POINTS = 9  # number of frequencies in the band
 

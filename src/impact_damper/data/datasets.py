@@ -27,7 +27,7 @@ PIECE = 2**14
 
 
 def variable(name, data, dims=None) -> xr.Variable:
-    """Return a variable with the attributes and (unless `dims` is given) dimensions of `name`."""
+    """Return a variable as registered under `name`; `dims` replaces the registered dimensions."""
     entry = VARIABLES[name]
     attributes = {"long_name": entry.long_name, "units": entry.units}
     if entry.symbol:
@@ -124,7 +124,7 @@ def _kind(name, data):
     if kind != "followed":
         return kind
     parameter = parameters_of(data).get("parameter")
-    # the coordinate of a sweep is its parameter
+    # The parameter of a sweep is not stored by name, but is the coordinate of the sweep.
     swept = "clearance" if "clearance" in data.coords else "frequency"
     return facts_of(parameter)[1] if parameter else swept
 

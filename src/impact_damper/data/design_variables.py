@@ -2,8 +2,8 @@
 
 from impact_damper.data.variables import register
 
-# Largest displacement at a gap that keeps the promise, in units of the promised displacement;
-# smallest share by which a damper worth building lowers the largest displacement.
+# A gap keeps the promise if its largest displacement is at most KEEPS times the promised one. A
+# damper is worth building if it lowers the largest displacement by at least the fraction WORTH.
 KEEPS, WORTH = 1.1, 0.25
 
 register(
@@ -36,11 +36,11 @@ promised_share | | | | share of the starts for which the displacement is promise
 promise_starts | | | | number of new starts at each frequency and set of factors
 promise_rank | | | | rank, from the largest, of the start whose displacement is the bound
 gap_promised_displacement | | displacement | | promised displacement if the gap alone deviates
-confirmation | | | | whether no other gap of the search promised less by over 10 per cent
+confirmation | | | | whether the promise exceeds the least of the search by at most 10 per cent
   : confirmed 0, rounds_ended 1, given 2
 peak_status | | | | whether the peak between frequencies is known to 1 %
   : known 0, not_known 1
-record_status | | | | whether records of motions that do not settle still grew by 1 % at last
+record_status | | | | whether motions that do not settle exceeded their extrapolation to the end
   : known 0, still_grows 1
 largest_bare_displacement | | displacement | | largest displacement without damper over the band
 largest_bare_frequency | | frequency | | frequency of the largest displacement without damper

@@ -16,7 +16,7 @@ DOUBT = 0.05
 def wilson_intervals(successes, total):
     """Return the ends of Wilson's 95 % intervals of k successes in n > 0 trials, shape (..., 2).
 
-    With q = QUANTILE they are [k + q^2/2 -+ q sqrt(k (n - k)/n + q^2/4)]/(n + q^2).
+    With q = QUANTILE the ends are [k + q^2/2 -+ q sqrt(k (n - k)/n + q^2/4)]/(n + q^2).
     """
     k, n = np.broadcast_arrays(np.asarray(successes, float), total)
     middle, square = k + QUANTILE**2 / 2, QUANTILE**2
@@ -34,7 +34,7 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return k: at least a share of all values lies below the k-th largest of `total` values.
+    """Return k: the k-th largest of `total` values bounds at least a share of all values.
 
     The bound holds with the confidence 1 - doubt for any distribution (S. S. Wilks, Ann. Math.
     Stat. 12, 1941). k is 0 if there are too few values.
@@ -43,7 +43,7 @@ def bounding_rank(share, total, doubt=DOUBT) -> int:
 
 
 def starts_needed(share) -> int:
-    """Return how many values are needed so that the largest is a bound on a share of all."""
+    """Return the least number of values of which the largest bounds a share of all values."""
     return math.ceil(math.log(DOUBT) / math.log(share))
 
 

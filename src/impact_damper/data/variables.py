@@ -3,7 +3,7 @@
 import re
 from typing import NamedTuple
 
-# A bar between spaces separates cells; the bars of "max |Z1|" do not.
+# A bar between spaces separates columns. The bars of "max |Z1|" do not.
 BAR = re.compile(r"(?<!\S)\|(?!\S)")
 
 

@@ -158,8 +158,8 @@ def _peak_rule(oscillator, mass_ratio):
 def _quiet_motions(data, clearances, rule):
     """Return states and max |Z1| (NaN if absent) of quiet motions by clearance, and a row or None.
 
-    A quiet motion has period 1, is symmetric and has two contacts in a cycle. The row has the
-    clearance nearest to `rule` with a quiet motion. All states lie on the branch of this motion.
+    A quiet motion has period 1, is symmetric and has two contacts in a cycle. The row has the quiet
+    motion whose clearance is nearest to `rule`. All states lie on the branch of this motion.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}

@@ -23,8 +23,8 @@ from impact_damper.orbits import segments
 # Phase W T, radian: length of a forcing cycle; the strobe, at which states are compared.
 TURN = 2 * math.pi
 STROBE = math.pi / 2
-# Largest residual of a converged orbit, divided by its largest state. With contacts it is divided
-# also by the natural frequency of contacts, which multiplies rounding errors.
+# Largest residual of a converged orbit, divided by its largest state. With contacts the residual is
+# also divided by the natural frequency of contacts, which multiplies rounding errors.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # Smallest distance of the first phase of an orbit from a contact, radian.
 MARGIN = 0.15

@@ -17,7 +17,7 @@ SHOCKS = (256, 64, 64, 64)
 
 
 class Labelled(NamedTuple):
-    """Labels (m, n) of n states of a plane with m loose masses, and the attractors' `records`.
+    """Labels (m, n) of n plane states with m states of the loose mass, and attractors' `records`.
 
     `periods` (m, n): cycles until a label is known. `label` returns both for more states (k, 4).
     """

@@ -68,9 +68,9 @@ def frequency_panel(axes, data):
 
 
 def over_frequency(data) -> tuple:
-    """Return promised displacements over frequency: of the nominal set, and largest of all sets.
+    """Return promised displacements over frequency: with nominal values, and largest of all sets.
 
-    Each set of values is interpolated between the frequencies at which it was run.
+    Displacements of each set of values are interpolated between the frequencies that were run.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []
@@ -143,7 +143,7 @@ def draw_forces(data):
 
 @style.context()
 def draw_transients(data):
-    """Return a figure of the largest displacement in each cycle: two sweeps, an unforced decay."""
+    """Return a figure of the largest displacement in cycles of two sweeps and an unforced decay."""
     if "sweep_envelope" not in data:
         return None
     drawn = style.figure("double", 2.8)

@@ -16,7 +16,7 @@ SWITCHED = {
     "on_time": style.line("switched on", style.VERMILION),
     "off_time": style.line("switched off", style.BLUE, linestyle=(0, (3, 1.5))),
 }
-# Lines of a run of migration control. The thin line is for runs of at least MANY times.
+# Lines of a run of migration control. A run with MANY or more samples has the thin line.
 MANY = 2500
 LINE, THIN = {"linewidth": 0.8}, {"linewidth": 0.3, "alpha": 0.7, "rasterized": True}
 
@@ -57,7 +57,7 @@ def phase_panel(axes, run):
 
 
 def _time_panel(axes, run):
-    """Draw both displacements against time. The relative one has a thick line in contact."""
+    """Draw Z1 and Z2 against time. The line of Z2 is thick in contact."""
     time, relative = run["time"], run["relative_displacement"]
     axes.plot(time, run["displacement"], color=style.BLACK, label="primary mass, $Z_1$")
     if len(run["contact_wall"]):
@@ -73,7 +73,7 @@ def _time_panel(axes, run):
 
 
 def _in_contact(run, wall):
-    """Return the mask of times in contact with a wall. A contact whose end is NaN lasts on."""
+    """Return the mask of times in contact with a wall. A contact without end (NaN) lasts on."""
     contacts = run[["contact_begin", "contact_end"]].isel(
         contact=run["contact_wall"].values == wall
     )
@@ -90,7 +90,7 @@ def migration(data, axes=None, span=None):
         A result of `migrate`.
     axes : matplotlib.axes.Axes, optional
     span : (float, float), optional
-        First and last time to draw, by default those of the run.
+        First and last time to draw, by default the whole run.
 
     Returns
     -------

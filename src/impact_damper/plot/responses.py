@@ -87,7 +87,7 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw orbits. With a damper these are unstable ones of period 1, and stable ones if asked."""
+    """Draw orbits: with a damper only unstable ones of period 1 and, if `stable`, stable ones."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return
@@ -100,7 +100,7 @@ def _draw_orbits(axes, orbits, stable):
 
 
 def _draw_balance(axes, balance, free):
-    """Draw the suppression band, stable solutions with contact and, if `free`, without a damper."""
+    """Draw the suppression band, stable solutions with contact and, if `free`, free solutions."""
     if "band_status" in balance and balance["band_status"] == flag("band_status", "found"):
         axes.axvspan(*balance["edge_frequency"].values, **style.ROLES["band"])
     if free:
@@ -134,7 +134,7 @@ def _draw_unstable(axes, balance):
 
 
 def _draw_motions(axes, motions):
-    """Draw motions from random starts: lines join settled ones, and points show other ones."""
+    """Draw motions from random starts: settled motions joined by lines, other motions as points."""
     period, settled = motions["period"].values, is_settled(motions)
     if has_damper(motions):
         settled = settled & (motions["contacts"].values > 0)
@@ -185,7 +185,7 @@ def _draw_unsettled(axes, motions, looks):
 
 
 def _draw_steady(axes, motions):
-    """Draw steady motions. A line joins the settled ones in the order of the datasets."""
+    """Draw steady motions. A line joins settled motions in the order of the datasets."""
     frequency, size, outcome = (
         np.concatenate([np.ravel(each[name]) for each in motions])
         for name in ("frequency", "maximum_displacement", "outcome")

@@ -92,7 +92,7 @@ def _look(kind, rank):
 
 
 def _ranked_motions(data):
-    """Return kind, rank (0 for most starts) and mask of each motion that starts reach, by kind."""
+    """Return kind, rank in this kind (0 for most starts) and mask of each motion, by kind."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:

@@ -1,6 +1,6 @@
 """Common look of all figures: fonts, colours, roles of curves, labels, legends, files.
 
-The palette is the one of Okabe and Ito. Roles also differ in marker or line style.
+The palette is by Okabe and Ito. The roles of curves also differ in marker or line style.
 """
 
 import re
@@ -32,7 +32,7 @@ STYLE = {
     "legend.frameon": False,
     "legend.handlelength": 2.4,
     "legend.columnspacing": 1.4,
-    # A fixed height of titles. Without it the search for a free height takes a fifth of the time.
+    # A fixed height of titles. To search for a free height takes a fifth of the drawing time.
     "axes.titley": 1.0,
     "axes.linewidth": 0.6,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
@@ -147,7 +147,7 @@ def curve(index) -> dict:
 
 
 def points(index) -> dict:
-    """Return keywords of `plot` for the open markers that go with the line of curve `index`."""
+    """Return keywords of `plot` for the open markers of the curve `index` in `CURVES`."""
     color, _, marker = CURVES[index]
     return {"color": color, "linestyle": "none", "marker": marker, "markerfacecolor": "none"}
 

@@ -13,7 +13,7 @@ from impact_damper.plot.machine_figures import ENDLESS
 
 # Fraction of the first displacement to which an unforced vibration falls in the decay time.
 DECAY = 0.1
-# Relative distance up to which a range of gaps is said to end at the end of the tolerance.
+# Largest relative distance at which a range of gaps and a tolerance are said to end at one gap.
 NEAR = 0.01
 # Names on the page of additions to the decision and of quantities.
 ADDITIONS = {
@@ -35,8 +35,8 @@ QUANTITIES = {
     "force": "excitation",
 }
 HARDLY = 0.2  # impacts in a cycle, below which the loose mass is only ballast
-# Columns of tables: name of a variable or key, description, unit, factor (GIVEN divides by it,
-# COSTS multiplies by it), key of the tolerance.
+# Columns of tables: name of a variable or key; description; unit; factor that divides (in GIVEN) or
+# multiplies (in COSTS) the value; key of the tolerance.
 TABLES = {
     "GIVEN": (
         ("mass", "mass without the loose mass", "kg", 1, None),
