@@ -183,9 +183,9 @@ def maxima(linear, tuning, band):
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     """Return largest amplitudes (m) at frequencies (Hz), shape (frequencies, force shares).
 
-    Amplitudes are exact for a linear machine. With a cubic spring each is a solution of the balance
-    of one harmonic: the largest that is stable against folds and below the barrier of a softening
-    spring, or infinity if there is none. Other instabilities and other motions are not found.
+    Amplitudes are exact for a linear machine. With a cubic spring they are from harmonic balance:
+    the largest solution that is stable against folds and below the barrier of a softening spring,
+    or infinity without such a solution. Other instabilities and other motions are not found.
     """
     scales = machine.scales
     sizes = np.empty((len(frequencies), len(force_shares)))

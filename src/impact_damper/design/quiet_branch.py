@@ -17,10 +17,7 @@ GAP_SPAN = (0.4, 2.0)
 
 
 def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
-    """Return a dataset of the quiet orbit over the gap.
-
-    `choice` is the dataset of the decision. Its `branch_frequency` is the forcing frequency.
-    """
+    """Return a dataset of the quiet orbit over the gap, at the `branch_frequency` of the choice."""
     gap, frequency = float(choice["design_gap"]), float(choice["branch_frequency"])
     orbit = quiet_orbit(task, gap, frequency)
     return over_gap(task, gap, frequency, orbit, choice["keeping_gap"].values)

@@ -19,8 +19,8 @@ GAPS, FREQUENCIES, STARTS = 40, 9, 12
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
 # Typical ratio of `cells.return_level` to the largest displacement of few unsettled motions.
 RECORD = 1.2
-# JUMP: ratio of neighbouring displacements above which they are a jump. SMOOTH and FINE: largest
-# intervals of the logarithm of the gap that are not split, in general and at a jump.
+# JUMP: least ratio of neighbouring displacements at a jump. SMOOTH and FINE: largest intervals of
+# the logarithm of the gap that are not split, in general and at a jump.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
 # Gaps with values of at most CANDIDATE times the least value form candidate ranges. A range ends at
 # LEVEL times its own least value. The widest range is chosen, of those whose own least value is at
@@ -173,7 +173,7 @@ def middle_gap(first, last) -> float:
 
 
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
-    """Return displacements (mm) at gaps (mm), and the frequency and set of factors of each one.
+    """Return displacements (mm) at gaps (mm), and the worst frequency and set of factors of each.
 
     Displacements are the largest over frequencies and sets. In each cell the largest motions are
     left out, the fraction (1 - share)/2. The displacement of a motion that has not settled is

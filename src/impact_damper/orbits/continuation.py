@@ -293,10 +293,7 @@ AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
-    """Return the next point of a branch, and the factor for the length of the following step.
-
-    The point lies in the range `span` of the parameter. The point is None if the step fails.
-    """
+    """Return the next point within `span` (or None), and the factor for the next step's length."""
     problem = point.problem
     ahead = problem.step(point, length)
     if ahead is not None and np.clip(ahead.value, *span) != ahead.value:

@@ -136,10 +136,7 @@ def _along(point, turn, targets, direction, contacts):
 
 
 def _before(height, target):
-    """Return the height at which a failed step is divided.
-
-    This height is the geometric mean of both heights, or lies closer to 0 if the signs differ.
-    """
+    """Return the height that divides a failed step: geometric mean, or nearer 0 on a sign change."""
     if height * target > 0:
         return height * (target / height) ** 0.5
     return height / 2 if abs(height) > abs(target) else target / RATIO

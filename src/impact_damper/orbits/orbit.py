@@ -204,10 +204,7 @@ class Orbit:
         return self.sign**turns * state
 
     def turns(self):
-        """Return segment, phase, kind and height |Z2| - d0 of each extremum of Z2, shape (n, 4).
-
-        The kind is 1 at a maximum of |Z2|, and 0 at a minimum.
-        """
+        """Return segment, phase, 1 at maxima of |Z2|, and |Z2| - d0 of extrema of Z2, (n, 4)."""
         room = TURNS * len(self.states)
         while True:
             turns = np.empty((room, 4))
