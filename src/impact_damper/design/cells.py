@@ -104,7 +104,7 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime) -> tuple:
-        """Return a regime's displacement; True if it is known; True if later peaks stayed below."""
+        """Return a regime's displacement; whether it is known; whether later peaks are smaller."""
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
         pooled = BLOCK * np.isfinite(peaks).sum()

@@ -11,9 +11,9 @@ from impact_damper.design.task import VARIED
 
 # Largest number of corners, which are sets of factors with each value at an end of its tolerance.
 CORNERS = 8
-# Frequencies are added beside the peak of a set of factors if the peak is at least NEAR times the
-# largest peak, at most SPLITS times. A peak is known if the last frequencies raised the peak by at
-# most the fraction PEAK, and if a parabola through three points exceeds the peak by at most PEAK.
+# In at most SPLITS rounds, frequencies are added beside the peak of each set of factors whose peak
+# is at least NEAR times the largest one. A peak is known if the last frequencies raised the peak by
+# at most the fraction PEAK, and if a parabola through 3 points exceeds the peak by at most PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
 # Sets that deviate are run first at half of the grid's frequencies, but at FEWEST at least.
 FEWEST = 9

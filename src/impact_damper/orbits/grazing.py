@@ -136,7 +136,7 @@ def _along(point, turn, targets, direction, contacts):
 
 
 def _before(height, target):
-    """Return the height that divides a failed step: geometric mean, or nearer 0 on a sign change."""
+    """Return the height that divides a failed step: geometric mean, or nearer 0 if signs differ."""
     if height * target > 0:
         return height * (target / height) ** 0.5
     return height / 2 if abs(height) > abs(target) else target / RATIO
