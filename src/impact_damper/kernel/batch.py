@@ -127,7 +127,7 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Copy chosen trajectories into the lanes; parameters only if a lane held another one."""
+    """Copy chosen trajectories into the lanes, parameters only where they have changed."""
     for lane in range(LANES):
         m = chosen[lane]
         numbers = pool.numbers[m]
@@ -145,7 +145,7 @@ def gather(pool, chosen, kind):
 
 @kernel_only
 def scatter(pool, chosen, count, kind, arrived):
-    """Copy trajectories from the lanes into the pool and queue those before their end times.
+    """Copy trajectories from the lanes into the pool; queue trajectories before their end times.
 
     Return the number of trajectories at their end times; `arrived` receives their indices. A
     trajectory that has escaped (`equation.no_return`) ends at once, in the state at the escape.
@@ -180,7 +180,7 @@ def scatter(pool, chosen, count, kind, arrived):
 def advance_some(pool, chosen, arrived):
     """Step the trajectories of a pool until some are at their end times; return their number.
 
-    `arrived` (LANES,) receives the indices of those. `chosen` (LANES,) is working memory.
+    `arrived` (LANES,) receives their indices. `chosen` (LANES,) is working memory.
     """
     ended = 0
     a, d = pointer(pool.a), pointer(pool.d)

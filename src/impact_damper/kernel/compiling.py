@@ -74,9 +74,9 @@ def own_cache(function):
 
 
 # "contract" allows fused multiply-add and no other change of the arithmetic: reordered sums would
-# be both less accurate and slower. With "nogil" kernels release Python's global interpreter lock,
-# so they run in parallel in Python threads and need no parallel compilation by numba. With the
-# error model "numpy" a division by zero gives infinity or NaN and raises nothing.
+# be less accurate and slower. With "nogil" kernels release Python's global interpreter lock and run
+# in parallel in Python threads, without parallel compilation by numba. With the error model "numpy"
+# a division by zero gives infinity or NaN and raises nothing.
 CONTRACT = ("contract",)
 SETTINGS = {"cache": True, "nogil": True, "fastmath": set(CONTRACT), "error_model": "numpy"}
 
@@ -103,7 +103,7 @@ def aligned(count):
 def pointer(typing, array):
     """Return a pointer to the first element of an array, which the caller must keep alive.
 
-    numba counts the references to an array, by locked instructions slower than some kernels.
+    numba counts references to arrays with locked instructions, which are slower than some kernels.
     """
 
     def generate(context, builder, signature, arguments):
@@ -130,7 +130,7 @@ def by_address(function):
 
     Otherwise LLVM compiles a called kernel again as a part of each caller. A cached caller refers
     to the kernel by name. The name must be bound to an address before the caller is loaded.
-    Therefore a module that the modules of all callers import calls `by_address` at its import.
+    Therefore a module that the modules of all callers import calls `by_address` when imported.
     """
     name = f"{function.__module__}.{function.__name__}"
     llvmlite.binding.add_symbol(name, compiled(function).address)
@@ -151,7 +151,7 @@ def call_at(typing, address, numbers):
 
 
 class Progress(event.Listener):
-    """Adds up the time spent on compiling functions of this package, and prints MESSAGE once.
+    """Adds up the time spent on compiling this package; prints MESSAGE once after PATIENCE.
 
     The garbage collector is switched off during compilation, because it finds little garbage and
     would take a fifth of the time.

@@ -2,8 +2,8 @@
 
     Z1'' = (F + U W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
-This is equation (3) of the paper with three more parameters k3, F and U of `Oscillator`. The
-recurrence and the names in the generated lines stand in docs/explanation/series.md.
+This is equation (3) of the paper with three more parameters k3, F and U of `Oscillator`. The text
+docs/explanation/series.md explains the recurrence and the names in the generated lines.
 """
 
 import math
@@ -29,7 +29,7 @@ from impact_damper.model.packed import (
 def forcing_amplitude(p, lane=0, lanes=1):
     """Return the amplitude F + U W^2 of the forcing per unit of primary mass.
 
-    `p` has a row of `lanes` numbers for each parameter; `lane` is the index of a number in its row.
+    `p` has a row for each parameter with `lanes` numbers, one per trajectory; `lane` is its index.
     """
     frequency = p[FREQUENCY * lanes + lane]
     return p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
@@ -39,8 +39,8 @@ def forcing_amplitude(p, lane=0, lanes=1):
 def external_force(p, t):
     """Return the forcing at a time per unit of primary mass.
 
-    Without fast math the product is rounded before a caller adds it, so that a multiplication by
-    the amplitude 1 changes no digit.
+    Without fast math the product is rounded before a caller adds the product. Then multiplication
+    by the amplitude 1 changes no digit.
     """
     return forcing_amplitude(p) * math.cos(p[FREQUENCY] * t)
 
@@ -79,7 +79,7 @@ def no_return(p):
 
 @kernel_only
 def has_escaped(p, x, v):
-    """Return whether a mass is beyond `no_return` and moves outward; also if x is NaN."""
+    """Return whether a mass is beyond `no_return` and moves outward; True if x is NaN."""
     return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 
@@ -117,11 +117,11 @@ def beginning(at):
 def motion(order, phase, constants, across):
     """Yield the lines for the series of a step up to an order, in a phase, "flight" or "contact".
 
-    Names that must have values before these lines: x0, x1, those of `beginning`, the constant
-    acceleration `push`, and `cosine` and `sine` of the forcing's phase, times its amplitude; in
-    contact q0, q1, `r1` and `mobility` = 1 + 1/rm; with `across` those of `Writer.series`.
+    These names must have values before the lines: x0, x1, the names of `beginning`, the constant
+    acceleration `push`, `cosine` and `sine` of the forcing's phase, times the amplitude; in contact
+    q0, q1, `r1` and `mobility` = 1 + 1/rm; with `across` also `draw`, `base_cosine`, `base_sine`.
     `constants(k)` returns the lines for the coefficients that are the same in all steps of a
-    trajectory: h/k, D/k, and e[k] without its factor cosine or sine.
+    trajectory: h/k, D/k, and e[k] without the factor cosine or sine.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -142,7 +142,7 @@ def motion(order, phase, constants, across):
 def tangent(order, phase, constants):
     """Yield the lines for the series of a tangent, whose x and q solve the variational equations.
 
-    The arguments are as in `motion`. Before the lines u0, u1, ... of `squares` must have values.
+    The arguments are as in `motion`. The lines need values of u0, u1, ... (see `squares`).
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -156,8 +156,8 @@ def tangent(order, phase, constants):
 def squares(count):
     """Yield the lines for the first `count` coefficients u0, u1, ... of 3 k3 x^2.
 
-    Before these lines x0, x1, ... and the names of `coefficients` must have values. Each product
-    x[i] x[j] with i < j is computed once and counted twice.
+    The lines need values of x0, x1, ... and of the names of `coefficients`. Each product x[i] x[j]
+    with i < j is computed once and doubled.
     """
     yield "triple = 3.0 * cubic"
     yield "sextuple = 6.0 * cubic"
@@ -171,8 +171,8 @@ def squares(count):
 def _lower_squares(n):
     """Yield the lines that update s = k3 l^2 when the term x[n] is added to the polynomial l.
 
-    With y = 2 k3 x[n] the product y x[j] is added to s[n+j] for each j < n, in pairs that begin at
-    an even order, and k3 x[n]^2 becomes s[2n].
+    With y = 2 k3 x[n] the product y x[j] is added to s[n+j] for each j < n. The s are updated in
+    pairs that begin at an even order. k3 x[n]^2 becomes s[2n].
     """
     yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):
@@ -209,7 +209,7 @@ def _without_damping(k, drive):
 
 
 def _accelerations(k, phase, loose):
-    """Yield lines that compute g[k] and x[k+2] from c[k]; in contact q[k+2] from `loose`[k]."""
+    """Yield lines that compute g[k] and x[k+2] from c[k], and in contact q[k+2] from `loose`[k]."""
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
     factor = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"

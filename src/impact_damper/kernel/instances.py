@@ -1,10 +1,10 @@
 """Generate modules with the integration step, for a number of lanes and orders of the series.
 
-Several trajectories can be stepped side by side, each in its lane. A kernel of this module is a
-loop over the lanes; its lines come from `equation` and are compiled by `straight_lines`. With one
-lane a kernel works on numbers and pairs, about three times as fast as loops over arrays. With
-several lanes a kernel consists of vector instructions and is again three times as fast. All numbers
-of a step stand in one flat array of rows. A row has one number for each lane.
+Several trajectories can be stepped side by side, each in its lane. A generated kernel is a loop
+over the lanes: `equation` yields the lines of the loop, and `straight_lines` compiles them. With
+one lane a kernel works on numbers and pairs, three times as fast as loops over arrays. With several
+lanes a kernel consists of vector instructions and is again three times as fast. All numbers of a
+step stand in one flat array of rows. A row has one number for each lane.
 """
 
 import importlib.util
@@ -29,7 +29,7 @@ from impact_damper.kernel.templates import (
 from impact_damper.model import packed
 from impact_damper.model.parameters import NONLINEAR
 
-# Orders of the Taylor series. For medium errors these orders make the integration cheapest.
+# Orders of the Taylor series. At medium tolerances the integration is fastest with these orders.
 FLIGHT_ORDER = 18
 CONTACT_ORDER = 23
 # Rows of a step, in this order (name of a group of rows, content):
@@ -142,7 +142,7 @@ class Writer:
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return the expression for a tangent's entry in the k-th row after `row` ("": row 0)."""
+        """Return the expression for a tangent's entry in the k-th row after `row`, "" for row 0."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
@@ -184,7 +184,7 @@ class Writer:
     def _constants(self, phase, tangent):
         """Return a function that returns the lines for coefficient k of the constant series.
 
-        The lines load it with one lane, and compute it with several, whose trajectories change.
+        With one lane the lines load it. With several lanes they compute it, as trajectories change.
         """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
         if self.lanes > 1:
@@ -249,7 +249,7 @@ class Writer:
         return self.function(f"{phase}_tangent_series", lines, tangent=True)
 
     def _factors(self, phase):
-        """Yield lines for the factors that the recurrence needs in contact."""
+        """Yield lines that load the factors of the recurrence in contact; none in flight."""
         if phase == "contact":
             yield f"r1 = {self.at('CONTACT_STIFFNESS')}"
             yield f"mobility = 1.0 + {self.at('INVERSE_MASS_RATIO')}"
@@ -270,7 +270,7 @@ class Writer:
 
 
 class Source(Writer):
-    """Writes the kernels that the templates call: series, their sums, bounds on their values."""
+    """Writes the kernels that the templates call: for series, their sums, and bounds on values."""
 
     def text(self):
         """Return the source of all kernels, with their imports."""
@@ -377,7 +377,7 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """Yield lines that store in TAIL the largest modulus of each velocity's last two terms."""
+        """Yield lines that store in TAIL the largest modulus of the velocities' last two terms."""
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):
@@ -427,8 +427,8 @@ def _paired(c, result):
 def _sum(c, result, parts, done):
     """Yield lines that sum a series at t in four partial sums, and then add the partial sums.
 
-    Each partial sum has every fourth term, and `parts` already contain the first `done` terms.
-    Terms are added in rising order, because the last coefficients of a step are computed last.
+    Each partial sum has every fourth term; `parts` already contain the first `done` terms. Terms
+    are added in rising order, because the last coefficients of a step are computed last.
     """
     for j in range(4):
         yield f"part{j} = {parts[j]}"

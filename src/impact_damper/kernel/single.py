@@ -64,7 +64,7 @@ def polynomial(c, order, t):
 
 @kernel_only
 def write_trajectory(p, y, side, tolerance, a):
-    """Write parameters and state into a workspace; their indices are the same for all orders."""
+    """Write parameters and state into a workspace; the indices depend on no order of a series."""
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -104,12 +104,12 @@ def unload(y, a):
 def step(p, y, side, t, longest, tolerance, work):
     """Integrate one step of at most `longest` from the time t; the step ends at the first event.
 
-    `side` is the wall in contact. The state y (4,) is replaced. `work`, a `workspace()`, receives
-    the series of Z1 over the step from index X on. In contact it also receives the series of
-    Z2 -+ d0 from index Q on. Return the length of the step and the wall in contact.
+    `side` is the wall in contact. The state at the end of the step replaces y (4,). `work`, a
+    `workspace()`, receives the series of Z1 over the step from index X on, and in contact the
+    series of Z2 -+ d0 from index Q on. Return the length of the step and the wall in contact.
 
     For a motion that has escaped (`equation.no_return`) the length is `longest`, because steps on
-    the way to infinity become ever shorter. y is the state after the time `work[LENGTH]`.
+    the way to infinity become ever shorter. y is then the state after the time `work[LENGTH]`.
     """
     a = pointer(work)
     load(p, y, side, tolerance, a)

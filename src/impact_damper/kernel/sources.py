@@ -13,12 +13,12 @@ from importlib.metadata import version
 from pathlib import Path
 
 KERNEL = Path(__file__).parent
-# Folder of this package, and of other packages that may have kernels too.
+# Folder that contains this package and other packages with kernels.
 ROOT = KERNEL.parents[1]
 
 
 def sources(*paths) -> set:
-    """Return the files `paths` and all files that they import, from their or this package."""
+    """Return the files `paths` and all files that they import from their packages and this one."""
     packages = {path.relative_to(ROOT).parts[0] for path in paths if path.is_relative_to(ROOT)}
     packages = frozenset(packages | {KERNEL.parent.name})
     found, new = set(), set(paths)

@@ -18,7 +18,7 @@ from numba.extending import intrinsic
 
 from impact_damper.kernel.compiling import CONTRACT
 
-# Number of lanes in a vector. Eight doubles fill a register of 512 bits, or narrower registers.
+# Number of lanes in a vector. Eight doubles fill one register of 512 bits or several narrower ones.
 WIDTH = 8
 FLOAT = ir.DoubleType()
 PAIR = ir.VectorType(FLOAT, 2)
@@ -65,7 +65,7 @@ def straight(function):
 
 
 def write(function, builder, pointers):
-    """Write the LLVM code of a call of a function (see `straight`) with these pointers."""
+    """Write the LLVM code of a `straight` function, with pointers to its arrays."""
     code = function.__code__
     tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
     ast.increment_lineno(tree, code.co_firstlineno - 1)

@@ -1,4 +1,4 @@
-"""Integration of one trajectory and its tangents, which solve the variational equations.
+"""Integration of one trajectory and of its tangents, solutions of the variational equations.
 
 The kernels of the tangents are compiled when this module is imported (`compiling.by_address`).
 Therefore a module that integrates no tangents imports `single` only.
@@ -46,7 +46,7 @@ def step_all(count, t, longest, a, d):
 
 @kernel
 def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
-    """Integrate as `single.step` does, and replace the `tangents` (m, 4), m from 0 to 4."""
+    """Integrate y as `single.step` does, and the `tangents` (m, 4), m from 0 to 4, in place."""
     a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, side, tolerance, a)
     load_tangents(tangents, d)

@@ -24,7 +24,7 @@ from impact_damper.model.units import UNITLESS, Scales
 STATE = ("displacement", "velocity", "displacement", "velocity")
 STATE_UNITS = "m, m/s, m, m/s"
 FARTHEST_STATE = dict(zip(STATE, (FARTHEST, FASTEST) * 2, strict=True))
-# Coordinates with the forcing phases of states; a state taken from a dataset keeps them.
+# Coordinates of datasets that hold the forcing phase of a state; a state taken out keeps them.
 PHASES = ("state_phase", "orbit_phase")
 
 
@@ -47,15 +47,16 @@ class Model(NamedTuple):
         return pack(self.oscillator, self.damper, frequency or self.frequency)
 
     def describe(self, *others) -> dict:
-        """Return the dimensionless parameters, and those of other dataclasses."""
+        """Return the dimensionless parameters of the model and of the dataclasses `others`."""
         found = describe(self.oscillator, self.damper, *others)
         return found if self.frequency is None else found | {"frequency": self.frequency}
 
 
 def read_system(system, damper=None, *, needs_damper=False) -> Model:
-    """Return the model of the arguments `system` and `damper`; with `needs_damper` None is refused.
+    """Return the model of the arguments `system` and `damper`.
 
-    Raise TypeError if an argument has another type, ValueError if the damper does not fit.
+    Raise TypeError for another type, or for no damper with `needs_damper`; raise ValueError if the
+    damper does not fit the system.
     """
     if isinstance(system, Machine):
         damper, scaled = _read_machine_damper(system, damper, needs_damper)
@@ -229,8 +230,8 @@ def carried_phase(state):
 def read_start(model, state, start) -> float:
     """Return the time T of a state, from the argument `start` of a public function.
 
-    If `start` is None, T follows from the phase that a state of a dataset has, or is 0. A `start`
-    with another phase is an error.
+    If `start` is None, T follows from the phase of a dataset's state; without a phase, T is 0. A
+    `start` with another phase is an error.
     """
     phase, frequency = carried_phase(state), model.frequency
     if start is None:

@@ -140,7 +140,7 @@ def nearest(name, known) -> str:
 
 
 def names_arguments(function):
-    """Decorate a public function or class; the error for a wrong argument lists the known ones.
+    """Decorate a public function or class; errors for wrong arguments list the known arguments.
 
     The docstring of a dataclass gets a description of its fields from their metadata.
     """

@@ -1,4 +1,4 @@
-"""The two rules for the end of a contact, and the damping for a restitution under each rule.
+"""The two rules for the end of a contact, and the damping that gives a restitution under each.
 
 The penetration of a free contact obeys u'' + 2 z u' + u = 0 in natural units of time, with the
 damping ratio z, and the wall pushes with u + 2 z u'. Under `zero_penetration`, the paper's rule

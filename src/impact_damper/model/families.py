@@ -9,18 +9,18 @@ from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
-# Parameters that can vary along a branch; value: the dataclass that holds it, if any. A branch is
-# continued in a coordinate: the parameter itself if it is in LINEAR, otherwise its logarithm.
+# Parameters that can vary along a branch, each with the dataclass that holds the parameter, or
+# None. The coordinate of a branch is the parameter if LINEAR names it, otherwise its logarithm.
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
-# Index in the packed array (see `packed`) of each part of the forcing amplitude.
+# Indices in the packed array (see `packed`) of the two terms of the forcing amplitude.
 FORCING = {"force": FORCE, "unbalance": UNBALANCE}
 
 
 def facts_of(parameter) -> tuple:
-    """Return the name that a parameter has for machines, its kind and its bounds."""
+    """Return the name of a parameter in machines, its kind (a key of QUANTITIES), its bounds."""
     owner = PARAMETERS[parameter]
     if owner is None:
         return parameter, "frequency", FREQUENCY_RANGE
@@ -31,7 +31,7 @@ def facts_of(parameter) -> tuple:
 def read_followed(model, parameter, span) -> tuple:
     """Return the arguments `parameter` and `span` of a branch, dimensionless.
 
-    For machines some PARAMETERS have other names. The span must contain the model's own value.
+    Machines have other names for some PARAMETERS. The span must contain the model's own value.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}

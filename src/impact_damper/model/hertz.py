@@ -11,11 +11,11 @@ from typing import NamedTuple
 from impact_damper.model.bounds import names_arguments
 from impact_damper.model.units import convert, optional, physical
 
-# Duration of an impact, in units of the largest compression divided by the speed:
+# Duration of an impact, divided by the ratio of largest compression to speed:
 # (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
 DURATION = 2.9432752
-# Largest pressure p0 under a ball at which a material begins to yield, in units of its yield
-# strength, for nu = 0.3 (Johnson, section 6.1).
+# Pressure p0 at the centre of a ball's contact at which a material begins to yield, divided by the
+# yield strength, for nu = 0.3 (Johnson, section 6.1).
 YIELD = 1.6
 POISSON_RANGE = {"least": 0, "most": 0.5}
 WALLS = "of the walls, if they are of another material"
@@ -86,11 +86,11 @@ class HertzContact:
         return 4 / 3 * self.radius**0.5 * self.modulus
 
     def pressure(self, force) -> float:
-        """Return the largest pressure p0, Pa, under a force, N (Johnson, equation 4.24)."""
+        """Return the pressure p0 at the centre, Pa, under a force, N (Johnson, equation 4.24)."""
         return (6 * force * self.modulus**2 / (math.pi**3 * self.radius**2)) ** (1 / 3)
 
     def yields(self, pressure) -> str:
-        """Return whether loose mass or wall yields at a largest pressure p0: yes, no or unknown."""
+        """Return whether loose mass or wall yields at the pressure p0: yes, no or unknown."""
         strengths = [self.yield_strength, self.wall_yield_strength]
         if any(each is not None and pressure >= YIELD * each for each in strengths):
             return "yes"
@@ -104,12 +104,12 @@ class HertzContact:
         return (5 * mass * speed**2 / (4 * self.coefficient)) ** 0.4
 
     def impact(self, speed, mass) -> Impact:
-        """Return the largest values of an elastic impact; the arguments are as in `compression`."""
+        """Return the `Impact` of an elastic contact; the arguments are as in `compression`."""
         q = self.compression(speed, mass)
         return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
 
     def stiffness(self, speed, mass) -> float:
-        """Return the stiffness, N/m, of the linear spring that an impact compresses equally.
+        """Return the stiffness, N/m, of the linear spring with the same largest compression.
 
         The spring stores the same energy; its largest force is 4/5 of the largest force of Hertz.
         """

@@ -15,7 +15,7 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# Smallest derivative of the balance that is used (at a fold it is 0), and number of repeated fits.
+# Lower bound on the derivative of the balance, which is 0 at a fold; number of repeated fits.
 FOLD, PASSES = 0.1, 6
 
 
@@ -134,7 +134,7 @@ def from_response(cls, data, *, force) -> Identified:
 def _fit(residuals, guess, scale):
     """Return the fitted parameters, their errors, the r.m.s. residual and the solver's message.
 
-    `residuals` takes parameters of shape (p, n) and returns an array of shape (samples, n).
+    `residuals` takes n columns of parameters, and returns residuals of shape (samples, n).
     """
     import numpy as np
     from scipy.optimize import least_squares
@@ -176,7 +176,7 @@ def _free(time, parameters):
 
 
 def _decay(time, measured):
-    """Return a guess of the 6 parameters of a decay, from its analytic signal, and their scales."""
+    """Return a guess of the 6 parameters of a decay from its analytic signal, and their scales."""
     import numpy as np
     from scipy.signal import hilbert
 

@@ -24,7 +24,7 @@ MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """A value that a machine computed from other values; a changed copy computes it again."""
+    """A value that a machine computed from other values; a copy of the machine does so again."""
 
 
 @bounds.names_arguments
@@ -237,7 +237,7 @@ class Machine:
         """Scales with which the dimensionless equations describe the machine.
 
         The length is the geometric mean of the static deflection and the displacement at resonance.
-        Therefore motions and useful gaps are of the order 1. The time makes omega_l^2 + |k3| = 1.
+        Therefore motions and useful gaps are of the order 1. The time gives omega_l^2 + |k3| = 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -247,7 +247,7 @@ class Machine:
     def _static_deflection(self):
         """Return the deflection under the excitation, m.
 
-        Without excitation it is where linear and cubic force are equal, or 1 mm if one is absent.
+        Without excitation, linear and cubic force are equal there; 1 mm if one of them is absent.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
@@ -262,10 +262,9 @@ class Machine:
 
     @property
     def resonant_displacement(self) -> float:
-        """Static deflection times m w/c, at least the static deflection itself; in m.
+        """Displacement of a linear machine at resonance, m: static deflection times m w/c or 1.
 
-        It is the displacement of a linear machine at resonance. w^2 is the stiffness at the static
-        deflection divided by the mass.
+        The larger factor holds. w^2 is the stiffness at the static deflection divided by the mass.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -300,7 +299,7 @@ class Machine:
 
     @property
     def forcing(self) -> tuple[float, float]:
-        """F (N) and U (kg m) of the amplitude F + U w^2 of the force or of the force of inertia."""
+        """F (N) and U (kg m) of the forcing amplitude F + U w^2."""
         if self.is_based:
             moved = self.base_displacement or 0.0
             return self.mass * (self.base_acceleration or 0.0), self.mass * moved
@@ -426,7 +425,7 @@ def static_deflection(force, linear, cubic) -> float:
 
 
 def describe_si(machine, damper=None) -> dict:
-    """Return the values of a machine and its damper, in SI units, the gap as full play."""
+    """Return the values of a machine and its damper in SI units; the gap is the full play."""
     others = ("natural_frequency", "quality_factor")  # they follow from stiffness and damping ratio
     found = {
         name: float(value)

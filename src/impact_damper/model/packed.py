@@ -13,10 +13,10 @@ from impact_damper.model.parameters import (
 )
 from impact_damper.model.text import number
 
-# The numbers in their order: W; the fields of `Oscillator`, but omega_l^2 in place of omega_l; d0;
-# r1; 1/rm; coefficient of the dashpot; LAG of the rule for the end of a contact (0, or DASHPOT /
-# CONTACT_STIFFNESS for walls that never pull); component of gravity along the gap; largest
-# acceleration of the loose mass by friction.
+# Names of the numbers in their order: W; the fields of `Oscillator`, where omega_l^2 replaces
+# omega_l; d0; r1; 1/rm; coefficient of the dashpot; LAG (0 if walls may pull, otherwise the time
+# DASHPOT / CONTACT_STIFFNESS); component of gravity along the gap; largest acceleration of the
+# loose mass by friction.
 FIELDS = [each.name for each in parameters_in(Oscillator)]
 NAMES = (
     "FREQUENCY",
@@ -71,7 +71,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
 
 def cubic_spring(p) -> tuple:
-    """Return omega_l^2 and k3, for closed forms; other terms of the spring are refused."""
+    """Return omega_l^2 and k3 for closed forms, which refuse other terms of the spring."""
     for name in NONLINEAR:
         value = p[NAMES.index(name.upper())]
         if value and name != "cubic":

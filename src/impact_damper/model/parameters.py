@@ -16,8 +16,8 @@ from impact_damper.model.units import UNITLESS, Scales
 def parameter(limits, kind, symbol, meaning, *, machine=None, power=None, **default):
     """Return a dataclass field for a dimensionless number, with all facts about it.
 
-    `kind` is a key of `units.QUANTITIES`. `machine` is the name for machines if it differs. `power`
-    is the power of Z1 if the parameter is the coefficient of a nonlinear term of the spring.
+    `kind` is a key of `units.QUANTITIES`. `machine` is the parameter's name in machines, if
+    another. `power` is the power of Z1 in the nonlinear term of the spring with this coefficient.
     """
     facts = {"bounds": limits, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
     return field(metadata=facts | {"meaning": f"{symbol}, {meaning}"}, **default)
@@ -116,7 +116,7 @@ class Oscillator:
             raise ValueError(f"{self.told(*terms)}: must be 0 {why}")
 
     def told(self, *names) -> str:
-        """Return fields as "name = value" in the unit of the user, with the names of `Machine`."""
+        """Return fields as "name = value"; for a machine with its names and in SI units."""
         found = []
         for name in names:
             facts = self.__dataclass_fields__[name].metadata
@@ -228,7 +228,7 @@ class Damper:
 
 
 def beyond_closed_forms(oscillator, damper) -> list:
-    """Return part and name of each parameter that is not 0, as closed forms with a damper need."""
+    """Return part and name of each nonzero parameter that closed forms with a damper refuse."""
     terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
     return [(part, name) for part, name in terms if getattr(part, name)]
 

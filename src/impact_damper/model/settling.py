@@ -22,14 +22,14 @@ class Settling:
         Number of forcing cycles after which a motion is stopped if it is certainly chaotic, or if
         the loose mass hardly moves and has touched no wall during these cycles.
     limit : int
-        Number of forcing cycles after which every motion is stopped. It is chaotic if that is
-        certain, drifting if the mass touched no wall for `patience` cycles, otherwise undecided.
+        Number of forcing cycles after which every motion is stopped. The motion is then chaotic if
+        chaos is certain, drifting if the loose mass touched no wall for `patience` cycles, and
+        otherwise undecided.
     watched : int
-        Number of further forcing cycles in which the displacement of a motion that has not settled
-        is measured.
+        Number of further forcing cycles in which an unsettled motion is measured.
     further : int
-        Largest number of further forcing cycles that show whether an undecided motion is
-        quasi-periodic, periodic with a long period, or chaotic. Otherwise it is unresolved.
+        Largest number of further forcing cycles of an undecided motion. They show whether the
+        motion is quasi-periodic, periodic with a long period, chaotic, or remains unresolved.
 
     Raises
     ------

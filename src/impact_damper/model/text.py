@@ -5,7 +5,7 @@ This module imports no NumPy, because Snakemake reads it at every dry run.
 
 import math
 
-# Numbers below 10**POSITIONAL are written without an exponent.
+# Numbers from 1 to 10**POSITIONAL are written without an exponent.
 POSITIONAL = 5
 
 
@@ -38,7 +38,7 @@ def with_unit(value, unit, digits=6) -> str:
 
 
 def plain(value) -> str:
-    """Return a number as text: with at most six digits if they are exact, else with all."""
+    """Return a number as text: with six digits if they are exact, otherwise with all digits."""
     value = float(value)
     if not math.isfinite(value):
         return repr(value)

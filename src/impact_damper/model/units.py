@@ -34,7 +34,7 @@ class Quantity(NamedTuple):
         return self.shown or self.unit or "1"
 
 
-# Keyed by name. The field `kind` of a registered variable can be one of these names.
+# Quantities by name. The `kind` of a dataset's variable can be one of these names.
 QUANTITIES = {
     "number": Quantity(""),
     "angle": Quantity("radian"),
@@ -56,7 +56,7 @@ QUANTITIES = {
     "impulse": Quantity("N s", length=1, time=-1, mass=1),
     "power": Quantity("W", length=2, time=-3, mass=1),
 }
-# A text may only hold a number and units with powers. pint would evaluate any long expression.
+# Text may hold only a number and units with powers. pint would evaluate any long expression.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
 TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")

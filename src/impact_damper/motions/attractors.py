@@ -28,7 +28,7 @@ ALIKE, SAME = 1e-6, 1e-5
 # Search for orbits: half width of the region, divided by the largest displacement and speed of the
 # free motions; number of grid points on each axis.
 REACH, SEARCHED = 3.0, 24
-# Label of a motion by its outcome, for all outcomes except SETTLED.
+# Labels of motions by outcome. A settled motion has the index of its attractor as its label.
 LABELS = {
     records.UNRESOLVED: BASIN_LABEL["unresolved"],
     records.DIVERGED: BASIN_LABEL["escaped"],
@@ -46,8 +46,8 @@ PHASES, WIDTH, REFINED = 16, 1.6, 4
 class Attractors(NamedTuple):
     """Attracting orbits of the free oscillator, by ascending max |Z1|, and their m neighbourhoods.
 
-    A state z at a strobe lies in a neighbourhood if |shape (z - centre)| < 1. `owner` holds the
-    index of its orbit. `shape` (m, 2, 2) is infinite where the proof fails.
+    A state z at a strobe lies in a neighbourhood if |shape (z - centre)| < 1. `owner` (m,) holds
+    indices of the neighbourhoods' orbits. `shape` (m, 2, 2) is infinite where the proof fails.
     """
 
     records: np.ndarray
@@ -160,8 +160,8 @@ def _radius(coefficients, step, contraction):
 def label_damped(p, states, phase, settling, known=(), workers=1, progress=None):
     """Run states (n, 4) from a phase with the damper; return labels, cycles run and attractors.
 
-    A label is the index of an attractor or a flag of `basin_label`. The attractors begin with the
-    `known` ones; new ones follow by ascending max |Z1|.
+    A label is the index of an attractor or a flag of `basin_label`. The `known` attractors stand
+    first; new attractors follow by ascending max |Z1|.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     if begin > strobe_time(p):
@@ -192,8 +192,8 @@ class ReleaseSet(NamedTuple):
     """The states of the free oscillator at one frequency that lead to the goal of migration.
 
     The goal is the smaller free motion of period 1; `goal` is its index among the attractors.
-    `depth` (phase, Z1', Z1) is the distance of a state (Z1, Z1'/W) from the boundary of the set,
-    positive inside. `half` holds the half widths of the grid in Z1 and Z1'.
+    `depth`, over phase, Z1' and Z1, is the distance of a state (Z1, Z1'/W) from the boundary of the
+    set, positive inside. `half` holds the half widths of the grid in Z1 and Z1'.
     """
 
     p: np.ndarray
@@ -236,10 +236,10 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return the mask (n, n) of the fine cells in a set; only cells at its boundary are refined."""
+    """Return the mask (n, n) of the fine cells in a set; only cells at the boundary are refined."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
-        # A cell at the boundary has a neighbour on the other side of it.
+        # A cell at the boundary has a neighbour on the boundary's other side.
         edge = maximum_filter(mask, 3) != minimum_filter(mask, 3)
         fine, edge = (np.kron(each, np.ones((2, 2), bool)) for each in (mask, edge))
         cells *= 2
@@ -255,7 +255,7 @@ def _centres(half, cells):
 
 
 def signed_distance(inside):
-    """Return the distance of each cell from the boundary of a set, in cells, negative outside."""
+    """Return the distance of each cell from a set's boundary, in cell widths, negative outside."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
     # The boundary lies midway between the centres of two cells.

@@ -66,8 +66,8 @@ def settle(
     """Run motions from states (m, 4) until each has settled; return an array of `records.MOTION`.
 
     `parameters` has a row of packed parameters for each motion. `start` is the time T of all
-    states, in the forcing cycle before the first strobe; with `from_strobe` it is this strobe. If
-    another thread sets `stop[0]`, the records are incomplete.
+    states, in the forcing cycle before the first strobe. With `from_strobe` the states are at the
+    first strobe. If another thread sets `stop[0]`, the records are incomplete.
     """
     settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)
@@ -124,7 +124,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Put motion i, if there is one, at index m of the pool, whose motions run side by side."""
+    """Put motion i, if it exists, at index m of the pool, whose motions run side by side."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])
@@ -134,7 +134,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Put the free motion from state i, if there is one, at index m of the pool (see `take`)."""
+    """Put the free motion from state i, if it exists, at index m of the pool (see `take`)."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
@@ -143,7 +143,7 @@ def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes
 
 
 def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
-    """Return the label of each free state, and the number of forcing cycles until it was known.
+    """Return the label of each free state, and the number of forcing cycles until it is known.
 
     `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`. A label is the index of an orbit in
     `attractors.records`, GONE after an escape, or UNKNOWN after `limit` cycles.

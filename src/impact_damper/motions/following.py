@@ -15,10 +15,9 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which a step grows after success.
 GROWTH = 1.5
-# Largest correction of a predicted state, and of the first state. A larger correction could lead
-# to another orbit.
+# Largest corrections of a predicted state and of the first state; larger ones may change the orbit.
 REACH, NUDGE = 0.03, 1e-3
-# Shortest step of the parameter, thus the accuracy of the end of a branch.
+# Shortest step of the parameter, which is the accuracy of the end of a branch.
 RESOLUTION = 1e-8
 
 
@@ -65,7 +64,7 @@ def follow(
     `correct` takes a value and a predicted state (4,). It returns an orbit, None on failure, and a
     status. The first step leads to `target`. After success a step is multiplied by `growth`. A step
     is halved if the correction fails, or if Z1, Z1' or Z2 changes by `reach` or more: the new orbit
-    may lie on another branch. `behind` is the orbit at 2 start - target, if there is one.
+    may lie on another branch. `behind` is the orbit at the value 2 start - target, or None.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -95,11 +94,11 @@ def extrapolate(state, before, ratio):
 
 
 def follow_stable(p, state, periods, parameter, target) -> tuple:
-    """Follow a stable orbit while the packed parameter of an index changes to a target value.
+    """Follow a stable orbit while the packed parameter number `parameter` changes to `target`.
 
     Following stops where the orbit becomes unstable or repeats after fewer cycles. Return the
-    packed parameters and the last `StrobeOrbit`. The parameter is exactly the target if following
-    has reached it. The multiplier is NaN if there is no orbit near the given state.
+    packed parameters and the last `StrobeOrbit`. After success the parameter is exactly `target`.
+    The multiplier is NaN if there is no orbit near the given state.
     """
     # A period in a record is a two-byte integer, for which numba would compile the kernels again.
     periods = int(periods)

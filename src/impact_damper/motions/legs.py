@@ -28,7 +28,7 @@ class Stopped(Exception):
 
 
 def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
-    """Run a motion until it is near a stable orbit, at most `limit` strobes beyond the first one.
+    """Run a motion until it is near a stable orbit, for at most `limit` cycles after a strobe.
 
     The motion begins at y (4,), `ahead` forcing cycles before the strobe number `strobe`; the last
     state replaces y. Return the path and a `records.MOTION`, measured if the motion has settled. A
@@ -82,7 +82,7 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
-    """Call `wait_and_switch` at the strobe number `strobe`, then `run`; return its result."""
+    """Call `wait_and_switch` at the strobe number `strobe`, then return the result of `run`."""
     wait_and_switch(before, after, y, wait, place, tolerance)
     return run(after, y, 1.0 - wait % 1.0, strobe + math.floor(wait) + 1.0, tolerance, limit, stop)
 
@@ -104,7 +104,7 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 
 
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
-    """Wait, switch the damper on, hold it, and switch it off; return a path as `run` does.
+    """Wait, switch the damper on, and later off; return a path as `run` does.
 
     The damper is switched off in the release set `releases` or after `longest` cycles. The free
     state at this time replaces y and is the last row.
@@ -126,7 +126,7 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
 
 @kernel
 def depth_of(depth, half, phase, x, v):
-    """Return the `depth` of a `ReleaseSet` at a state (x, v), or minus infinity off the grid."""
+    """Return the `depth` of a `ReleaseSet` at a state (x, v); minus infinity outside the grid."""
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf
     cells = depth.shape[1]
@@ -140,10 +140,10 @@ def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, wo
     """Run a motion from the time `begin` with the damper on, until a rule releases it.
 
     `rule` is a kind, a number n of forcing cycles, and the index of a phase. HOLD releases after n
-    cycles; PHASE at the given phase, n cycles or more after `begin`; SETTLED the fraction `draw` of
-    a period after the strobe states begin to repeat; STATE in the release set, at the latest after
-    n cycles. A row of `path` (m, 5) is forcing cycles since `begin` and the state, at each strobe.
-    Return the time, whether the rule has released within `limit` cycles, and the contacts begun.
+    cycles, PHASE at the phase after n or more cycles, STATE in the release set or after n cycles.
+    SETTLED releases the fraction `draw` of a period after the strobe states begin to repeat. A row
+    of `path` (m, 5) is forcing cycles since `begin` and the state, at each strobe. Return the time,
+    whether the rule has released the motion within `limit` cycles, and the contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

@@ -22,7 +22,7 @@ MARGIN, SAMPLES = 10, 40
 # Largest difference between max |Z1| of equal free motions.
 ALIKE = 1e-6
 # Log entry of one switching, on and off. Times are in forcing cycles from the first strobe. The
-# free motion has settled at `end_time`. released_*: period and max |Z1| before the switching off.
+# free motion has settled at `end_time`. released_*: period and max |Z1| of the damped motion.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
     + [("released_period", "i2"), ("released_displacement", "f8"), ("destination", "i1")]
@@ -64,8 +64,8 @@ def migrate(
     frequency : float
         Forcing frequency W, or Hz for a machine; both free motions of period 1 must exist there.
     release : {"settled", "state"}
-        "settled": the damper is switched off at a random phase after the motion has settled, as in
-        the paper. "state": as soon as the state of the primary mass leads to the small motion.
+        With "settled" the damper is switched off at a random phase after the motion has settled, as
+        in the paper; with "state" as soon as the primary mass's state leads to the small motion.
     seed : int or numpy.random.SeedSequence
         Seed of the random switching phases and places of the loose mass.
     longest_hold : int
@@ -169,7 +169,7 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 def kinds(period, displacement, known):
     """Return the flags (`DAMPED_MOTION`) of motions, given arrays of their periods and max |Z1|.
 
-    A motion of period 1 is quiet if max |Z1| is less than half that of the free resonance motion.
+    A motion of period 1 is quiet if max |Z1| is below half the value of the free resonance motion.
     """
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
@@ -193,8 +193,8 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
 
     A row of `draws` holds the phase at which the damper is switched on, as a fraction of the
     period; the place of the loose mass, as a fraction of the gap; the phase at which the damper is
-    switched off. `releases` is a `ReleaseSet` for release by state, otherwise None. A row of the
-    path (m, 5) is forcing cycles from the first strobe and the state, at a strobe or a switching.
+    switched off. `releases` is a `ReleaseSet` for release by state, otherwise None. Each strobe and
+    switching is a row of the path (m, 5): forcing cycles from the first strobe, and the state.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit

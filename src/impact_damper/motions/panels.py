@@ -65,7 +65,7 @@ def sampled(p, state, begin, end, tolerance) -> Panels:
 def contact_forces(p, state, span, course, tolerance):
     """Return the largest force in each contact of a motion, divided by the primary mass.
 
-    `course` is the result of `trace`. The motion is run again with the same steps. So even a
+    `course` is the result of `trace`. The motion is run again with the same steps, so that even a
     chaotic motion has the same contacts.
     """
     states, log = course
@@ -79,10 +79,9 @@ def contact_forces(p, state, span, course, tolerance):
 
 
 def _divided(p, state, span, course, tolerance, flights):
-    """Return the panels of a motion in a span of time; `flights` includes those in flight."""
+    """Return the panels of a motion in a span of time, with `flights` also panels in flight."""
     (begin, end), (states, log) = span, course
-    # The edges are alternately beginnings and ends of contacts, so every second interval is a
-    # flight.
+    # Edges: `begin`, beginning and end of each contact, `end`. Intervals 1, 3, ... are contacts.
     ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
     edges = np.concatenate([[begin], np.column_stack([log[:, 1], ends]).ravel(), [end]])
     walls = np.zeros(len(edges) - 1)

@@ -26,7 +26,7 @@ PHASELESS = 1e-9
 SYMMETRIC = 1e-6
 # Number of samples in a forcing cycle, from which harmonics are computed.
 SAMPLES = 64
-# Pieces of a step. A polynomial is assumed to have at most one turning point in a piece.
+# Pieces of a step, in each of which a polynomial is assumed to have at most one turning point.
 PIECES = 8
 # Number of windows of an envelope in one call of the kernel. Ctrl-C waits for its end.
 AT_ONCE = 1024
@@ -45,11 +45,11 @@ NEVER = np.zeros(1, bool)
     QUASI_PERIODIC,
     DRIFTING,
 ) = range(9)
-# Fields of a record: `measure` fills those from `maximum_displacement` on, `watch` the others.
+# Fields of a record. `watch` fills the fields before `maximum_displacement`, `measure` the others.
 # period       period of the orbit in forcing cycles, 0 without an orbit
 # periods_run  forcing cycles until the outcome was known
 # residual     largest difference between the state and the state a period later
-# state        state at the strobe: on the orbit if the motion has settled, otherwise the last one
+# state        state at the strobe, on the orbit if settled, otherwise the last state
 # reach        largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
 WATCHED = "residual lyapunov_exponent lyapunov_error first_frequency second_frequency"
 MEASURED = "maximum_displacement contacts asymmetry"
@@ -67,7 +67,7 @@ def extremum(c, order, length, start):
     """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
 
     A polynomial exceeds its values at the ends by at most length^2/8 times its largest second
-    derivative. If this bound is too large, Newton's method finds the turning point in each piece.
+    derivative. Unless this bound decides, Newton's method finds the turning point in each piece.
     """
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)
@@ -111,7 +111,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
     The states at the ends of segments replace the `states` (m, 4) at the beginnings. `phases` and
     `times` (m + 1,) are W T and T at the edges of segments. `log` (n, 5) receives the first n
-    contacts, in rows as of `traces.trace`. `sums` (2, 2) receives the mean of 2 exp(-i W T) Z for
+    contacts, in rows as in `traces.trace`. `sums` (2, 2) receives the mean of 2 exp(-i W T) Z for
     Z1 and Z2, real and imaginary part. Return the number of contacts and the largest |Z1|.
     """
     work, start = workspace(), np.empty(4)
@@ -151,7 +151,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @inlined
 def measure_one(p, periods, tolerance, out):
-    """Complete one record over `periods` forcing cycles, in two halves if the number is odd."""
+    """Measure one motion over `periods` forcing cycles, in two halves if `periods` is odd."""
     halves = 1 + periods % 2
     y = out.state.copy().reshape(1, 4)
     log, sums = np.empty((0, 5)), np.empty((2, 2))
@@ -190,9 +190,9 @@ def measure_nothing(out):
 def measure(parameters, tolerance, watched, out, stop):
     """Complete the records `out` by measurements that begin at their states at the strobe.
 
-    A motion is integrated over its `period`, or over `watched` forcing cycles if it has none. The
-    asymmetry is the distance between the mirrored first state and the state after half the time,
-    NaN for an even number of cycles. A harmonic is the complex amplitude c of Re(c exp(i W T)). If
+    A motion with a `period` is integrated over the period, others over `watched` forcing cycles.
+    The asymmetry is the distance between the mirrored first state and the state after half the
+    time, NaN for an even number of cycles. A harmonic is the amplitude c of Re(c exp(i W T)). If
     another thread sets `stop[0]`, the remaining records are not completed.
     """
     for i in range(len(out)):
@@ -220,7 +220,7 @@ def is_symmetric_pair(motions):
 
 
 def phase_of(harmonic, reference):
-    """Return the phases of harmonics relative to `reference`, NaN if that is a rounding error."""
+    """Return phases of harmonics relative to `reference`, NaN if it is only a rounding error."""
     phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
     return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
 
@@ -240,9 +240,9 @@ def tabulate(records):
 def envelope(parameters, lengths, y, tolerance):
     """Run a motion through n windows of time, with packed parameters (n, COUNT) and `lengths` (n,).
 
-    Return the largest |Z1| and the number of contacts begun in each window: infinite and NaN at an
-    escape, both NaN later. The last state replaces y. A window begins at the strobe, where the
-    force is zero, so the frequency can change there. With forcing a window is one cycle.
+    Return the largest |Z1| and the number of contacts begun in each window. They are infinity and
+    NaN in the window of an escape, NaN later. The last state replaces y. A window begins at the
+    strobe, where no force acts, so the frequency can change. With forcing a window is one cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)
@@ -277,7 +277,7 @@ def run_window(p, y, side, length, largest, tolerance, work):
 
 @kernel
 def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
-    """Fill `largest` and `contacts` of `envelope` up to an escape; return the wall in contact."""
+    """Fill `largest` and `contacts` of `envelope` until an escape; return the wall in contact."""
     work = workspace()
     for k in range(len(lengths)):
         side, largest[k], begun = run_window(
@@ -291,7 +291,7 @@ def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
 
 @kernel
 def follow_peaks(parameters, states, periods, tolerance, largest, stop):
-    """Run motions in place from a strobe; raise `largest` to max |Z1|, or infinity on escape."""
+    """Run motions in place from a strobe; raise `largest` to max |Z1|, infinity after an escape."""
     work = workspace()
     for i in range(len(states)):
         p, y = parameters[i], states[i]

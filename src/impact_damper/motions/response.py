@@ -1,4 +1,4 @@
-"""The steady motion that a state leads to, all motions at each frequency, and chaotic lives.
+"""Steady motion from a state, all motions at each frequency, and lives of chaotic transients.
 
 The life of a chaotic transient is its length. Lives are distributed exponentially, so the number of
 transients that end, divided by the sum of all lives, estimates the rate of ending.
@@ -31,8 +31,8 @@ from impact_damper.motions.sweep import sweep
 from impact_damper.motions.watch import NEAR
 
 # Runs that measure lives: largest difference of the first Z1 and Z1' from the chaotic motion;
-# distance from an orbit at which a transient ends; forcing cycles by which a run that has not ended
-# is continued, to decide whether it is still chaotic.
+# distance from an orbit at which a transient ends; number of further forcing cycles of a lasting
+# run, which show whether the run is still chaotic.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 
@@ -137,9 +137,9 @@ def frequency_response(
         Radius of a ball around rest with uniform random starts, the loose mass in its gap. Without
         a radius, starts are scaled by the motions without the damper, or lie on these motions.
     whole_gap : bool
-        With a radius: False, all four components of a start lie in the ball, as in the paper. True,
-        only displacement and velocity of the primary mass do; the loose mass is at relative rest,
-        anywhere in its gap. A machine at rest is `radius=0` with `whole_gap=True`.
+        Used with a radius. If False, all four components of a start lie in the ball, as in the
+        paper. If True, only Z1 and Z1' lie in the ball; the loose mass is at relative rest anywhere
+        in its gap. A machine at rest is `radius=0` with `whole_gap=True`.
     seed : int
         Seed of the random starts.
     settling : Settling, optional
@@ -160,7 +160,7 @@ def frequency_response(
           the motion; the 95 % interval of their share; the mean life of a chaotic motion.
         - For each (frequency, start): outcome and length of the run. For each `end`: the end of a
           branch. For each `frequency`: the largest start and the largest motion without the damper.
-        - `missed_share`: upper bound (95 %) of the share of starts to motions that were not found.
+        - `missed_share`: upper bound (95 %) of the share of starts that lead to motions not found.
 
     Warns
     -----
@@ -245,7 +245,7 @@ def _lives(parameters, states, periods, settling, **running):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]
         approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
     lives = np.maximum(lives - approach, 1)
-    # The life of a run that is not chaotic when it is continued is `periods`.
+    # A lasting run that is not chaotic when continued has the life `periods`.
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives

@@ -17,14 +17,14 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
 from impact_damper.motions.records import PIECES, turning_time
 
-# Central difference: change of the parameter; finer change; ratio of the difference of one-sided
-# differences to their sum, above which a contact appears or vanishes and the change is finer.
+# Central difference: change of the parameter; finer change, if a contact appears or vanishes; ratio
+# of the difference of the one-sided differences to their sum that shows such a contact.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 
 @kernel
 def list_turns(p, states, phases, tolerance, turns):
-    """List the extrema of Z2 of a motion in segments, as of `survey`; return their number.
+    """List the extrema of Z2 of a motion in segments (see `survey`); return their number.
 
     The columns of `turns` (n, 4) are the segment; the phase W T; 1 at a maximum of |Z2|, 0 at a
     minimum; and |Z2| minus the clearance.
@@ -59,7 +59,7 @@ def list_turns(p, states, phases, tolerance, turns):
 
 @kernel
 def flow_all(p, states, tangents, times, tolerance):
-    """Integrate states (m, 4), tangents (m, 0 or 4, 4) in place; return the time in contact."""
+    """Integrate m states and their tangents (m, 0 or 4, 4) in place; return the time in contact."""
     work, touching = workspace(), 0.0
     for k in range(len(states)):
         side = side_of(p, states[k])
@@ -73,8 +73,8 @@ def flow_all(p, states, tangents, times, tolerance):
 def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
     """Compute the derivatives of the end states of segments by a parameter (central differences).
 
-    `rate` (COUNT,) are the derivatives of the packed parameters by this parameter. `sign` is -1 if
-    the segments cover half a symmetric orbit. `slopes` (m, n) receives the first n components.
+    `rate` (COUNT,) holds the derivatives of the packed parameters by this parameter. `sign` is -1
+    if the segments cover half a symmetric orbit. `slopes` (m, n) receives the first n components.
     """
     work, none = workspace(), np.empty((0, 4))
     ahead, behind, moved = np.empty(4), np.empty(4), np.empty(COUNT)

@@ -1,11 +1,11 @@
 """Start states of a search for motions: random states, and states on known motions.
 
 With a radius all starts are random. They are uniform in a ball, as in the paper (section 3, iii),
-or the primary mass lies in a disk and the loose mass anywhere in its gap. Without a radius, random
-starts are distributed on a logarithmic scale, to SPREAD times the free motions. Further starts are
-placed on free motions and at rest, with several states of the loose mass; on solutions of harmonic
-balance; at the ends of slow ramps. Ramps find the violent motions of weakly damped machines, whose
-small basins hardly any random start hits.
+or the primary mass lies in a disk and the loose mass anywhere in its gap. Without a radius, sizes
+of random starts are distributed on a logarithmic scale, at most SPREAD times the largest free
+motion. Further starts are placed on free motions and at rest, with several states of the loose
+mass; on solutions of harmonic balance; at the ends of slow ramps of a parameter. Ramps find violent
+motions of weakly damped machines, whose small basins are rarely hit by random starts.
 """
 
 import math
@@ -28,18 +28,18 @@ from impact_damper.theory.single_harmonic import impacting_solutions
 # Search for free motions: number of phases of the starts on solutions of harmonic balance, samples
 # in a forcing cycle, and largest number of states stored of one motion.
 PHASES, SAMPLES, MOST_STATES = 6, 256, 5
-# Largest random start divided by the largest free motion, smallest divided by the largest start.
+# Largest random start divided by the largest free motion; smallest divided by largest start.
 SPREAD, SMALLEST = 3.0, 0.01
-# Placed starts: Z2 divided by the clearance; Z2' divided by the larger of the speed of the free
-# motion and the crossing speed, which crosses the gap in half a forcing cycle.
+# Placed starts: Z2 divided by the clearance; Z2' divided by the free motion's speed or the crossing
+# speed (`_crossing_speed`), whichever is larger.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
 # Loose masses for `sweep.stable_orbits`: number; largest |Z1' - Z2'|, in the unit of VELOCITIES.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# Largest |Z1| and |Z1'| of random starts with a softening spring, divided by those of `barrier`.
+# Largest |Z1| and |Z1'| of random starts with a softening spring, divided by `barrier`'s values.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps: relative change of a parameter in a step; forcing cycles in a step; ratio of the first
-# frequency to the lowest fold, or inverse ratio to the highest one; ratio of first to last force.
+# frequency to the lowest fold, inverse ratio to the highest fold; ratio of first to last force.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
@@ -47,8 +47,8 @@ class Search(NamedTuple):
     """Start states at T = 0 of a search in n systems, and sizes of the starts and free motions.
 
     `random` has the shape (n, m, 4). `placed` and `loose`, an argument of `sweep.stable_orbits`,
-    hold an array for each system, which is empty if a radius is given. `displacement` and `speed`
-    (n,) are bounds of random starts, `free_displacement` and `free_speed` those of free motions.
+    hold an array for each system, empty if a radius is given. `displacement` and `speed` (n,) bound
+    the random starts; `free_displacement` and `free_speed` are largest values of free motions.
     """
 
     random: np.ndarray
@@ -70,7 +70,7 @@ class Search(NamedTuple):
 
 
 def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_gap=False) -> Search:
-    """Return the starts of a search in systems (damper or None, W), each with `count` random ones.
+    """Return the starts of a search in systems (damper or None, W), `count` random ones in each.
 
     With `whole_gap` starts near rest are wanted, so a small radius causes no warning.
     """
@@ -100,12 +100,12 @@ def describe_search(starts, radius, seed, whole_gap=False) -> dict:
 
 
 def missed_share(starts) -> float:
-    """Return the upper bound (95 %, rule of three) of the share of starts to a missed motion."""
+    """Return the upper bound (95 %, rule of three) of the share of starts to missed motions."""
     return min(1.0, 3.0 / starts) if starts else 1.0
 
 
 def free_sizes(oscillator, frequencies) -> dict:
-    """Return by frequency the largest free displacement and speed, from harmonic balance."""
+    """Return largest free displacement and speed, by harmonic balance, keyed by frequency."""
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
     return {w: (size, size * w) for w, size in sizes.items()}
 
@@ -216,7 +216,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """Return the state at T = 0 after a ramp from rest of parameters from `factor` x `target`."""
+    """Start at rest, ramp parameters from `factor` x `target` to `target`; return the end state."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent
@@ -235,7 +235,7 @@ def barrier(oscillator):
 
 
 class FreeMotions(NamedTuple):
-    """States Z1, Z1' (k, 2) at W T = 0 of the free motions at one frequency, and largest values."""
+    """States (Z1, Z1') at W T = 0 of free motions, shape (k, 2), and largest |Z1| and |Z1'|."""
 
     states: np.ndarray
     displacement: float

@@ -16,7 +16,7 @@ from impact_damper.model.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MAS
 
 # Phase W T of the strobe.
 STROBE = math.pi / 2
-# Newton's method: most corrections, largest last correction, smallest determinant of the matrix.
+# Newton's method: largest number of corrections, largest last correction, smallest determinant.
 ITERATIONS, CONVERGED, REGULAR = 10, 1e-9, 1e-12
 # Largest local error of a step in the integration of orbits.
 POLISH_TOLERANCE = 1e-12
@@ -139,7 +139,7 @@ def polish(p, y, periods, reach, tolerance):
     """Move a state y onto the periodic orbit near it, by Newton's method on the map over `periods`.
 
     Without contacts only Z1 and Z1' are unknown. Return whether the method has converged to an
-    orbit within `reach` of y in Z1, Z1' and Z2, its largest residual, and its dominant multiplier.
+    orbit within `reach` of y in Z1, Z1' and Z2, the residual, and the dominant multiplier.
     """
     orbit = y.copy()
     for _ in range(ITERATIONS):

@@ -87,7 +87,7 @@ def reached(data):
 def _follow(source, target, index, settling, links, ends):
     """Follow all motions of catalogue `source` to the next value, and add the results to `target`.
 
-    `links` receives the numbers of two motions on the same branch, `ends` a dict for each end.
+    `links` receives number pairs of motions on one branch, `ends` a dict for each end of a branch.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
@@ -123,7 +123,7 @@ def _follow(source, target, index, settling, links, ends):
 def _end_event(record, multiplier, beyond):
     """Return the name of the event that ends a branch of the motion `record`.
 
-    `multiplier` is that of the last orbit of the branch. `beyond` is the motion at the next value.
+    `multiplier` belongs to the branch's last orbit. `beyond` is the motion at the next value.
     """
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
@@ -139,7 +139,7 @@ def _end_event(record, multiplier, beyond):
 
 
 def _branches(catalogues, links):
-    """Return an array with the branch of each motion. Links and matches connect a branch."""
+    """Return the branch number of each motion. Links and matches join motions to branches."""
     links = links + [
         (first.numbers[i], second.numbers[j])
         for first, second in pairwise(catalogues)
@@ -195,7 +195,7 @@ class Catalogue:
         self.records, self.numbers, self.origins, self.starts = [], [], [], []
 
     def find(self, record):
-        """Return the index of the motion of a record or of its mirror image, None if unknown."""
+        """Return the index of the motion of a record or of its mirror image, None for a new one."""
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue
@@ -283,8 +283,8 @@ def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
     """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
 
     On most of these orbits the primary mass moves nearly as in a known motion. So Newton's method
-    starts with Z1 and Z1' of the known `motions` (m, 2) at the strobe in turn, and with Z2 and
-    Z1' - Z2' from the rows of `loose` (n, 2).
+    starts with Z2 and Z1' - Z2' from each row of `loose` (n, 2), and with Z1 and Z1' at the strobe
+    of the known `motions` (m, 2) in turn.
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

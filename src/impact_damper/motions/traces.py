@@ -9,15 +9,15 @@ from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import LENGTH, assign, side_of, state_in_step, step, workspace
 
-# Number of steps in one call of the kernel, which takes a fraction of a second; first number of
-# rows of the log. To allocate a larger log would take longer than a short motion.
+# Number of steps in one call of the kernel, which takes a fraction of a second; number of rows of
+# the log at first. The allocation of a larger log would take longer than a short motion.
 STEPS_AT_ONCE, ROWS = 50_000, 64
 
 
 def trace(p, state, begin, times, tolerance):
     """Return the states at increasing times, shape (n, 4), and the contacts, shape (k, 5).
 
-    After an escape the states are NaN. A contact is wall, beginning, end, Z2' at both times.
+    After an escape the states are NaN. A contact is a row: wall, beginning, end, Z2' at both times.
     """
     y, t, times = np.array(state, float), float(begin), np.ascontiguousarray(times, float)
     states, log = np.empty((len(times), 4)), np.empty((ROWS, 5))

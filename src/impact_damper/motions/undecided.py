@@ -36,8 +36,8 @@ TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
 # Largest error of a rotation number, and smallest number of points.
 AGREEMENT, FEWEST = 1e-8, 100
-# The advances of the angle modulo 1 are points on a circle. Smallest empty interval between them,
-# in revolutions; the circle is cut there.
+# Smallest empty interval, in revolutions, between the advances of the angle modulo 1, which are
+# points on a circle.
 INTERVAL = 0.02
 # Largest change of the angle between neighbouring points, sorted by phase, and largest sum of the
 # moduli of all these changes, in revolutions.
@@ -69,7 +69,7 @@ def run_block(p, y, tangent, states, growth, stop):
 def name_undecided(parameters, motions, limit, further, stop):
     """Continue the motions that `settle_many` left unresolved, and complete their records.
 
-    A motion is continued in blocks, each twice as long as the last, for at most `further` cycles.
+    A motion runs on in blocks, each twice as long as the last, for at most `further` cycles in all.
     """
     curves = []
     for i in np.flatnonzero(motions["outcome"] == records.UNRESOLVED):
@@ -144,7 +144,7 @@ def _exponent(growth):
 
 
 def _grows(growth, mean, error):
-    """Return whether a tangent certainly grows in a block, including the last quarter of it."""
+    """Return whether a tangent certainly grows in a block, and also in the block's last quarter."""
     lasting = np.mean(growth[-len(growth) // 4 :]) > mean / 2
     return lasting and mean > CONFIDENCE * error and np.sum(growth) > GROWN
 
@@ -174,8 +174,8 @@ def _on_orbit(p, record, states, contacts, limit):
 def _quasi_periodic(p, record, states, mean, error):
     """Return QUASI_PERIODIC if the states move along closed curves, otherwise UNRESOLVED.
 
-    `find_rotation` fails on a curve that has corners, where contacts begin or end, or does not
-    enclose its centre. So every curve is tried, in the planes (Z1, Z1') and (Z2, Z2').
+    `find_rotation` fails on a curve that has corners, where contacts begin or end, or that does not
+    enclose its centre. So all curves are tried, in the planes (Z1, Z1') and (Z2, Z2').
     """
     if abs(mean) > NEUTRAL * error:
         return records.UNRESOLVED
@@ -213,7 +213,7 @@ def find_rotation(points):
         return None
     angle = np.angle(_rounded(points)) / (2 * math.pi)
     advance = np.diff(angle) % 1
-    # The advances are points on a circle. Cut the circle in the widest interval between them.
+    # The advances are points on a circle, which is cut in the widest interval between points.
     order = np.sort(advance)
     intervals = np.diff(order, append=order[0] + 1)
     widest = np.argmax(intervals)
@@ -239,7 +239,7 @@ def _rounded(points):
 
 
 def _goes_around_once(angle, number):
-    """Return whether angles, in revolutions, sorted by phase, make one turn without jumps."""
+    """Return whether angles (revolutions), sorted by phase, make one turn without jumps."""
     order = np.argsort(np.arange(len(angle)) * number % 1)
     turns = np.diff(angle[order], append=angle[order[0]])
     turns -= np.round(turns)

@@ -25,8 +25,8 @@ from impact_damper.motions.strobe_map import (
 # Longest period of an orbit in forcing cycles; length of a ring, the buffer of last strobe states.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# Smallest Lyapunov exponent of a chaotic motion, in standard errors; largest weak exponent, per
-# unit of T.
+# Smallest Lyapunov exponent of a chaotic motion, in standard errors; largest exponent of weak
+# chaos, per unit of T.
 CONFIDENCE, WEAK = 4.0, 0.05
 # Forcing cycles of a batch, in which the logarithms of the growth of a tangent are summed; number
 # of last batches in which the tangent of a chaotic motion must still grow.
@@ -35,9 +35,10 @@ BLOCK, RECENT = 10, 5
 NEAR, NEAREST = 1e-4, 1e-9
 # Largest energy of an unforced motion at rest, divided by the first energy.
 REST = 1e-9
-# Data of one motion while it runs. untouched: last forcing cycles without contact. near: distance
-# at which Newton's method is tried next. periods: cycles with a tangent. batch: growth of the
-# tangent in this batch. mean, squares, recent: mean, variance sum and last values of full batches.
+# Data of one motion while it runs. untouched: number of last forcing cycles without contact. near:
+# distance at which Newton's method is tried next. periods: cycles with a tangent. batch: growth of
+# the tangent in this batch. mean, squares, recent: growth in full batches, its mean, sum of squared
+# deviations and last values.
 SEEN = np.dtype(
     [(name, "i8") for name in ("index", "strobes", "untouched", "periods")]
     + [(name, "f8") for name in ("near", "energy", "batch", "mean", "squares")]
@@ -76,7 +77,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return mean growth in a batch, its error, and whether the last batches exceed mean/2."""
+    """Return mean growth in a batch, its error, and whether recent batches exceed half the mean."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -113,7 +114,7 @@ def move_onto_orbit(p, y, periods, near, out):
 
     A motion that spirals towards an orbit may seem to repeat after a multiple of the period only.
     So the divisors of `periods` are tried first. Newton's method can fail near a grazing contact. A
-    motion within NEAREST of an orbit is then the orbit, with the residual and multiplier NaN.
+    motion within NEAREST of an orbit is then taken as the orbit; residual and multiplier are NaN.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):
@@ -132,7 +133,7 @@ def move_onto_orbit(p, y, periods, near, out):
 
 @inlined
 def leave_transient(p, out):
-    """Replace the Lyapunov exponent of the transient by that of the orbit, from its multiplier."""
+    """Replace the Lyapunov exponent of a transient by the orbit's, from the orbit's multiplier."""
     duration = out.period * 2.0 * math.pi / p[FREQUENCY]
     out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
     out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan
@@ -191,8 +192,8 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
       and the loose mass has touched no wall for `patience` cycles and would drift by less than 1 %
       of the clearance in `limit` cycles. A faster drift is named drifting after `limit` cycles;
     - as chaotic after `patience` cycles if the largest Lyapunov exponent exceeds CONFIDENCE
-      standard errors and the tangent still grows (a transient may have ended). An exponent below
-      WEAK is judged just before `limit` only, because a slow spiral can look like weak chaos.
+      standard errors and the tangent still grows, unlike after a transient. An exponent below WEAK
+      is judged just before `limit` only, because a slow spiral can look like weak chaos.
 
     The tangent and `reach` are updated from cycle `patience`/2 on.
     """

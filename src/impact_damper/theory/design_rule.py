@@ -45,7 +45,7 @@ def peak_frequency(oscillator) -> float:
 
 
 def rule_clearance(oscillator, mass_ratio) -> float:
-    """Return the clearance d0 = f/(rm Wp^2) of rule (19), for which a = 0 solves (13) at Wp."""
+    """Return the clearance d0 = f/(rm Wp^2) of rule (19). With this d0, a = 0 solves (13) at Wp."""
     peak = peak_frequency(oscillator)
     forcing = oscillator.forcing_amplitude(peak)
     if forcing == 0:

@@ -19,15 +19,14 @@ from impact_damper.theory.single_harmonic import (
 )
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
-# Solutions at neighbouring frequencies can belong to one branch only if their distance is below
-# JUMP times the size of the largest solution.
+# Bound on the distance of neighbouring solutions of a branch, in sizes of the largest solution.
 JUMP = 0.25
 
 
 def branches_over(rows) -> list[np.ndarray]:
-    """Return the number of the branch of each solution, at each value of a parameter.
+    """Return the branch number of each solution in `rows`, with a row for each parameter value.
 
-    Solutions at neighbouring values are on one branch if each is nearest to the other, and their
+    Solutions in neighbouring rows are on one branch if each is nearest to the other, and their
     distance is below JUMP times the size of the largest solution.
     """
     sizes = [np.max(np.abs(row)) for row in rows if len(row)]
@@ -188,7 +187,7 @@ SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "r
 
 
 def _band(oscillator, damper):
-    """Return the variables of the suppression band; holes smaller than SEARCH_STEP are not seen."""
+    """Return the variables of the suppression band; gaps shorter than SEARCH_STEP are not seen."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,
@@ -219,7 +218,7 @@ def _band(oscillator, damper):
 
 
 def _look(oscillator, damper, frequency):
-    """Return the flag `band_status` at one frequency, and |a| of stable solutions, ascending."""
+    """Return the `band_status` at one frequency, and the ascending |a| of stable solutions."""
     solutions = impacting_solutions(oscillator, damper, frequency)
     growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
     stable = np.sort(np.abs(solutions.amplitude[stability(growth) == flag("stability", "stable")]))
@@ -231,7 +230,7 @@ def _look(oscillator, damper, frequency):
 
 
 def _edge(inside, peak, limit):
-    """Return the last frequency inside the band from `peak` to `limit` times `peak`, or NaN."""
+    """Return the edge of the band between `peak` and `limit` times `peak`, NaN if not found."""
     step = np.sign(limit - 1) * SEARCH_STEP * peak
     inner = peak
     for outer in np.arange(peak + step, limit * peak, step):

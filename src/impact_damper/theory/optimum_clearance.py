@@ -15,7 +15,7 @@ ZERO_AMPLITUDE = 1e-6
 
 
 def _analytical(oscillator, damper, frequency):
-    """Return a of the stable solution of (7) with the smallest |a|, and `analytical_status`."""
+    """Return the amplitude a of the smallest stable solution of (7), and `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     if beyond_closed_forms(oscillator, damper):
@@ -30,7 +30,7 @@ def _analytical(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return variables: |a| by (7) over a sweep of the clearance, and the clearance for a = 0."""
+    """Return variables: |a| by (7) for dampers of ascending clearance; the clearance for a = 0."""
     found = [_analytical(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best = np.nan

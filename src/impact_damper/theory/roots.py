@@ -9,10 +9,10 @@ from numpy.polynomial.polynomial import polyder, polyroots, polyval
 from scipy.optimize import brentq
 
 EPSILON = np.finfo(float).eps
-# Largest ratio of a value that is treated as 0 to the sum of the moduli of the function's terms.
+# Largest value treated as 0, divided by the sum of the moduli of the function's terms.
 ROUNDING = 16 * EPSILON
 LARGEST_DEGREE = 512
-# Largest ratio of two sums of moduli of the terms in an interval, above which it is halved.
+# Largest ratio of the sums of moduli at two points of an interval; above it the interval is halved.
 LARGEST_RANGE = 1e6
 
 
@@ -34,8 +34,8 @@ def polynomial_roots(coefficients) -> np.ndarray:
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
     """Return the real roots of an analytic function in [lower, upper], each listed once.
 
-    `size` bounds the rounding error in units of EPSILON. The extrema are those of a Chebyshev
-    interpolant (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
+    The function `size` bounds the rounding error in units of EPSILON. A Chebyshev interpolant gives
+    the extrema (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
     """
     sizes = size(np.linspace(lower, upper, 17))
     if np.max(sizes) > LARGEST_RANGE * np.min(sizes):
@@ -56,7 +56,7 @@ def smooth_roots(function, size, lower, upper) -> np.ndarray:
 
 
 def _between(function, size, extrema, lower, upper):
-    """Return the roots of `function` in [lower, upper] from the real parts of its `extrema`."""
+    """Return the roots of `function` in [lower, upper], given its `extrema`, complex numbers."""
     points = np.unique(np.clip(np.concatenate([[lower, upper], np.real(extrema)]), lower, upper))
     values = function(points)
     if not np.isfinite(values).all():

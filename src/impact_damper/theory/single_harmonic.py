@@ -37,8 +37,8 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 def rigid_solutions(oscillator, damper, frequency) -> Solutions:
     """Return the solutions of (13), with b = d0, by ascending real roots D of (14).
 
-    Solutions with a > d0 need walls that pull; (7) has no such solution. With a forcing amplitude
-    f other than 1, d0/f, k3 f^2 and a/f replace d0, k3 and a.
+    Solutions with a > d0 need walls that pull; (7) has no such solution. For a forcing amplitude f
+    other than 1, the equations hold with d0/f, k3 f^2 and a/f in place of d0, k3 and a.
     """
     check_elastic(oscillator, damper)
     frequency = check_frequency(frequency)
@@ -136,7 +136,7 @@ class _Balance:
         )
 
     def angle_range(self):
-        """Return the least and the greatest p within the bounds on |a|; equal numbers mean none.
+        """Return the least and the greatest p within the bounds on |a|; if equal, there is none.
 
         (7b) bounds |a| by f/(h W), and (7a) bounds |g| |a|^3 by the other terms.
         """

@@ -1,7 +1,7 @@
 """Stability of harmonic-balance solutions by the slow flow (17) in complex amplitudes.
 
 With A = a exp(i t1) and C = b exp(i t2) the slow flow is regular at the design point a = 0. The
-polar equations of the paper are not. At other points the eigenvalues of both are the same.
+paper's polar equations are singular there. Elsewhere both have the same eigenvalues.
 """
 
 import numpy as np

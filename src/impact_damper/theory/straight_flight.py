@@ -22,7 +22,7 @@ APART = 1e-20j
 
 
 class Flight(NamedTuple):
-    """The quiet (small) motion near its optimum; lengths are in units of f/W^2, time is phase W T.
+    """The quiet (small) motion near the optimum clearance, over the phase W T.
 
     x = W^2 Z1/f responds to the forcing and to impulses 4 q/pi (see the derivation in
     docs/explanation/straight_flight.md). `contact` is the duration of an elastic contact, as phase
@@ -47,7 +47,7 @@ class Flight(NamedTuple):
 
     @property
     def loss(self):
-        """Ratio L/A. The lag s of an impact at rigid walls obeys sin(s) = q L/A."""
+        """Ratio L/A, where L is the loss. The lag s of an impact at rigid walls is asin(q L/A)."""
         impact = (1 + 1 / self.mass_ratio) * (1 - self.restitution) / (1 + self.restitution)
         damping = self._difference(lambda root: root * np.tanh(np.pi * root / 2))
         return 2 / np.pi * (impact - damping) / self.forced
@@ -59,7 +59,7 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Depth, in units of (1 + 1/rm) q, where the straight flights around a contact meet."""
+        """Depth in the wall where the flights around a contact meet, in units of (1 + 1/rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
@@ -106,7 +106,7 @@ class Flight(NamedTuple):
         return impulse + self.mass_ratio * tip - (1 + self.mass_ratio) * self.reach * impulse
 
     def largest_displacement(self, impulse):
-        """Return max |x| for an impulse q, at the rounded tip or at a turning point in flight."""
+        """Return max |x| for an impulse q: at the impact, or at a turning point between impacts."""
         lag = self.lag(impulse)
         turn = np.arcsin(np.minimum(2 * impulse / (np.pi * self.forced), 1.0))
         sizes = [self.motion(lag, impulse)[0] - (1 - 2 / np.pi) * self.reach * impulse]

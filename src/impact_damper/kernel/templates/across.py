@@ -23,7 +23,7 @@ def is_outside(a, i):
 
 @kernel_only
 def load_across(a):
-    """Compute ACROSS at the beginning of the step, its bound MOST, and whether it acts (SWAYS)."""
+    """Compute ACROSS at the beginning of the step, its bound MOST, and SWAYS, 0 if nothing acts."""
     acting = 0
     rough = 0
     for i in range(LANES):
@@ -75,7 +75,7 @@ def find_sway(a):
 
 @kernel_only
 def flight_values(a):
-    """Compute Z1 and SWAY with their derivatives at T, from which those of Z2 follow."""
+    """Compute Z1 and SWAY with their derivatives at T; Z2 and its derivatives follow from both."""
     flight_slope(a)
     flight_curve(a)
     find_sway(a)
@@ -83,7 +83,7 @@ def flight_values(a):
 
 @kernel_only
 def penetration_values(a):
-    """Compute Z1 and the penetration with their derivatives at T, which need SWAY first."""
+    """Compute SWAY, then Z1 and the penetration, with their derivatives at T."""
     find_sway(a)
     contact_values(a)
 
@@ -138,7 +138,7 @@ def step_outside(a, i, t):
     slope = wall * w
     f = q + lag * slope
     rise = slope + lag * wall * (a[Z1_CURVE + i] + a[SWAY_CURVE + i])
-    # Rounding of Z1 and Z1', from which Z2 and Z2' are computed, may exceed the clearance's.
+    # Z2 and Z2' are computed from Z1 and Z1', whose rounding errors may exceed that of d0.
     fine = abs(a[Y0 + i]) + clearance + lag * (abs(a[Y1 + i]) + abs(slope))
     fine *= ROUNDING
     bent = bound + lag * a[JERK_BOUND + i]

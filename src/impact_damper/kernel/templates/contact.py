@@ -86,8 +86,8 @@ def find_contact(a):
     Bounds decide most flights without a search, for any spring. `change` is the sum of the moduli
     of all terms of Z2' at T after the first term. The loose mass first moves to the wall ahead.
 
-    - `clear`: Z2 deviates from its chord by at most SAG `change` T. The wall ahead is not met if it
-      is further away at both ends of the flight.
+    - `clear`: Z2 deviates from its chord, the straight line between the ends of the flight, by at
+      most SAG `change` T. The wall ahead is not met if it is further away at both ends.
     - `left`: the chord gives a lower bound on the distance to the wall behind, and the first speed
       minus `change` gives another. If the mean of both bounds is positive, this wall is not met.
     - `certain`: the speed at each end gives a lower bound on the speed. If the mean of both bounds
@@ -124,7 +124,7 @@ def find_contact(a):
 
 @kernel_only
 def meet_expected(a):
-    """Do one iteration, which is mostly the last one, in lanes that expect a contact at T.
+    """Do one iteration, which mostly suffices, in lanes that expect a contact at T.
 
     Return the number of lanes that are still undecided.
     """
@@ -178,7 +178,7 @@ def search_contact(a):
                 upper = safe_advance(clearance - z, w, bound)
                 lower = safe_advance(clearance + z, -w, bound)
                 wall = 1.0 if upper < lower else -1.0
-                # Next to a receding wall the distance stays a rounding error for `shortest`.
+                # Next to a receding wall the distance is a rounding error for a time `shortest`.
                 shortest = math.sqrt(8.0 * fine / (bound + TINY))
                 receding = max(shortest, ROUNDING * t) if wall * w <= 0.0 else 0.0
                 ahead = max(min(upper, lower), receding)

@@ -9,7 +9,7 @@ from impact_damper.kernel.equation import forcing_amplitude
 
 LANES: int
 
-# pi/2 as the sum of two numbers. The first has few digits, so its multiples are exact.
+# pi/2 as the sum of two numbers. QUARTER has few digits, so its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
 # Largest change of phase (rad) for which COSINE and SINE follow from known values by the addition
@@ -65,7 +65,7 @@ def forcing(a):
 def look_ahead(a):
     """With one lane, compute COSINE and SINE at T, the expected end of the step.
 
-    The processor would otherwise wait for other results of the step.
+    The processor does this while it would wait for other results of the step.
     """
     if LANES == 1:
         a[KNOWN] = a[TIME] + a[T]

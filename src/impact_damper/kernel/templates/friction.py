@@ -52,7 +52,7 @@ def load_friction(a):
 
 @kernel_only
 def wall_force(a, i):
-    """Return the force of the wall on the primary mass at the beginning of a step."""
+    """Return the force of the wall on the loose mass at the beginning of a step."""
     wall = a[SIDE + i]
     depth = a[Y2 + i] - wall * a[CLEARANCE + i]
     force = a[CONTACT_STIFFNESS + i] * depth + a[DASHPOT + i] * a[Y3 + i]
@@ -61,10 +61,10 @@ def wall_force(a, i):
 
 @kernel_only
 def hold(a):
-    """In lanes whose loose mass sticks, replace parameters by those of both masses together.
+    """In lanes whose loose mass sticks, replace parameters by parameters of both masses together.
 
     Damping and spring act on both masses, so their parameters are scaled. The last two of HELD_ROWS
-    belong to the wall; they become 0, because its force is constant.
+    belong to the wall, whose force is constant; they become 0.
     """
     for k in range(len(HELD_ROWS)):
         row, free = HELD_ROWS[k], FREE_ROWS[k]
@@ -98,7 +98,7 @@ def load_rates(a):
 
 @kernel_only
 def series_held(a, touching):
-    """Compute the series of a step with the parameters and forcing of lanes that stick."""
+    """Compute the series of a step in which the loose masses of some lanes stick (`hold`)."""
     hold(a)
     for i in range(LANES):
         inverse = a[INVERSE_MASS_RATIO + i]
@@ -120,8 +120,8 @@ def series_held(a, touching):
 def find_turn(a, touching):
     """Find the first turn or slip before T.
 
-    At a turn Z2' of a sliding loose mass is 0. At a slip a sticking mass begins to slide. MODE
-    becomes TURNED there, and T and the rows END_ receive time and state. Other lanes do not change.
+    At a turn Z2' of a sliding loose mass is 0. At a slip a sticking mass begins to slide. In lanes
+    with either, MODE becomes TURNED, and T and the rows END_ receive time and state.
     """
     if touching:
         contact_jerk(a)
@@ -200,7 +200,7 @@ def wall_force_held(a, i):
 
 @kernel_only
 def end_turn(a):
-    """Set Z2' to 0 after a turn, and after a slip to a tiny number with the sign of the sliding.
+    """After a turn set Z2' to 0; after a slip set Z2' to a tiny number with the sign of SLIDE.
 
     A loose mass that sticks keeps its Z2.
     """
@@ -226,7 +226,7 @@ def friction_jump(a, d):
     """Multiply tangents by the saltation matrix of a turn, and undo `keep_tangents`.
 
     At a turn friction jumps by J, and Z2'' before the turn is b. The tangent's Z1' and Z2' jump by
-    -rm J/b and -(1 + rm) J/b times its Z2'. Its Z2' is 0 if the mass sticks. At a slip none jumps.
+    -rm J/b and -(1 + rm) J/b times Z2'. Z2' becomes 0 if the mass sticks. At a slip nothing jumps.
     """
     for i in range(TANGENTS):
         j = i % LANES

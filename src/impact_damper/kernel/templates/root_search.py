@@ -10,7 +10,7 @@ search:
     ENDING    the search has reached the end of the step in mode MARCH without a root.
     MET       the root has been found.
     MISSED    the step certainly contains no root.
-    MET_DEEP  the root has been found, and it lies at a depth (`across.find_return`).
+    MET_DEEP  a contact begins at a depth behind the wall's surface (`across.find_return`).
     TURNED    the loose mass turns, or begins to slide, before the root (`friction.find_turn`).
 """
 
@@ -33,9 +33,9 @@ FAR = 1e200
 
 @kernel_only
 def safe_advance(f, closing, bound):
-    """Return the first root t of f - closing t - bound t^2/2, before which f cannot vanish.
+    """Return a time before which the event function f cannot vanish, given its present value `f`.
 
-    `closing` is -f', and `bound` an upper bound on |f''|.
+    The time is the first root of f - closing t - bound t^2/2; `closing` is -f', `bound` >= |f''|.
     """
     f = max(f, 0.0)
     root = math.sqrt(closing * closing + 2.0 * bound * f)
@@ -48,7 +48,7 @@ def safe_advance(f, closing, bound):
 def march_step(t, f, closing, ahead, length, fine):
     """Return the next time and mode of a search in mode MARCH; f is positive until t + `ahead`.
 
-    The root is at t if f decreases (`closing`) and either f is below its rounding error `fine` or
+    The root is at t if f decreases (`closing` is true), and f is below its rounding error `fine` or
     `ahead` is too short to change t.
     """
     met = closing and (f <= fine or t + ahead == t)
@@ -65,7 +65,7 @@ def chebyshev(first, bend):
 
 @kernel_only
 def is_last_move(a, i, move, rate):
-    """Return whether a move neglects only terms far below the tolerance (LAST_MOVE)."""
+    """Return whether the terms neglected in a move are far below the tolerance (LAST_MOVE)."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -102,7 +102,7 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
 @kernel_only
 def store_end(a, i, row, end, move, going):
-    """Store value and slope after a move in the row `end` and the next row if `going` is true.
+    """Store value and slope after a move in the row `end` and the next one, if `going` is true.
 
     The four rows from `row` on hold the value and three derivatives before the move.
     """

@@ -87,7 +87,7 @@ def find_separation(a):
     R = (q'^2 + w^2 q^2)^(1/2) grows at most at the rate G and falls at most at the rate G + D R.
     The largest R gives a bound on |q''|. The phase of (w q, q') turns at the rate w, with a
     deviation of at most G/R + D/2. q + LAG q' is zero twice in a turn. If the deviation is below
-    PHASE_MARGIN w, it has at most one root in the step, and the search begins in mode BRACKET.
+    PHASE_MARGIN w, there is at most one root in the step, and the search begins in mode BRACKET.
     """
     penetration_values(a)
     uncertain = 0

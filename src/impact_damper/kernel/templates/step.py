@@ -4,10 +4,10 @@ The trajectories of a step are all in flight or all in contact. The step integra
 its next event, the beginning or end of a contact, or over the longest admitted time.
 
 The files in this folder are templates. `instances.instance` joins them into one module for a number
-of lanes (trajectories side by side) and orders of the Taylor series in flight and in contact,
-behind the constants declared below and the functions that `instances.Source` writes. All numbers
-stand in flat arrays, `a` for trajectories and `d` for tangents. A name in capitals, such as Y0, is
-the index at which a row begins (`instances.rows`): a[Y0 + i] belongs to lane i.
+of lanes (trajectories side by side) and orders of the Taylor series in flight and in contact. The
+module begins with the constants declared below and the functions that `instances.Source` writes.
+All numbers stand in flat arrays, `a` for trajectories and `d` for tangents. A name in capitals,
+such as Y0, is the index at which a row begins (`instances.rows`): a[Y0 + i] belongs to lane i.
 """
 
 import math
@@ -31,10 +31,10 @@ ONE = 1023 << 52
 # this ratio the error of settled motions stays below 10 times the tolerance.
 SAFETY = 0.05
 # Ratio of the last terms to `largest_tail` above which a flight is shortened. The length of a
-# flight is a prediction. Without this margin many flights would be computed twice.
+# flight is predicted. With a ratio of 1 many flights would be computed twice.
 EXCESS = 4.0
-# Longest flight that begins behind the surface of the unloaded wall (`is_outside`), in units of
-# LAG, the time in which a free wall returns to 1/e of its penetration.
+# Longest flight that begins behind the surface of the unloaded wall (`across.is_outside`), in units
+# of LAG, the time in which a free wall returns to 1/e of its penetration.
 OUTSIDE = 2.0
 # Largest distance from the wall, as a share of the clearance, at which a flight that cannot advance
 # ends in a contact.
@@ -55,7 +55,7 @@ def number(x):
 
 @kernel_only
 def largest_tail(a, i):
-    """Return the largest size that the last terms of the series of Z1' may have."""
+    """Return the largest allowed modulus of the last terms of the series of Z1'."""
     return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
 
 
@@ -81,9 +81,9 @@ def limit_length(a, series, order, excess):
 def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
-    The coefficients of Z1 are assumed to decay geometrically from SCALE; three coefficients
-    from order EARLY on give the rate. With LENGTH the last terms of Z1' reach SAFETY times the
-    tolerance. The processor can begin the next step before the last coefficients are computed.
+    The coefficients of Z1 are assumed to decay geometrically from SCALE; three coefficients from
+    order EARLY on give the rate. At LENGTH the last terms of Z1' reach SAFETY times the tolerance.
+    So the processor can begin the next step before the last coefficients are computed.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -220,8 +220,8 @@ def dashpot_jump(a, d, direction):
     """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
 
     The dashpot's force begins (direction -1) or ends (direction +1). Only this force jumps.
-    Therefore the tangent jumps in proportion to its Z2, and the matrix has determinant 1. A force
-    of the wall that begins or ends at a depth is 0 there and does not jump.
+    Therefore the tangent jumps in proportion to its Z2, and the matrix has determinant 1. A wall's
+    force that begins or ends at a depth is 0 there and does not jump.
     """
     for i in range(TANGENTS):
         j = i % LANES
