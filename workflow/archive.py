@@ -1,6 +1,6 @@
 """Archive of a run: `python workflow/archive.py write FILE`, and `check FILE`.
 
-The archive is a zip of the results and all that computed them, with an RO-Crate that names the
+The archive is a zip of the results and of their sources, with an RO-Crate that names the
 digest of each file and the job that made it. The check compares the digests and runs a job again.
 """
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import yaml
 
 ROOT = Path(__file__).parents[1]
-# Names of [project.urls], and what CITATION.cff and codemeta.json call them.
+# Key in [project.urls] -> keys in CITATION.cff and in codemeta.json.
 ADDRESSES = {
     "Repository": ("repository-code", "codeRepository"),
     "Documentation": ("url", "url"),

@@ -1,1 +1,1 @@
-"""Claims of the paper, their evidence and verdicts; (7) to (19) are equations of the paper."""
+"""Claims of the paper, numbers that decide them, and verdicts; (7) to (19) are its equations."""

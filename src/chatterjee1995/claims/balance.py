@@ -1,4 +1,4 @@
-"""Evidence for claims 1 to 3: solutions of harmonic balance, and exact orbits near them."""
+"""Evidence (numbers) for claims 1 to 3, from harmonic balance and from exact orbits."""
 
 import numpy as np
 import pandas as pd
@@ -111,7 +111,7 @@ def _elastic_orbits(datasets):
 
 
 def design_multipliers(datasets):
-    """Return the largest modulus of the multipliers of each exact quiet orbit of figure 3 at Wp."""
+    """Return the largest |multiplier| of the exact quiet orbit at Wp of each design of figure 3."""
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     return np.array([reading.largest_multiplier(reading.design_point(each)) for each in followed])
 

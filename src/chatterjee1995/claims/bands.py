@@ -1,4 +1,4 @@
-"""Evidence for claims 4, 16 and 17, on the suppression band and the amplitude in the band."""
+"""Evidence (numbers) for claims 4, 16 and 17, on the suppression band and the amplitude in it."""
 
 import itertools
 

@@ -1,4 +1,4 @@
-"""Evidence for claims 12 to 14 and 19, from datasets of `migration` and releases (damper off)."""
+"""Evidence (numbers) for claims 12 to 14 and 19; a release is the switching off of the damper."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return the shares of releases to a free motion, one for each damped motion of a kind."""
+    """Return the share of releases to a free motion, for each motion with damper of one kind."""
     rows = case.damped_kind.values == flag("damped_kind", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]

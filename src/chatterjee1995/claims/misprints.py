@@ -1,4 +1,4 @@
-"""Evidence for S1 to S6, misprints and omissions of the paper."""
+"""Evidence (numbers) for S1 to S6, misprints and omissions of the paper."""
 
 import math
 
@@ -17,7 +17,7 @@ SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansi
 
 
 def misrounding(printed, computed):
-    """Return |printed - computed| in half units of the last digit; a right rounding has <= 1."""
+    """Return |printed - computed| in half units of the last digit; right rounding gives <= 1."""
     decimals = len(f"{printed:g}".partition(".")[2])
     return abs(printed - computed) * 2 * 10**decimals
 

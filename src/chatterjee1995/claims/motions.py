@@ -1,4 +1,4 @@
-"""Evidence for claims 5 to 8 and 15, on contacts, chaos and phases of the motions with damper."""
+"""Evidence (numbers) for claims 5 to 8 and 15, on contacts, chaos and phases with the damper."""
 
 import math
 

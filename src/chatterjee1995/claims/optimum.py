@@ -1,4 +1,4 @@
-"""Evidence for claims 9 and 11, on the optimum clearance: the d0 with the smallest max |Z1|."""
+"""Evidence (numbers) for claims 9 and 11, on the optimum d0, which has the smallest max |Z1|."""
 
 import itertools
 
@@ -24,7 +24,7 @@ def excess(datasets):
         spreads.append(np.max(sizes) / np.min(sizes) - 1)
     for sweep in members:
         damping, frequency = reading.parameters(sweep, "damping", "frequency")
-        displaced.append(_displaced(sweep) * damping * frequency)  # over the resonance, 1/(h W)
+        displaced.append(_displaced(sweep) * damping * frequency)  # divided by resonance 1/(h W)
     return {
         "dampings": len(groups),
         "least": np.min(over),

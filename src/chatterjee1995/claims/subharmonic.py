@@ -1,4 +1,4 @@
-"""Evidence for claims 10 and 18, on the one-third subharmonic with and without damper."""
+"""Evidence (numbers) for claims 10 and 18, on the one-third subharmonic with and without damper."""
 
 import numpy as np
 

@@ -64,7 +64,7 @@ class ComparisonScene(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """Results of a run in 80-bit arithmetic that are taken as exact, named as in `Run`."""
+    """Results of a run in 80-bit arithmetic, taken as exact; names have the meaning as in `Run`."""
 
     state: np.ndarray
     contact_times: np.ndarray
@@ -105,7 +105,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield label, tolerance, `Run` and its cycles, `slow_periods` of slow integrators."""
+    """Yield label, tolerance, `Run` and number of cycles; slow ones have `slow_periods`."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:

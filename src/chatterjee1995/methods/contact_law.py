@@ -14,7 +14,7 @@ from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
-    """End of a contact: outcome ("released", "no_release", "falls_back"), s, departure speed/v0."""
+    """End of a contact: "released", "no_release" or "falls_back", time s, departure speed / v0."""
 
     outcome: str
     duration: float

@@ -111,9 +111,9 @@ def _count_table(p, passages, depths, tolerances, steps):
 
 
 def _expected(passages, depths, steps, period):
-    """Return expected shares of unseen contacts (steps, depth), for steps at random times.
+    """Return expected shares of unseen contacts (steps, depth), means of max(0, 1 - b/h).
 
-    Each is the mean of max(0, 1 - b/h): step h, time beyond the wall b = 2 sqrt(2 depth/|Z2''|).
+    Steps h begin at random times. The time beyond the wall is b = 2 sqrt(2 depth/|Z2''|).
     """
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])

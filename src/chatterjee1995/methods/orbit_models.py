@@ -1,4 +1,4 @@
-"""Models of steady motions of the forcing period, and their work (docs/explanation/methods.md)."""
+"""Models of motions with the forcing's period, and their work (docs/explanation/methods.md)."""
 
 import math
 from dataclasses import replace

@@ -15,7 +15,7 @@ TOLERANCE = 1e-15  # tolerance of the Taylor series
 
 
 class Passage(NamedTuple):
-    """A cycle without walls from `state` at T = 0; time, size and |Z2''| at its largest |Z2|."""
+    """A cycle without walls from `state` at T = 0; time, size and |Z2''| of the largest |Z2|."""
 
     state: np.ndarray
     time: float

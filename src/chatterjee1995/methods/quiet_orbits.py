@@ -44,7 +44,7 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
 
 
-# Phase W T of the states, without contact. Contacts lie in about -0.2 ... pi/2 and half a cycle on.
+# Phase W T of the states, at which no contact occurs: contacts lie in about -0.2 ... pi/2 (+ pi).
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between cells, divided by their distance

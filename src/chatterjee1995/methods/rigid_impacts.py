@@ -62,7 +62,7 @@ def rigid_map(p, restitution, y, tolerance):
 
     The dashpot in p must be 0. Return the final state, its derivative by y, the number of impacts,
     the smallest |Z2'| before an impact, |Z2'| and the acceleration of Z1 towards the wall before
-    the first impact, and the largest |Z1|. After MOST_IMPACTS only the number is valid.
+    the first impact, and the largest |Z1|. After MOST_IMPACTS impacts only their number is valid.
     """
     state = y.copy()
     tangents = np.eye(4)
@@ -93,7 +93,7 @@ def without_dashpot(p):
 
 
 class RigidOrbit(NamedTuple):
-    """A symmetric orbit with two impacts a cycle; speed and acceleration are before an impact."""
+    """A symmetric orbit with two impacts a cycle; `speed` and `acceleration` precede an impact."""
 
     state: np.ndarray
     multiplier: complex

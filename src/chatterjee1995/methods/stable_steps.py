@@ -87,7 +87,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step that holds with all smaller steps; NaN if fewer than CONFIRMED."""
+    """Return the largest step up to which all steps hold; NaN if fewer than CONFIRMED hold."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0

@@ -1,7 +1,6 @@
 """Branches of exact periodic orbits, cut into pieces and evaluated at any frequency.
 
-`free` are branches without damper. A high (violent) orbit has more than half the max |Z1| of the
-free resonance.
+`free` are branches without damper. High (violent) orbits exceed half the free resonance.
 """
 
 import numpy as np

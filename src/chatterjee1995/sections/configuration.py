@@ -212,7 +212,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return a configuration without null entries, their names in figures, and empty figures."""
+    """Remove null entries, the names of these entries in figures, and figures without data."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}

@@ -31,7 +31,7 @@ def collisions(
 
 @kernel
 def first_collision(p, state, limit, tolerance):
-    """Return the cycles to the first contact: 0 if the start is in contact, inf above `limit`."""
+    """Return cycles to the first contact: 0 for a start in contact, inf after `limit` cycles."""
     work, y, t, side = workspace(), state.copy(), 0.0, side_of(p, state)
     end = limit * 2.0 * math.pi / p[FREQUENCY]
     while side == 0 and t < end:

@@ -59,7 +59,7 @@ STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 def asymptotic_harmonic(damper, frequency) -> float:
     """Return the harmonic number N above which the predicted powers can hold; 1 without a damper.
 
-    The period of harmonic N is at most the duration of a contact (appendix B). With a dashpot also
+    A contact (appendix B) lasts at least the period of such a harmonic. With a dashpot also
     N >= r1/(c W): here the jump of its force, c Z2', outweighs the jump of the slope, r1 Z2'.
     """
     if damper is None:
@@ -225,7 +225,7 @@ def errors(solutions, multipliers, exact):
 
 
 def _farthest(values, references):
-    """Return the largest distance in the pairs of both arrays with the least total distance."""
+    """Pair values and references with the least total distance; return the largest distance."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)

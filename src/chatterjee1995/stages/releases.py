@@ -31,9 +31,9 @@ from impact_damper.motions.sweep import Catalogue
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-LEAD = 20  # cycles at the beginning of a run without a release, in which the start has an influence
+LEAD = 20  # first cycles of a run, in which the start still matters and no release lies
 PAPER_CYCLES = 350  # cycles within which the paper's controller reaches the non-resonance branch
-CAPTURE = 0.1  # largest difference in Z1 or Z1' between a captured run and its orbit
+CAPTURE = 0.1  # largest difference in Z1 or Z1' of a run and the orbit that captures the run
 # A release: phase in cycles after a strobe (W T = pi/2), Z1 and Z1', and the resulting free motion.
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
@@ -161,7 +161,7 @@ def _life(p, path, record, tolerance):
 
 
 def release_data(case, motions, entries, settling):
-    """Return variables of the releases `entries` and of evenly spaced ones in settled motions."""
+    """Return variables of the releases `entries` and of evenly spaced releases from `motions`."""
     number = len(entries)
     rows = [entries]
     for record in motions:

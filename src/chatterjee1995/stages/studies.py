@@ -70,7 +70,7 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
-    # Check both ends of each sorted axis, where values out of range are, before hours of work.
+    # Before hours of work, check the ends of the sorted axes, where values out of range would be.
     for end in (0, -1):
         random_states(0, radius, system([end] * len(AXES))[1], seed)
     warn_if_narrow(oscillator, axes["frequency"], radius)

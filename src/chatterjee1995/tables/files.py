@@ -76,6 +76,6 @@ def _rounded(value, digits=DIGITS):
 
 
 def parameter_columns(data, *names) -> dict:
-    """Return the values of those named parameters that a dataset has."""
+    """Return a dict: head of a column -> parameter, for those `names` that a dataset has."""
     parameters = parameters_of(data)
     return {HEADS[name]: parameters[name] for name in names if name in parameters}

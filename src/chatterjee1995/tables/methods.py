@@ -130,7 +130,7 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return for each method, accuracy and r1 the largest step up to which all are accurate."""
+    """Return for each method, accuracy and r1 the largest step below which all are accurate."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         cycle = 2 * np.pi / reading.parameter(data, "frequency")

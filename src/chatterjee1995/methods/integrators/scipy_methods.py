@@ -57,7 +57,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods. An evaluation takes `operations`, a factorisation `factorising`."""
+    """One of SciPy's methods, with its operations in an evaluation and in a factorisation."""
 
     tolerances = "scipy"
     slow = True
