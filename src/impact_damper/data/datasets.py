@@ -79,7 +79,7 @@ def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
 
 
 def in_si(data, machine, damper=None) -> xr.Dataset:
-    """Return a dataset of the dimensionless equations in the units of a machine.
+    """Return a dimensionless dataset converted to the units of a machine.
 
     Displacements are in mm, but states in m and m/s so that functions accept them. The attribute
     `machine` holds machine and damper in SI units; `parameters` stay dimensionless.

@@ -377,10 +377,7 @@ class Task:
         return 2 * self.scales.to_si(force, "force") / (self.mass * (2 * math.pi * frequency) ** 2)
 
     def damper(self, gap, factors=NOMINAL) -> MachineDamper:
-        """Return the damper with a gap (m) and values multiplied by factors, ordered as VARIED.
-
-        A restitution above 1 becomes 1.
-        """
+        """Return the damper with a gap (m) and values multiplied by factors, ordered as VARIED."""
         varied = dict(zip(VARIED, factors, strict=True))
         return MachineDamper(
             mass=self.mass,

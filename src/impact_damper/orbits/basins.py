@@ -165,10 +165,7 @@ def _sides(scales, sizes, displacement, velocity):
 
 
 def _free(p, plane, window, reach, phase, cells, settling, running):
-    """Return the variables of the plane without a damper, and a `Labelled` of its states.
-
-    `reach` holds the half widths of the region in which stable manifolds are followed.
-    """
+    """Return the variables of the plane without a damper, and a `Labelled` of its states."""
     attractors = free_attractors(p, reach / 2, settling)
     limits = settling.tolerance, settling.limit
     labels, periods = label_states(p, plane, phase, attractors, *limits, **running)

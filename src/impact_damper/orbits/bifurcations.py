@@ -18,7 +18,7 @@ PLACE = 1e-12
 COMPLEX = 1e-6
 # Largest modulus of a multiplier at a bifurcation, minus 1, for which one side may be stable.
 NEAR_CIRCLE = 1e-3
-# Longest flight, in forcing cycles, between two contacts that merge.
+# Longest flight, in forcing cycles, between two contacts with one wall that merge.
 MERGED = 1e-3
 # Largest number of changes of contact that are located on one step.
 MOST_CHANGES = 8
@@ -164,10 +164,7 @@ def _changes_of_contact(point_at, start, end, length):
 
 
 def _contact_event(orbit):
-    """Return the kind of event at which the slowest contact of an orbit appears.
-
-    The kind is a merging if a very short flight parts this contact from one with the same wall.
-    """
+    """Return the kind of event at which the slowest contact of an orbit appears (see MERGED)."""
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))
     period = 2 * np.pi / orbit.p[FREQUENCY]

@@ -15,7 +15,7 @@ from impact_damper.orbits.grazing import through_grazing
 MOST_POINTS = 10_000
 # Largest difference at W T = pi/2 between states of equal orbits.
 SAME = 1e-5
-# Largest difference of max |Z1| between an orbit and a step that `Branch.holds` compares with it.
+# Largest difference of max |Z1| between an orbit and a step of a branch that may hold the orbit.
 NEARBY = 0.02
 # Largest distance beyond the range of the parameter to which packed parameters are extrapolated.
 EXTENDED = 1e-3
@@ -124,7 +124,7 @@ def _extended(family, span):
 
 
 def _walk(problem, first, span, beyond) -> Branch:
-    """Follow a branch from `first` along its tangent; return a `Branch` with the first end ""."""
+    """Follow a branch from `first` along its tangent; return a `Branch` whose first end is ""."""
     points, events, lost, end, idle = [first], [], 0, "", 0
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
         outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0

@@ -236,7 +236,7 @@ def minimum_table(values, sizes, size_at, span):
 
 
 def _stationary(size_at, best):
-    """Return the zero of the derivative of max |Z1|, more exact than the minimum `best`."""
+    """Return the zero of the derivative of max |Z1| beside the minimum `best`, or else `best`."""
     step, reach = DIFFERENCE * best, WIDE * best
 
     def slope(clearance):

@@ -212,10 +212,7 @@ class Problem:
         return self.near(point.x + length * point.tangent + bent, point.tangent, length)
 
     def near(self, x, border, length):
-        """Return the point at most about ASIDE * `length` from a guess x, or None.
-
-        The corrections are orthogonal to `border`.
-        """
+        """Return the point that `correct` finds at most about ASIDE * `length` from x, or None."""
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
         point = self.correct(x, border, FAILING * aside)
         return None if point is None or self.length(point.x - x) > aside else point

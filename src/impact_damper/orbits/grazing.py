@@ -148,7 +148,7 @@ def _has_left(orbit, ahead):
 
 
 def _targets(height, sharp, direction):
-    """Return a list of the heights of points, from the first side of a grazing to the other."""
+    """Return a list of the heights of points, from one side of a grazing to the other."""
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)

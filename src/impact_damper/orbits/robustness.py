@@ -12,7 +12,7 @@ import numpy as np
 from impact_damper.motions.attractors import orbit_states
 
 # Search for the smallest shock of one sign: number of parts into which an interval is divided in
-# each round. The next interval is the first part whose end leads away.
+# each round. The next interval is the first part at whose end the shock leads away.
 SHOCKS = (256, 64, 64, 64)
 
 
