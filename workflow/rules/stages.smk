@@ -27,7 +27,7 @@ for stage in STAGES.values():
                 "../scripts/stage.py"
 
 
-# A study is computed in chunks, on a cluster by as many jobs.
+# A study is computed in chunks, each by its own job.
 rule study_chunks:
     input:
         code=code("stage", STAGES["studies"].function.split(":")[0]),

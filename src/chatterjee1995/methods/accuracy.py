@@ -41,7 +41,7 @@ meets_accuracy | run | | | whether the run meets the accuracy required by the sc
     """
 )
 
-LONGER = 4  # length of the reference run of a chaotic motion, in lengths of a compared run
+LONGER = 4  # length of the reference run in chaos, divided by the length of a compared run
 # In chaos the contacts per cycle may err by a fraction CONTACTS_OFF and by SURE standard errors.
 CONTACTS_OFF, SURE = 0.1, 2
 
@@ -105,7 +105,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield label, tolerance, `Run` and number of cycles; slow ones have `slow_periods`."""
+    """Yield label, tolerance, `Run` and number of cycles (`slow_periods` if `slow`)."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:

@@ -12,7 +12,7 @@ SHORTEST = 1e-9  # width in radian below which the search for crossings halves n
 
 
 def samples(coefficients, harmonics, count) -> np.ndarray:
-    """Return a series at the angles 2 pi j/count, j = 0 ... count - 1; count > 2 max(harmonics)."""
+    """Return values of a series at 2 pi j/count, j = 0 ... count - 1; count > 2 max(harmonics)."""
     spectrum = np.zeros(count // 2 + 1, complex)
     spectrum[harmonics] = coefficients
     return np.fft.irfft(spectrum, count) * count

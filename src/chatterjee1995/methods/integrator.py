@@ -79,7 +79,7 @@ class Integrator:
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return whether walls at `levels` are touched, or None to judge by the ends of steps."""
+        """Return which walls at `levels` are touched, or None if the ends of steps decide."""
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
         """Return the largest |Z1| in each cycle with fixed steps, NaN once the run has diverged."""
@@ -87,7 +87,7 @@ class Integrator:
 
 
 def read_off(p, work, times, ends):
-    """Return the `Run` with these ends of steps, joined by Hermite polynomials of degree 5."""
+    """Return the `Run` through the states `ends` at `times`, joined by quintic polynomials."""
     at, peaks = _turning_points(p, times, ends)
     began = _beginnings(p, times, ends)
     return Run("ended", work, ends[-1], began, at, peaks, float(np.max(peaks)))

@@ -76,7 +76,7 @@ class RigidCells(Section):
 
 
 class RigidLimit(system.WithDamper):
-    """The quiet motion between rigid walls compared with the one between compliant walls."""
+    """The quiet motion between rigid walls, compared with compliant walls."""
 
     frequency: system.FREQUENCY
     frequencies: system.FREQUENCIES

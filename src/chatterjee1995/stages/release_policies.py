@@ -66,7 +66,7 @@ class Outcome(NamedTuple):
 def release_policies(
     oscillator, dampers, frequencies, *, trials=200, cells=64, seed=1995, settling, workers=1
 ):
-    """Compare policies for each damper and frequency; both free motions must have period 1."""
+    """Compare policies for each damper and frequency; goal and resonance must have period 1."""
     shape = len(dampers), len(frequencies), len(POLICIES)
     data = {
         "policy_success": np.empty((*shape, 3)),

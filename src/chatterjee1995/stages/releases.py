@@ -59,7 +59,7 @@ def migration(
     workers=1,
     progress=None,
 ):
-    """Return a dataset of runs of the controller, with one `example`, and of releases."""
+    """Return a dataset of releases and of controller runs; `example` is the number of one run."""
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
     generators = map(np.random.default_rng, roots[0].spawn(trials))

@@ -13,7 +13,7 @@ from impact_damper.data.shares import wilson
 NEAR = 0.2
 # Errors of the amplitude for which the table lists the harmonics needed.
 ACCURACIES = {0.01: "1 %", 1e-3: "1e-3", 1e-6: "1e-6"}
-# Question about each cell of a map -> variable with a flag that is the answer.
+# Question about each cell of a map -> variable whose flag is the answer.
 QUESTIONS = {
     "quiet motion": "quiet_verdict",
     "start at the quiet solution": "quiet_run_motion",

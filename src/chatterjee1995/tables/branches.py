@@ -57,7 +57,7 @@ def _branches(datasets):
 
 
 def _ends_of(data, branch):
-    """Return for both ends of a branch why it ends, and the number of a branch that it meets."""
+    """Return the reason for each end of a branch, with the number of the branch met there."""
     ends, met = data["branch_end"][branch], data["branch_met"].values[branch]
     names = [LEFT.get(name, name) for name in map(reading.meaning, ends)]
     return [

@@ -22,7 +22,7 @@ CRITERIA = {"displacement": "max |Z1|", "first_harmonic": "first harmonic of Z1"
 
 
 def optimum(datasets) -> pd.DataFrame:
-    """Return for each sweep the optimum d0 of the simulation, of (7), rules and straight flight."""
+    """Return for each sweep the optimum d0 by simulation, (7), rules and straight flight."""
     rows = []
     for name, data in datasets.get("optimum", {}).items():
         best, rule = float(data.optimum_clearance), float(data.rule_clearance)

@@ -52,7 +52,7 @@ def _unloaded(data):
 
 
 def rigid_limit(datasets) -> pd.DataFrame:
-    """Return the errors of rigid walls, relative to the damper's walls, and counts of map cells."""
+    """Return the errors of rigid walls, relative to compliant walls, and counts of map cells."""
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=reading.parameter(data, "frequency"), method="nearest")
