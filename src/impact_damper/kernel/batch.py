@@ -15,8 +15,7 @@ from impact_damper.kernel.equation import no_return
 from impact_damper.model import packed
 
 LANES = 16
-# Largest number of trajectories in a pool. With this number the longest queue nearly always fills
-# all lanes.
+# Largest number of trajectories in a pool. With it the longest queue nearly always fills all lanes.
 RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
@@ -109,7 +108,7 @@ def enqueue(queues, waiting, m, kind):
 
 @kernel
 def choose(pool, chosen):
-    """Take up to LANES trajectories from the longest queue; return their number and the queue.
+    """Take at most LANES trajectories from the longest queue; return their number and the queue.
 
     `chosen` receives their indices. Lanes that remain free get the last index.
     """
@@ -145,7 +144,7 @@ def gather(pool, chosen, kind):
 
 @kernel_only
 def scatter(pool, chosen, count, kind, arrived):
-    """Copy trajectories from the lanes into the pool; queue trajectories before their end times.
+    """Copy trajectories from the lanes into the pool, and queue unfinished trajectories.
 
     Return the number of trajectories at their end times; `arrived` receives their indices. A
     trajectory that has escaped (`equation.no_return`) ends at once, in the state at the escape.

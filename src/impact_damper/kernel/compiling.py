@@ -93,7 +93,7 @@ inlined = partial(kernel, inline="always")
 
 @kernel
 def aligned(count):
-    """Return `count` zeros that begin at a cache line; vectors across two lines load slower."""
+    """Return `count` zeros from the beginning of a cache line, so that vectors load fast."""
     numbers = np.zeros(count + CACHE_LINE)
     before = -numbers.ctypes.data // 8 % CACHE_LINE
     return numbers[before : before + count]

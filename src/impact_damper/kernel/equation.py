@@ -37,7 +37,7 @@ def forcing_amplitude(p, lane=0, lanes=1):
 
 @partial(kernel_only, fastmath=False)
 def external_force(p, t):
-    """Return the forcing at a time per unit of primary mass.
+    """Return the force of the excitation at the time t, divided by the primary mass.
 
     Without fast math the product is rounded before a caller adds the product. Then multiplication
     by the amplitude 1 changes no digit.
@@ -106,7 +106,7 @@ def coefficients(at):
 
 
 def beginning(at):
-    """Yield lines that compute numbers for `motion` from x0; `at` is as in `coefficients`."""
+    """Yield lines that compute names for `motion` from x0; `at` is as in `coefficients`."""
     yield from coefficients(at)
     yield "double = 2.0 * cubic"
     yield "s0 = cubic * x0 * x0"
@@ -115,7 +115,7 @@ def beginning(at):
 
 
 def motion(order, phase, constants, across):
-    """Yield the lines for the series of a step up to an order, in a phase, "flight" or "contact".
+    """Yield the lines for the series of a step up to `order`; `phase` is "flight" or "contact".
 
     These names must have values before the lines: x0, x1, the names of `beginning`, the constant
     acceleration `push`, `cosine` and `sine` of the forcing's phase, times the amplitude; in contact

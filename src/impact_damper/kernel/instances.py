@@ -52,8 +52,7 @@ SCRATCH = (
     "DRAW BASE_COSINE BASE_SINE ACROSS MOST SWAYS SWAY SWAY_SLOPE SWAY_CURVE SWAY_JERK JERK_BOUND "
     "APART PUSH ROUGH SLIDE BEND STICKS STUCK HELD_Z2 LIMIT TURN"
 ).split()
-# Parameters that `friction.hold` replaces while the loose mass sticks. The rows FREE keep the
-# original values.
+# Parameters that `friction.hold` replaces while the loose mass sticks. FREE keeps the originals.
 HELD = ["DAMPING", "STIFFNESS", *map(str.upper, NONLINEAR), "CONTACT_STIFFNESS", "DASHPOT"]
 FREE = [f"FREE_{name}" for name in HELD]
 SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH + FREE
@@ -298,8 +297,7 @@ class Source(Writer):
             self.sums("flight_jerk", "flight", "LENGTH", {"JERK_BOUND": "|G'|"}),
             self.sums("contact_jerk", "contact", "LENGTH", {"Z1_JERK": "|G'|"}),
             self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
-            # An upper bound on the change of Z1': the sum of the moduli of all terms of Z1' after
-            # the first term.
+            # Upper bound on the change of Z1': the moduli of all terms after the first, summed.
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         imports = [

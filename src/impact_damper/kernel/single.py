@@ -1,7 +1,6 @@
 """Integration of one trajectory in steps that end at events: contacts that begin or end.
 
-A state is (Z1, Z1', Z2, Z2') together with `side`: the wall that the loose mass touches, -1 or 1,
-or 0 in flight.
+A state is (Z1, Z1', Z2, Z2') and `side`: -1 or 1 for the wall in contact, 0 in flight.
 """
 
 import numpy as np
@@ -64,7 +63,7 @@ def polynomial(c, order, t):
 
 @kernel_only
 def write_trajectory(p, y, side, tolerance, a):
-    """Write parameters and state into a workspace; the indices depend on no order of a series."""
+    """Write parameters and state into a workspace, at indices that are the same for all orders."""
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):

@@ -34,8 +34,7 @@ def _imports(path, packages):
 
     The `__init__.py` of a subpackage is included only if a name is imported from it.
     """
-    # Only statements that import from the packages are parsed. Parsing whole files would take ten
-    # times as long.
+    # Only statements that import from the packages are parsed; whole files take ten times as long.
     statement = re.compile(
         rf"^ *((?:from|import) (?:{'|'.join(packages)})\b(?:[^(\n]*\([^)]*\)|[^(\n]*$))",
         re.MULTILINE,

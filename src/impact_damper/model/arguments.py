@@ -24,7 +24,7 @@ from impact_damper.model.units import UNITLESS, Scales
 STATE = ("displacement", "velocity", "displacement", "velocity")
 STATE_UNITS = "m, m/s, m, m/s"
 FARTHEST_STATE = dict(zip(STATE, (FARTHEST, FASTEST) * 2, strict=True))
-# Coordinates of datasets that hold the forcing phase of a state; a state taken out keeps them.
+# Coordinates that hold forcing phases of states. A state taken from a dataset keeps its phase.
 PHASES = ("state_phase", "orbit_phase")
 
 

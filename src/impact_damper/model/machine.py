@@ -24,7 +24,7 @@ MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """A value that a machine computed from other values; a copy of the machine does so again."""
+    """A value that a machine computed from other values; a copy of the machine computes anew."""
 
 
 @bounds.names_arguments
@@ -177,7 +177,7 @@ class Machine:
             )
 
     def _derive(self):
-        """Compute stiffness and damping ratio from the values given in their place."""
+        """Compute stiffness, natural frequency and damping ratio from values given in their place."""
         if self.natural_frequency is None:
             found = math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
             object.__setattr__(self, "natural_frequency", Derived(found))
@@ -237,7 +237,7 @@ class Machine:
         """Scales with which the dimensionless equations describe the machine.
 
         The length is the geometric mean of the static deflection and the displacement at resonance.
-        Therefore motions and useful gaps are of the order 1. The time gives omega_l^2 + |k3| = 1.
+        So motions and useful gaps are of order 1. The scale of time makes omega_l^2 + |k3| = 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -247,7 +247,7 @@ class Machine:
     def _static_deflection(self):
         """Return the deflection under the excitation, m.
 
-        Without excitation, linear and cubic force are equal there; 1 mm if one of them is absent.
+        Without excitation: the deflection of equal linear and cubic forces, or 1 mm if one is 0.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
@@ -262,9 +262,9 @@ class Machine:
 
     @property
     def resonant_displacement(self) -> float:
-        """Displacement of a linear machine at resonance, m: static deflection times m w/c or 1.
+        """Displacement of a linear machine at resonance, m: static deflection times max(1, m w/c).
 
-        The larger factor holds. w^2 is the stiffness at the static deflection divided by the mass.
+        w^2 is the stiffness at the static deflection divided by the mass.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2

@@ -22,9 +22,8 @@ class Settling:
         Number of forcing cycles after which a motion is stopped if it is certainly chaotic, or if
         the loose mass hardly moves and has touched no wall during these cycles.
     limit : int
-        Number of forcing cycles after which every motion is stopped. The motion is then chaotic if
-        chaos is certain, drifting if the loose mass touched no wall for `patience` cycles, and
-        otherwise undecided.
+        Number of forcing cycles after which every motion is stopped: as chaotic if this is certain,
+        as drifting if the mass touched no wall for `patience` cycles, otherwise as undecided.
     watched : int
         Number of further forcing cycles in which an unsettled motion is measured.
     further : int

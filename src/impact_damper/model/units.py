@@ -1,7 +1,6 @@
 """Physical quantities in SI units, and the scales that make the equations dimensionless.
 
-The import of pint takes a third of a second. Therefore pint is imported only when a value is text
-or a quantity of pint.
+The import of pint takes a third of a second. So only a value with a unit causes the import.
 """
 
 import math

@@ -106,8 +106,8 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
     """Wait, switch the damper on, and later off; return a path as `run` does.
 
-    The damper is switched off in the release set `releases` or after `longest` cycles. The free
-    state at this time replaces y and is the last row.
+    The damper is switched off when the state is in the release set `releases`, or after `longest`
+    cycles. The free state at this time replaces y, and is the last row.
     """
     begin = wait_and_switch(off, on, y, wait, place, tolerance)
     path = np.full((longest + 2, 5), np.nan)

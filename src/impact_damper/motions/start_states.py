@@ -33,7 +33,8 @@ SPREAD, SMALLEST = 3.0, 0.01
 # Placed starts: Z2 divided by the clearance; Z2' divided by the free motion's speed or the crossing
 # speed (`_crossing_speed`), whichever is larger.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
-# Loose masses for `sweep.stable_orbits`: number; largest |Z1' - Z2'|, in the unit of VELOCITIES.
+# States of the loose mass for `sweep.stable_orbits`: number; largest |Z1' - Z2'|, divided by the
+# larger of both speeds above.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
 # Largest |Z1| and |Z1'| of random starts with a softening spring, divided by `barrier`'s values.
 WITHIN = 0.7

@@ -78,7 +78,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 @inlined
 def period_map(p, y, periods, tolerance):
     """Return the state `periods` cycles after y, its derivative by y, and contacts begun."""
-    half = np.bool_(False)  # for the literal False numba would compile `flow` again
+    half = np.bool_(False)  # numba would compile `flow` again for a literal False
     state, tangents = y.copy(), np.eye(4)
     contacts, _ = flow(p, state, tangents, strobe_time(p), periods, half, tolerance)
     return state, tangents.T.copy(), contacts

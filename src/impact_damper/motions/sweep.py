@@ -23,7 +23,7 @@ from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, str
 # Limits for records of one motion: relative difference of max |Z1| (and asymmetry of a symmetric
 # motion); difference of max |Z1| near rest; ratio of the sizes of motions that have not settled.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
-# Outcomes whose displacement is infinite or 0. Records with such an outcome are one motion.
+# Outcomes with infinite or no displacement. All records with one of these outcomes are one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # Newton's method for further orbits: longest period in forcing cycles; largest distance from the
 # start, divided by the largest known motion or the clearance; largest difference of equal orbits.
@@ -151,7 +151,7 @@ def _branches(catalogues, links):
 
 
 def _tables(catalogues, branches, dimension, starts):
-    """Return variables (dimension, motion), motions by descending max |Z1|, then absent ones."""
+    """Return variables (dimension, motion): motions by descending max |Z1|, then absent motions."""
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
     records["outcome"] = flag("outcome", "absent")

@@ -1,10 +1,9 @@
 """Run undecided motions longer, until their outcome is certain.
 
 The states of a quasi-periodic motion at the strobes lie on a closed curve. The rotation number is
-their mean advance along the curve. The mean over N states has weights that vanish at both ends with
-all derivatives. Such a mean converges faster than any power of 1/N (S. Das, Y.
-Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017); for a chaotic motion it
-converges only as N^(-1/2).
+their mean advance along the curve. The weights of the mean over N states vanish at both ends with
+all derivatives. Such a mean converges faster than any power of 1/N (S. Das, Y. Saiki, E. Sander and
+J. A. Yorke, Nonlinearity 30, 4111-4140, 2017); for a chaotic motion it converges as N^(-1/2).
 """
 
 import math
@@ -36,8 +35,7 @@ TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
 # Largest error of a rotation number, and smallest number of points.
 AGREEMENT, FEWEST = 1e-8, 100
-# Smallest empty interval, in revolutions, between the advances of the angle modulo 1, which are
-# points on a circle.
+# Smallest empty interval on the circle of the angle's advances modulo 1, in revolutions.
 INTERVAL = 0.02
 # Largest change of the angle between neighbouring points, sorted by phase, and largest sum of the
 # moduli of all these changes, in revolutions.

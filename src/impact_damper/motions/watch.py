@@ -25,8 +25,7 @@ from impact_damper.motions.strobe_map import (
 # Longest period of an orbit in forcing cycles; length of a ring, the buffer of last strobe states.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# Smallest Lyapunov exponent of a chaotic motion, in standard errors; largest exponent of weak
-# chaos, per unit of T.
+# Smallest Lyapunov exponent of chaos, in standard errors; largest of weak chaos, per unit of T.
 CONFIDENCE, WEAK = 4.0, 0.05
 # Forcing cycles of a batch, in which the logarithms of the growth of a tangent are summed; number
 # of last batches in which the tangent of a chaotic motion must still grow.

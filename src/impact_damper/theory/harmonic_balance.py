@@ -1,7 +1,6 @@
 """Single-term harmonic balance of an elastic impact damper over frequency; its suppression band.
 
-Numbers in brackets are equations of the paper: (7) is the balance with elastic contacts, (14) its
-limit for rigid walls.
+Equations of the paper: (7) is the balance with elastic contacts, (14) the limit for rigid walls.
 """
 
 import numpy as np
@@ -19,7 +18,7 @@ from impact_damper.theory.single_harmonic import (
 )
 from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
-# Bound on the distance of neighbouring solutions of a branch, in sizes of the largest solution.
+# Largest distance of neighbouring solutions of a branch, divided by the largest solution's size.
 JUMP = 0.25
 
 

@@ -46,7 +46,7 @@ def fixed_points(solutions) -> np.ndarray:
 
 
 def stability(growth) -> np.ndarray:
-    """Return the flag of growth rates: 1 (stable), -1 (unstable), or 0 (marginal, up to MARGIN)."""
+    """Return the flag of growth rates: 1 (stable), -1 (unstable), 0 (marginal, within MARGIN)."""
     return -np.sign(np.where(np.abs(growth) <= MARGIN, 0.0, growth)).astype(int)
 
 

@@ -121,7 +121,7 @@ def find_turn(a, touching):
     """Find the first turn or slip before T.
 
     At a turn Z2' of a sliding loose mass is 0. At a slip a sticking mass begins to slide. In lanes
-    with either, MODE becomes TURNED, and T and the rows END_ receive time and state.
+    with a turn or a slip, MODE becomes TURNED, and T and the rows END_ receive time and state.
     """
     if touching:
         contact_jerk(a)
@@ -225,8 +225,9 @@ def keep_tangents(a, d):
 def friction_jump(a, d):
     """Multiply tangents by the saltation matrix of a turn, and undo `keep_tangents`.
 
-    At a turn friction jumps by J, and Z2'' before the turn is b. The tangent's Z1' and Z2' jump by
-    -rm J/b and -(1 + rm) J/b times Z2'. Z2' becomes 0 if the mass sticks. At a slip nothing jumps.
+    At a turn friction jumps by J, and Z2'' before the turn is b. With w for Z2' of the tangent, the
+    tangent's Z1' and Z2' jump by -rm w J/b and -(1 + rm) w J/b; its Z2' becomes 0 if the loose mass
+    sticks. At a slip nothing jumps.
     """
     for i in range(TANGENTS):
         j = i % LANES

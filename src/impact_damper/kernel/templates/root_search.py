@@ -1,8 +1,7 @@
 """Template (see `step`): search for the first root of an event function f(t) within a step.
 
 In flight f is the distance of the loose mass to a wall, and its root is the beginning of a contact.
-In contact f is the penetration, and its root is the separation. The row MODE has the mode of a
-search:
+In contact f is the penetration, and its root is the separation. The row MODE has one of the modes:
 
     MARCH     several roots are possible. A bound on |f''| gives a time within which f cannot
               vanish. The search advances by such times, so that it never passes the first root.
@@ -48,8 +47,8 @@ def safe_advance(f, closing, bound):
 def march_step(t, f, closing, ahead, length, fine):
     """Return the next time and mode of a search in mode MARCH; f is positive until t + `ahead`.
 
-    The root is at t if f decreases (`closing` is true), and f is below its rounding error `fine` or
-    `ahead` is too short to change t.
+    The root is at t if f decreases (`closing` is true), and either f is below its rounding error
+    `fine` or `ahead` is too short to change t.
     """
     met = closing and (f <= fine or t + ahead == t)
     ends = not t + ahead < length

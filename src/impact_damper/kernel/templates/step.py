@@ -36,8 +36,7 @@ EXCESS = 4.0
 # Longest flight that begins behind the surface of the unloaded wall (`across.is_outside`), in units
 # of LAG, the time in which a free wall returns to 1/e of its penetration.
 OUTSIDE = 2.0
-# Largest distance from the wall, as a share of the clearance, at which a flight that cannot advance
-# ends in a contact.
+# Largest distance from the wall, over the clearance, at which a flight of length 0 ends in contact.
 NEAREST = 1e-9
 
 
