@@ -39,8 +39,7 @@ def forcing_amplitude(p, lane=0, lanes=1):
 def external_force(p, t):
     """Return the force of the excitation at the time t, divided by the primary mass.
 
-    Without fast math the product is rounded before a caller adds the product. Then multiplication
-    by the amplitude 1 changes no digit.
+    Without fast math the product is rounded before it is added, so amplitude 1 changes no digit.
     """
     return forcing_amplitude(p) * math.cos(p[FREQUENCY] * t)
 
@@ -146,7 +145,7 @@ def tangent(order, phase, constants):
     """
     for k in range(order - 1):
         yield from constants(k)
-        # The terms stand in the order in which their factors become known.
+        # The terms stand in the order in which their factors are computed.
         terms = [f"u{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: (max(j, k - j), j))]
         terms += [f"u{k} * x0"] if k > 0 else []
         yield f"c{k} = -{' - '.join([*terms, f'linear * x{k}'])}"

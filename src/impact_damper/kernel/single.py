@@ -63,7 +63,7 @@ def polynomial(c, order, t):
 
 @kernel_only
 def write_trajectory(p, y, side, tolerance, a):
-    """Write parameters and state into a workspace, at indices that are the same for all orders."""
+    """Write parameters and state into a workspace, at indices valid for all orders of series."""
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):

@@ -53,10 +53,9 @@ class Model(NamedTuple):
 
 
 def read_system(system, damper=None, *, needs_damper=False) -> Model:
-    """Return the model of the arguments `system` and `damper`.
+    """Return the model of the arguments `system` and `damper`; `needs_damper` refuses None.
 
-    Raise TypeError for another type, or for no damper with `needs_damper`; raise ValueError if the
-    damper does not fit the system.
+    Raise TypeError if an argument has another type, ValueError if the damper does not fit.
     """
     if isinstance(system, Machine):
         damper, scaled = _read_machine_damper(system, damper, needs_damper)
@@ -82,7 +81,7 @@ def read_forced(system, damper, frequency, *, needs_damper=False) -> Model:
 
 
 def _read_machine_damper(machine, damper, needs_damper):
-    """Return a damper in SI units and the dimensionless damper, or None for both."""
+    """Return a damper in SI units and the dimensionless damper; both are None without a damper."""
     if damper is None and not needs_damper:
         return None, None
     if not isinstance(damper, MachineDamper):

@@ -20,7 +20,7 @@ FORCING = {"force": FORCE, "unbalance": UNBALANCE}
 
 
 def facts_of(parameter) -> tuple:
-    """Return the name of a parameter in machines, its kind (a key of QUANTITIES), its bounds."""
+    """Return a parameter's name in machines, its kind (a key of QUANTITIES) and its bounds."""
     owner = PARAMETERS[parameter]
     if owner is None:
         return parameter, "frequency", FREQUENCY_RANGE

@@ -15,8 +15,7 @@ from impact_damper.model.text import number
 
 # Names of the numbers in their order: W; the fields of `Oscillator`, where omega_l^2 replaces
 # omega_l; d0; r1; 1/rm; coefficient of the dashpot; LAG (0 if walls may pull, otherwise the time
-# DASHPOT / CONTACT_STIFFNESS); component of gravity along the gap; largest acceleration of the
-# loose mass by friction.
+# DASHPOT / CONTACT_STIFFNESS); gravity along the gap; friction per unit of loose mass.
 FIELDS = [each.name for each in parameters_in(Oscillator)]
 NAMES = (
     "FREQUENCY",

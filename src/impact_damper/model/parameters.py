@@ -234,7 +234,7 @@ def beyond_closed_forms(oscillator, damper) -> list:
 
 
 def check_closed_form(oscillator, damper):
-    """Raise TypeError or ValueError if closed forms do not hold for a damper of an oscillator."""
+    """Raise TypeError or ValueError if closed forms do not hold for the oscillator and damper."""
     check_damper(damper)
     why = "must be 0 in closed forms and harmonic balance with a damper; simulate it instead"
     for part, name in beyond_closed_forms(oscillator, damper):

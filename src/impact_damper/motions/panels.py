@@ -43,8 +43,7 @@ class Panels(NamedTuple):
 
     A row of `log` is a contact: wall, beginning, end, and the relative velocities at both times.
     `lengths` (n,) and `times` (n, nodes) are in units of T. `states` (n, nodes, 4) are NaN after an
-    escape. `contact` (n,) is the row of the contact in the log, or -1 in flight. `wall` (n,) is -1
-    or 1, or 0 in flight.
+    escape. `contact` (n,) is the contact's row in the log, -1 in flight; `wall` (n,) 0 in flight.
     """
 
     log: np.ndarray

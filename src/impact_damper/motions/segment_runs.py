@@ -17,8 +17,8 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
 from impact_damper.motions.records import PIECES, turning_time
 
-# Central difference: change of the parameter; finer change, if a contact appears or vanishes; ratio
-# of the difference of the one-sided differences to their sum that shows such a contact.
+# Central difference: change of the parameter; finer change where a contact appears or vanishes;
+# ratio of the difference of the one-sided differences to their sum that shows such a contact.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 

@@ -67,8 +67,7 @@ def simulate(
     frequency : float
         Forcing frequency W, or Hz for a machine.
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
-        Z1, Z1', Z2, Z2' at the time `start`; or a state from a dataset, with its phase as a
-        coordinate.
+        Z1, Z1', Z2, Z2' at the time `start`; or a state of a dataset, which has its phase.
     periods : float
         Length of the motion in forcing cycles.
     samples : int

@@ -248,7 +248,7 @@ def match_unsettled(first, second) -> list:
 def size_ratio(one, other):
     """Return the ratio, at least 1, of max |Z1| of two motions of the same period.
 
-    A motion without a period may be small while it is measured; its `reach` is compared too.
+    Without a period max |Z1| may be small by chance; the ratio of `reach` holds if it is smaller.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0

@@ -91,8 +91,7 @@ def maximum_response(oscillator) -> Point:
     """Return the maximum of the free response curve over W.
 
     The curve has the amplitude a at the roots W of (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2
-    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. At the maximum the discriminant of this equation is
-    zero. The discriminant is quadratic in a^2.
+    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. Its discriminant, quadratic in a^2, is 0 at maxima.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening

@@ -16,8 +16,7 @@ from impact_damper.model.parameters import check_closed_form
 # Number of impulses q that are compared before the minimum of max |x| is refined.
 GRID = 65
 NEWTON_STEPS = 3
-# If the two characteristic roots coincide (critical damping), each is moved by APART, so that their
-# divided differences are defined.
+# Shift of both characteristic roots if they coincide, so that their divided differences exist.
 APART = 1e-20j
 
 

@@ -226,8 +226,7 @@ def friction_jump(a, d):
     """Multiply tangents by the saltation matrix of a turn, and undo `keep_tangents`.
 
     At a turn friction jumps by J, and Z2'' before the turn is b. With w for Z2' of the tangent, the
-    tangent's Z1' and Z2' jump by -rm w J/b and -(1 + rm) w J/b; its Z2' becomes 0 if the loose mass
-    sticks. At a slip nothing jumps.
+    tangent's Z1' and Z2' jump by -rm w J/b and -(1 + rm) w J/b. If the mass sticks, w becomes 0.
     """
     for i in range(TANGENTS):
         j = i % LANES

@@ -1,8 +1,7 @@
 """Template (see `step`): search for the separation, at which a contact ends.
 
 A contact ends when q + LAG q' falls to zero, where q is the penetration. With LAG = 0 this is the
-paper's rule, in which the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS a contact ends when
-the force of the wall becomes zero.
+paper's rule: the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the wall's force is then 0.
 """
 
 import math
