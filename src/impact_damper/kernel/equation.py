@@ -39,7 +39,7 @@ def forcing_amplitude(p, lane=0, lanes=1):
 def external_force(p, t):
     """Return the force of the excitation at the time t, divided by the primary mass.
 
-    Without fast math the product is rounded before it is added, so amplitude 1 changes no digit.
+    Without fast math the product is rounded before a sum, so a factor of 1 changes no digit.
     """
     return forcing_amplitude(p) * math.cos(p[FREQUENCY] * t)
 

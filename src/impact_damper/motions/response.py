@@ -224,7 +224,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 def _lives(parameters, states, periods, settling, **running):
     """Return the life of each run in forcing cycles, or `periods` + 1 if the run does not end.
 
-    The time from the end of a transient near an orbit until the run has settled is subtracted.
+    A life ends near an orbit: the time from there until the run has settled is subtracted.
     """
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 
