@@ -33,6 +33,8 @@ from impact_damper.kernel.sources import kernel_digest
 # Time spent on compilation, in s, after which MESSAGE is printed.
 PATIENCE = 1.0
 MESSAGE = "impact_damper: compiling kernels; later sessions will load them from the cache"
+# Event of the compilation of a kernel that is called by address.
+COMPILING = "impact_damper:compile"
 # Number of float64 values in one of the processor's cache lines of 64 bytes.
 CACHE_LINE = 8
 
@@ -121,7 +123,8 @@ def signature_of(function):
 @cache
 def compiled(function):
     """Return the compiled cfunc of a kernel (see `signature_of`); `call_at` takes its `address`."""
-    with own_cache(function.py_func):
+    told = event.trigger_event(COMPILING, data={"dispatcher": function})
+    with own_cache(function.py_func), told:
         return numba.cfunc(signature_of(function), **SETTINGS)(function.py_func)
 
 
@@ -132,7 +135,7 @@ def by_address(function):
     to the kernel by name. The name must be bound to an address before the caller is loaded.
     Therefore a module that the modules of all callers import calls `by_address` when imported.
     """
-    name = f"{function.__module__}.{function.__name__}"
+    name = f"{function.py_func.__module__}.{function.py_func.__name__}"
     llvmlite.binding.add_symbol(name, compiled(function).address)
     return types.ExternalFunction(name, signature_of(function))
 
@@ -188,4 +191,6 @@ def _is_own(compiled):
     return compiled.data["dispatcher"].py_func.__module__.startswith("impact_damper")
 
 
-event.register("numba:compile", Progress())
+_progress = Progress()
+for _kind in ("numba:compile", COMPILING):
+    event.register(_kind, _progress)

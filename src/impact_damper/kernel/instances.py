@@ -1,20 +1,22 @@
 """Generate modules with the integration step, for a number of lanes and orders of the series.
 
 Several trajectories can be stepped side by side, each in its lane. A generated kernel is a loop
-over the lanes: `equation` yields the lines of the loop, and `straight_lines` compiles them. With
-one lane a kernel works on numbers and pairs, three times as fast as loops over arrays. With several
-lanes a kernel consists of vector instructions and is again three times as fast. All numbers of a
-step stand in one flat array of rows. A row has one number for each lane.
+over the lanes: `equation` yields the lines of the loop, and `straight_lines` compiles them;
+`branches` compiles the templates. With one lane a kernel works on numbers and pairs, three times as
+fast as loops over arrays. With several lanes a kernel consists of vector instructions and is again
+three times as fast. All numbers of a step stand in one flat array of rows. A row has one number for
+each lane.
 """
 
 import importlib.util
 import inspect
 import math
 import os
+import re
 import sys
 from itertools import chain
 
-from impact_damper.kernel import equation
+from impact_damper.kernel import branches, equation
 from impact_damper.kernel.compiling import CACHE_DIRECTORY
 from impact_damper.kernel.straight_lines import straight
 from impact_damper.kernel.templates import (
@@ -103,7 +105,13 @@ def _source(writer):
         constants[name] = tuple(writer.rows[each] * writer.lanes for each in held)
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
     templates = forcing, root_search, across, friction, contact, separation, step
-    return "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])
+    text = "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])
+    # numba's kernels call functions of pointers alone, except those of `straight_lines`.
+    pattern = r"^def (\w+)\((a|a, d)\):$(?!\n    for i in range\(\d+\):)"
+    for name, arguments in re.findall(pattern, text, re.MULTILINE):
+        text += f"\n\ndef call_{name}({arguments}):\n    {name}({arguments})\n"
+        text += f"\n\n{name} = template({name}, call_{name})\n"
+    return text
 
 
 def rows(flight_order, contact_order):
@@ -157,7 +165,7 @@ class Writer:
                 text += f"    for i in range({count}):\n"
                 text += "".join(f"        {line}\n" for line in body) + "\n\n"
                 calls += f"    {name}_{part}({arguments})\n"
-        return f"{text}@kernel_only\ndef {name}({arguments}):\n{calls}"
+        return f"{text}def {name}({arguments}):\n{calls}"
 
     def moving(self, phase):
         """Return the names of the unknown series: X for Z1 and, in contact, Q for penetration."""
@@ -301,7 +309,7 @@ class Source(Writer):
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         imports = [
-            "from impact_damper.kernel.compiling import kernel_only",
+            f"from {branches.__name__} import bits, number, template",
             f"from {straight.__module__} import {straight.__name__}\n",
         ]
         return "\n".join(imports) + "\n\n" + "\n\n".join(functions)

@@ -6,15 +6,12 @@ lines. With one lane an operation on a pair of numbers takes one instruction, no
 """
 
 import ast
-import inspect
-import textwrap
 from contextlib import nullcontext
-from functools import partial
+from functools import cache, partial
+from pathlib import Path
 
 from llvmlite import ir
-from numba import types
 from numba.core import cgutils
-from numba.extending import intrinsic
 
 from impact_damper.kernel.compiling import CONTRACT
 
@@ -43,33 +40,33 @@ def straight(function):
     - `(x, y)` is a pair. A name can hold a pair, and `x, y = ...` unpacks a pair. Operators act on
       both values of a pair, and combine a float with both values.
 
-    Kernels can call the result; its attribute `py_func` is the function. A line of another form
-    raises NotStraightError when a calling kernel is compiled.
+    Templates can call the function (`branches.template`). A line of another form raises
+    NotStraightError when a template that calls the function is compiled.
     """
+    function.is_straight = True
+    return function
 
-    def generate(context, builder, signature, arguments):
-        write(function, builder, arguments)
-        return context.get_dummy_value()
 
-    # numba takes the number of arguments from the signature of these functions.
-    def of_one(typing, a):
-        return types.void(a), generate
+@cache
+def _definitions(file):
+    """Return the syntax trees of the functions of a file, by the number of their first line."""
+    nodes = ast.walk(ast.parse(Path(file).read_text()))
+    functions = [each for each in nodes if isinstance(each, ast.FunctionDef)]
+    return {
+        min([each.lineno, *(d.lineno for d in each.decorator_list)]): each for each in functions
+    }
 
-    def of_two(typing, a, d):
-        return types.void(a, d), generate
 
-    count = len(inspect.signature(function).parameters)
-    compiled = intrinsic(of_one if count == 1 else of_two)
-    compiled.py_func = function
-    return compiled
+def definition(function):
+    """Return the syntax tree of a function."""
+    code = function.__code__
+    return _definitions(code.co_filename)[code.co_firstlineno]
 
 
 def write(function, builder, pointers):
     """Write the LLVM code of a `straight` function, with pointers to its arrays."""
-    code = function.__code__
-    tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
-    ast.increment_lineno(tree, code.co_firstlineno - 1)
-    lines = _Lines(code.co_filename, builder)
+    tree = definition(function)
+    lines = _Lines(function.__code__.co_filename, builder)
     (loop,) = tree.body
     lanes = loop.iter.args[0].value
     lines.arrays = dict(zip([each.arg for each in tree.args.args], pointers, strict=True))

@@ -5,6 +5,7 @@ import pytest
 from helpers.pointed import pointed
 from numpy.testing import assert_allclose
 
+from impact_damper.kernel.branches import template
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.straight_lines import straight
 
@@ -33,7 +34,7 @@ def without_pairs(a):
     a[3 * len(a) // 5 :] = [*(first / last), *(x * last - y)]
 
 
-sixteen, pairs = straight(sixteen_lanes), straight(pairs_of_sixteen)
+sixteen, pairs = (template(straight(each), each) for each in (sixteen_lanes, pairs_of_sixteen))
 
 
 @kernel
@@ -59,9 +60,11 @@ def test_a_kernel_with_an_unknown_line_does_not_compile():
         for _ in range(1):
             a[0] = min(a[0], 1.0)
 
+    called = template(unknown, unknown)
+
     @kernel
     def calls_unknown(a):
-        unknown(a)
+        called(a)
 
     with pytest.raises(Exception, match=r"test_straight_lines\.py, line \d+: neither abs nor max"):
         pointed(calls_unknown)(np.zeros(1))

@@ -7,21 +7,17 @@ double integral of the acceleration across, from the beginning of the step.
 
 import math
 
-from impact_damper.kernel.compiling import kernel_only
-
 LANES: int
 
 # Phase angle (rad) below which (x - sin x) / x^3 is computed from its series.
 SMALL = 0.5
 
 
-@kernel_only
 def is_outside(a, i):
     """Return whether the loose mass of a flight begins behind the surface of the unloaded wall."""
     return abs(a[Y2 + i]) > a[CLEARANCE + i] and a[STUCK + i] == 0.0
 
 
-@kernel_only
 def load_across(a):
     """Compute ACROSS at the beginning of the step, its bound MOST, and SWAYS, 0 if nothing acts."""
     acting = 0
@@ -48,7 +44,6 @@ def load_across(a):
         a[ROUGH] = rough
 
 
-@kernel_only
 def find_sway(a):
     """Compute SWAY and its three derivatives at T, in steps in which the acceleration acts."""
     if a[SWAYS] > 0.0:
@@ -73,7 +68,6 @@ def find_sway(a):
             a[SWAY_JERK + i] = a[FREQUENCY + i] * (c * sine + s * cosine)
 
 
-@kernel_only
 def flight_values(a):
     """Compute Z1 and SWAY with their derivatives at T; Z2 and its derivatives follow from both."""
     flight_slope(a)
@@ -81,14 +75,12 @@ def flight_values(a):
     find_sway(a)
 
 
-@kernel_only
 def penetration_values(a):
     """Compute SWAY, then Z1 and the penetration, with their derivatives at T."""
     find_sway(a)
     contact_values(a)
 
 
-@kernel_only
 def find_return(a):
     """Find the contact within [0, T] of lanes whose loose mass begins behind the wall's surface.
 
@@ -128,7 +120,6 @@ def find_return(a):
             running += store_search(a, i, mode, t, 0.0)
 
 
-@kernel_only
 def step_outside(a, i, t):
     """Return the next time and mode of a search of `find_return` that is in mode MARCH."""
     wall, lag, bound = a[WALL + i], a[LAG + i], a[BOUND + i]

@@ -2,15 +2,12 @@
 
 import math
 
-from impact_damper.kernel.compiling import kernel_only
-
 LANES: int
 
 # Upper bound on (t - t^k)/k for t in [0, 1] and all powers k >= 2. The maximum is 0.1283, at k = 3.
 SAG = 0.13
 
 
-@kernel_only
 def loose_mass(a, i, t):
     """Return Z2 and Z2' at time t of a flight, in which Z2 - Z1 is a linear function plus SWAY."""
     drift = a[Y3 + i] - a[Y1 + i]
@@ -18,7 +15,6 @@ def loose_mass(a, i, t):
     return place + a[SWAY + i], a[Z1_SLOPE + i] + drift + a[SWAY_SLOPE + i]
 
 
-@kernel_only
 def first_guess(a, i):
     """Estimate the time of the contact from the first three terms of the distance's series."""
     distance = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
@@ -27,7 +23,6 @@ def first_guess(a, i):
     return 2.0 * distance / (speed + math.sqrt(max(speed * speed + 2.0 * bend * distance, 0.0)))
 
 
-@kernel_only
 def distance_ahead(a, i, t):
     """Return the distance f to the WALL at t, the Newton step -f/f' to its root, and f''/f'.
 
@@ -40,7 +35,6 @@ def distance_ahead(a, i, t):
     return distance, distance / closing, a[WALL + i] * curve / closing
 
 
-@kernel_only
 def expect_contact(a):
     """Move T from LENGTH to the expected time of a contact, in lanes that expect a contact.
 
@@ -60,7 +54,6 @@ def expect_contact(a):
         guess_contact(a)
 
 
-@kernel_only
 def guess_contact(a):
     """Move T to the expected contact in lanes whose MODE is BRACKET, otherwise to LENGTH."""
     for i in range(LANES):
@@ -74,7 +67,6 @@ def guess_contact(a):
         a[T + i] = t if inside else a[LENGTH + i]
 
 
-@kernel_only
 def find_contact(a):
     """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
 
@@ -122,7 +114,6 @@ def find_contact(a):
         search_contact(a)
 
 
-@kernel_only
 def meet_expected(a):
     """Do one iteration, which mostly suffices, in lanes that expect a contact at T.
 
@@ -146,7 +137,6 @@ def meet_expected(a):
     return undecided
 
 
-@kernel_only
 def search_contact(a):
     """Search for the contact in lanes that the bounds of `find_contact` leave undecided."""
     for i in range(LANES):

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import kernel_only
 from impact_damper.kernel.equation import forcing_amplitude
 
 LANES: int
@@ -17,7 +16,6 @@ QUARTER_REST = 6.077100506506192e-11
 NEAR = 1e-4
 
 
-@kernel_only
 def find_forcing(a):
     """Compute COSINE and SINE of the forcing's phase at the time KNOWN, times the amplitude.
 
@@ -43,7 +41,6 @@ def find_forcing(a):
         a[SINE + i] = signed * (c if odd else s)
 
 
-@kernel_only
 def forcing(a):
     """Compute COSINE and SINE of the forcing's phase at TIME, times the amplitude.
 
@@ -61,7 +58,6 @@ def forcing(a):
         a[SINE] = (s + t * c) - u * (0.5 * s + t * (c / 6.0))
 
 
-@kernel_only
 def look_ahead(a):
     """With one lane, compute COSINE and SINE at T, the expected end of the step.
 

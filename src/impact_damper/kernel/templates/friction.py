@@ -11,7 +11,6 @@ while the friction that holds them together, per unit of loose mass, stays below
 
 import math
 
-from impact_damper.kernel.compiling import kernel_only
 from impact_damper.kernel.equation import spring
 
 LANES: int
@@ -23,7 +22,6 @@ TANGENTS: int
 KEPT: int
 
 
-@kernel_only
 def load_friction(a):
     """Decide at the beginning of a step whether the loose mass sticks, or which way it slides.
 
@@ -50,7 +48,6 @@ def load_friction(a):
                 a[DRAW + i] = a[GRAVITY + i]
 
 
-@kernel_only
 def wall_force(a, i):
     """Return the force of the wall on the loose mass at the beginning of a step."""
     wall = a[SIDE + i]
@@ -59,7 +56,6 @@ def wall_force(a, i):
     return force if wall != 0.0 else 0.0
 
 
-@kernel_only
 def hold(a):
     """In lanes whose loose mass sticks, replace parameters by parameters of both masses together.
 
@@ -78,7 +74,6 @@ def hold(a):
     load_rates(a)
 
 
-@kernel_only
 def let_go(a):
     """Restore the parameters that `hold` replaced."""
     for k in range(len(HELD_ROWS)):
@@ -87,7 +82,6 @@ def let_go(a):
     load_rates(a)
 
 
-@kernel_only
 def load_rates(a):
     """With one lane, fill the constant series h/k and D/k again."""
     if LANES == 1:
@@ -96,7 +90,6 @@ def load_rates(a):
             a[D + k] = a[DASHPOT] * (1.0 / max(k, 1))
 
 
-@kernel_only
 def series_held(a, touching):
     """Compute the series of a step in which the loose masses of some lanes stick (`hold`)."""
     hold(a)
@@ -116,7 +109,6 @@ def series_held(a, touching):
         a[SINE + i] = a[HIGH + i]
 
 
-@kernel_only
 def find_turn(a, touching):
     """Find the first turn or slip before T.
 
@@ -149,7 +141,6 @@ def find_turn(a, touching):
                 running += 1 if a[TURN + i] == MARCH else 0
 
 
-@kernel_only
 def step_to_turn(a, i, touching):
     """Advance the search of `find_turn` in one lane by one step."""
     t, bound = a[T + i], a[BOUND + i]
@@ -192,13 +183,11 @@ def step_to_turn(a, i, touching):
         a[T + i] = a[LIMIT + i]
 
 
-@kernel_only
 def wall_force_held(a, i):
     """Return the constant force of the wall on a loose mass that sticks at a depth."""
     return a[FREE_CONTACT_STIFFNESS + i] * (a[Y2 + i] - a[SIDE + i] * a[CLEARANCE + i])
 
 
-@kernel_only
 def end_turn(a):
     """After a turn set Z2' to 0; after a slip set Z2' to a tiny number with the sign of SLIDE.
 
@@ -213,7 +202,6 @@ def end_turn(a):
         a[Y2 + i] = a[HELD_Z2 + i] if a[STUCK + i] > 0.0 else a[Y2 + i]
 
 
-@kernel_only
 def keep_tangents(a, d):
     """Replace parameters for tangents as `hold` does, and store the tangents' Z2 in KEPT."""
     hold(a)
@@ -221,7 +209,6 @@ def keep_tangents(a, d):
         d[KEPT + i] = d[2 * TANGENTS + i]
 
 
-@kernel_only
 def friction_jump(a, d):
     """Multiply tangents by the saltation matrix of a turn, and undo `keep_tangents`.
 

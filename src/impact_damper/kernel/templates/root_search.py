@@ -15,8 +15,6 @@ In contact f is the penetration, and its root is the separation. The row MODE ha
 
 import math
 
-from impact_damper.kernel.compiling import kernel_only
-
 LANES: int
 
 # Relative rounding error of an event function, 4 units in the last place.
@@ -30,7 +28,6 @@ TINY = 1e-300
 FAR = 1e200
 
 
-@kernel_only
 def safe_advance(f, closing, bound):
     """Return a time before which the event function f cannot vanish, given its present value `f`.
 
@@ -43,7 +40,6 @@ def safe_advance(f, closing, bound):
     return above / below
 
 
-@kernel_only
 def march_step(t, f, closing, ahead, length, fine):
     """Return the next time and mode of a search in mode MARCH; f is positive until t + `ahead`.
 
@@ -56,20 +52,17 @@ def march_step(t, f, closing, ahead, length, fine):
     return following, MET if met else (ENDING if ends else MARCH)
 
 
-@kernel_only
 def chebyshev(first, bend):
     """Return a step of Chebyshev's method, of third order, from -f/f' and `bend`, f''/f'."""
     return first * (1.0 - 0.5 * bend * first)
 
 
-@kernel_only
 def is_last_move(a, i, move, rate):
     """Return whether the terms neglected in a move are far below the tolerance (LAST_MOVE)."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
 
-@kernel_only
 def bracketed_step(a, i, t, f, first, bend, rate, fine):
     """Return the next move and mode of a search in mode BRACKET, by one safeguarded iteration.
 
@@ -99,7 +92,6 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
     return step, MET if last or not moved else BRACKET
 
 
-@kernel_only
 def store_end(a, i, row, end, move, going):
     """Store value and slope after a move in the row `end` and the next one, if `going` is true.
 
@@ -113,7 +105,6 @@ def store_end(a, i, row, end, move, going):
     a[end + LANES + i] = slope if going else a[end + LANES + i]
 
 
-@kernel_only
 def store_search(a, i, mode, t, move):
     """Store time, mode and Z1 of a search after a move; return 1 if the search goes on, else 0."""
     going = a[MODE + i] <= ENDING

@@ -8,7 +8,6 @@ import math
 
 import numpy as np
 
-from impact_damper.kernel.compiling import kernel_only
 from impact_damper.kernel.equation import spring, spring_slope
 
 LANES: int
@@ -21,7 +20,6 @@ LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
 PHASE_MARGIN = 0.25
 
 
-@kernel_only
 def fast_exp2(y):
     """Return 2^y with a relative error below 0.3 %."""
     whole = np.floor(y)
@@ -30,7 +28,6 @@ def fast_exp2(y):
     return power * (1.0 + part * (0.6565 + 0.3435 * part))
 
 
-@kernel_only
 def time_to_zero(f, slope, natural):
     """Return the time when a harmonic oscillation is 0, about arctan(-natural f/slope)/natural."""
     u = (natural * f) ** 2
@@ -38,7 +35,6 @@ def time_to_zero(f, slope, natural):
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
 
 
-@kernel_only
 def predict_separation(a):
     """Predict the time T of separation, at most LENGTH; compute the NATURAL frequency and LENGTH.
 
@@ -73,7 +69,6 @@ def predict_separation(a):
         a[T + i] = guess if 0.0 < guess < length else length
 
 
-@kernel_only
 def find_separation(a):
     """Move T to the first time in [0, LENGTH] at which q + LAG q' falls to zero.
 
@@ -142,7 +137,6 @@ def find_separation(a):
             penetration_values(a)
 
 
-@kernel_only
 def bound_lagging(a):
     """Add LAG times a bound on |q'''| to BOUND, which then bounds |(q + LAG q')''|."""
     lagging = 0

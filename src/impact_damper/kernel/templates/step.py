@@ -12,10 +12,6 @@ such as Y0, is the index at which a row begins (`instances.rows`): a[Y0 + i] bel
 
 import math
 
-import numpy as np
-
-from impact_damper.kernel.compiling import kernel_only
-
 LANES: int
 TANGENTS: int
 FLIGHT_ORDER: int
@@ -40,25 +36,11 @@ OUTSIDE = 2.0
 NEAREST = 1e-9
 
 
-@kernel_only
-def bits(x):
-    """Return the bits of a float as an integer, which for x > 0 is nearly ONE + 2^52 log2(x)."""
-    return np.float64(x).view(np.int64)
-
-
-@kernel_only
-def number(x):
-    """Return the float whose bits are the integer x."""
-    return np.int64(x).view(np.float64)
-
-
-@kernel_only
 def largest_tail(a, i):
     """Return the largest allowed modulus of the last terms of the series of Z1'."""
     return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
 
 
-@kernel_only
 def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a series' derivative stay below `largest_tail`.
 
@@ -76,7 +58,6 @@ def limit_length(a, series, order, excess):
         a[LENGTH + i] = shorter if a[TAIL + i] > excess * largest_tail(a, i) else a[LENGTH + i]
 
 
-@kernel_only
 def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
@@ -100,7 +81,6 @@ def predict_length(a):
         a[T + i] = a[LENGTH + i]
 
 
-@kernel_only
 def end_flight(a):
     """Compute END_Z1 and END_Z1_SLOPE at T; T is reduced where the last terms are too large."""
     flight_slope(a)
@@ -117,7 +97,6 @@ def end_flight(a):
         a[END_Z1_SLOPE + i] = a[Z1_SLOPE + i]
 
 
-@kernel_only
 def flight_step(a):
     """Step trajectories in flight; SIDE becomes the wall at which a contact begins, or 0."""
     forcing(a)
@@ -173,7 +152,6 @@ def flight_step(a):
         let_go(a)
 
 
-@kernel_only
 def shorten_outside(a):
     """Shorten LENGTH in lanes whose loose mass begins behind the surface of the unloaded wall."""
     for i in range(LANES):
@@ -182,7 +160,6 @@ def shorten_outside(a):
         a[T + i] = a[LENGTH + i]
 
 
-@kernel_only
 def flight_tangents(a, d):
     """Integrate tangents over the flight that `flight_step` has just integrated."""
     if a[STICKS] > 0.0:
@@ -201,7 +178,6 @@ def flight_tangents(a, d):
         friction_jump(a, d)
 
 
-@kernel_only
 def contact_tangents(a, d):
     """Integrate tangents over the step in contact that `contact_step` has just integrated."""
     if a[STICKS] > 0.0:
@@ -214,7 +190,6 @@ def contact_tangents(a, d):
         friction_jump(a, d)
 
 
-@kernel_only
 def dashpot_jump(a, d, direction):
     """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
 
@@ -232,7 +207,6 @@ def dashpot_jump(a, d, direction):
         d[3 * TANGENTS + i] += jump * (1.0 + a[INVERSE_MASS_RATIO + j])
 
 
-@kernel_only
 def contact_step(a):
     """Step trajectories in contact; SIDE becomes 0 where the contact ends."""
     forcing(a)

@@ -1,0 +1,334 @@
+"""Compile templates of a step, bypassing numba's front end, which takes most of a compilation.
+
+A template is a Python function of pointers to float64 and of numbers. It consists of assignments,
+calls, `if`, `while`, `return`, and `for i in range(count)` with a constant count. Numbers that are
+known at compilation are computed then, and branches that they exclude are left out.
+"""
+
+import ast
+import builtins
+import inspect
+import math
+import operator
+from functools import reduce
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
+from impact_damper.kernel.compiling import CONTRACT
+from impact_damper.kernel.straight_lines import definition, write
+
+FLOAT, INTEGER, TRUTH = ir.DoubleType(), ir.IntType(64), ir.IntType(1)
+# For each operator: the Python function, LLVM's instruction for floats, and the one for integers.
+OPERATORS = {
+    ast.Add: (operator.add, "fadd", "add"),
+    ast.Sub: (operator.sub, "fsub", "sub"),
+    ast.Mult: (operator.mul, "fmul", "mul"),
+    ast.Div: (operator.truediv, "fdiv", None),
+    ast.FloorDiv: (operator.floordiv, None, None),
+    ast.Mod: (operator.mod, None, "srem"),
+    ast.Pow: (operator.pow, None, None),
+    ast.LShift: (operator.lshift, None, "shl"),
+    ast.RShift: (operator.rshift, None, "ashr"),
+}
+COMPARISONS = {
+    ast.Lt: ("<", operator.lt),
+    ast.LtE: ("<=", operator.le),
+    ast.Gt: (">", operator.gt),
+    ast.GtE: (">=", operator.ge),
+    ast.Eq: ("==", operator.eq),
+    ast.NotEq: ("!=", operator.ne),
+}
+INTRINSICS = {math.sqrt: "sqrt", math.sin: "sin", math.cos: "cos", np.floor: "floor", abs: "fabs"}
+
+
+def bits(x):
+    """Return the bits of a float as an integer, for x > 0 nearly 2^52 (1023 + log2(x))."""
+    return int(np.float64(x).view(np.int64))
+
+
+def number(x):
+    """Return the float whose bits are the integer x."""
+    return float(np.int64(x).view(np.float64))
+
+
+def template(function, caller):
+    """Return what numba's kernels call in place of a template; `caller` only calls the result."""
+
+    def generate(context, builder, signature, arguments):
+        builder.call(_compiled(builder.module, function, arguments), arguments)
+        return context.get_dummy_value()
+
+    # numba takes the number of arguments from the signature of these functions.
+    def of_one(typing, a):
+        return types.void(a), generate
+
+    def of_two(typing, a, d):
+        return types.void(a, d), generate
+
+    made = intrinsic(of_one if len(inspect.signature(function).parameters) == 1 else of_two)
+    made.template, made.py_func = function, caller
+    return made
+
+
+def _is_llvm(value):
+    """Return whether a value is known only when the compiled code runs."""
+    return isinstance(value, ir.Value)
+
+
+def _compiled(module, function, arguments):
+    """Return the LLVM function of a template for these arguments, of which the pointers vary."""
+    name = f"{function.__module__}.{function.__name__}"
+    name = ".".join([name, *(str(each) for each in arguments if not _is_llvm(each))])
+    if name in module.globals:
+        return module.globals[name]
+    kind = ir.FunctionType(ir.VoidType(), [each.type for each in arguments if _is_llvm(each)])
+    made = ir.Function(module, kind, name)
+    made.linkage = "linkonce_odr"
+    builder, given = ir.IRBuilder(made.append_basic_block()), iter(made.args)
+    values = [next(given) if _is_llvm(each) else each for each in arguments]
+    if hasattr(function, "is_straight"):
+        write(function, builder, values)
+    else:
+        _Body(builder, function).expand(values)
+    builder.ret_void()
+    return made
+
+
+class _Body(ast.NodeVisitor):
+    """Writes the LLVM code of a template's body. A value is an LLVM value or a Python object."""
+
+    def __init__(self, builder, function):
+        self.builder, self.function = builder, function
+        self.tree = definition(function)
+        # Values of names that are assigned once; memory of other names, and of returned values.
+        self.values, self.memory, self.returned = {}, {}, []
+        self.end = builder.append_basic_block()
+
+    def expand(self, arguments):
+        """Write the body with these arguments, and return what it returns."""
+        names = [each.arg for each in self.tree.args.args]
+        nodes = [each for each in ast.walk(self.tree) if isinstance(each, ast.Name)]
+        stored = names + [each.id for each in nodes if isinstance(each.ctx, ast.Store)]
+        self.once = {name for name in stored if stored.count(name) == 1}
+        left = len(names) - len(arguments)
+        defaults = self.function.__defaults__[-left:] if left else ()
+        for name, value in zip(names, [*arguments, *defaults], strict=True):
+            self.set(name, value)
+        self.run(self.tree.body)
+        if not self.builder.block.is_terminated:
+            self.builder.branch(self.end)
+        self.builder.position_at_end(self.end)
+        values = tuple(map(self.builder.load, self.returned))
+        return values[0] if len(values) == 1 else values
+
+    def run(self, statements):
+        """Write statements up to a `return`."""
+        for statement in statements:
+            if not self.builder.block.is_terminated:
+                self.visit(statement)
+
+    def set(self, name, value):
+        """Assign a value to a name."""
+        if name in self.once:
+            self.values[name] = value
+            return
+        if name not in self.memory:
+            self.memory[name] = cgutils.alloca_once(self.builder, self.llvm(value).type)
+        self.builder.store(self.llvm(value, self.memory[name].type.pointee), self.memory[name])
+
+    def llvm(self, value, kind=None):
+        """Return a value as an LLVM value, an integer as a float if `kind` is FLOAT."""
+        if _is_llvm(value):
+            converted = value.type == INTEGER and kind == FLOAT
+            return self.builder.sitofp(value, FLOAT) if converted else value
+        if isinstance(value, (bool, np.bool_)):
+            return ir.Constant(TRUTH, int(value))
+        return ir.Constant(FLOAT if kind == FLOAT or isinstance(value, float) else INTEGER, value)
+
+    def alike(self, *values):
+        """Return numbers as LLVM values, as floats if one of them is a float."""
+        kinds = [self.llvm(each).type for each in values]
+        return [self.llvm(each, FLOAT if FLOAT in kinds else None) for each in values]
+
+    def pointer(self, node):
+        """Return the pointer to an entry of an array."""
+        index = self.llvm(self.visit(node.slice))
+        return self.builder.gep(self.visit(node.value), [index], inbounds=True)
+
+    def generic_visit(self, node):
+        file = self.function.__code__.co_filename
+        raise SyntaxError(f"{file}, line {node.lineno}: unknown in templates: {ast.unparse(node)}")
+
+    def visit_Expr(self, node):
+        self.visit(node.value)
+
+    def visit_Assign(self, node):
+        value = self.visit(node.value)
+        for target in node.targets:
+            self.store(target, value)
+
+    def visit_AugAssign(self, node):
+        value = ast.copy_location(ast.BinOp(node.target, node.op, node.value), node)
+        self.store(node.target, self.visit(value))
+
+    def store(self, target, value):
+        """Assign a value to a name or to an entry of an array, or values to several of them."""
+        if isinstance(target, ast.Tuple):
+            for each, part in zip(target.elts, value, strict=True):
+                self.store(each, part)
+        elif isinstance(target, ast.Name):
+            self.set(target.id, value)
+        else:
+            self.builder.store(self.llvm(value, FLOAT), self.pointer(target))
+
+    def visit_Return(self, node):
+        value = self.visit(node.value)
+        values = value if isinstance(value, tuple) else (value,)
+        if not self.returned:
+            kinds = [self.llvm(each).type for each in values]
+            self.returned = [cgutils.alloca_once(self.builder, kind) for kind in kinds]
+        for each, place in zip(values, self.returned, strict=True):
+            self.builder.store(self.llvm(each, place.type.pointee), place)
+        self.builder.branch(self.end)
+
+    def visit_If(self, node):
+        test = self.visit(node.test)
+        if not _is_llvm(test):
+            self.run(node.body if test else node.orelse)
+            return
+        with self.builder.if_else(test) as (then, otherwise):
+            with then:
+                self.run(node.body)
+            with otherwise:
+                self.run(node.orelse)
+
+    def visit_While(self, node):
+        test, body, after = (self.builder.append_basic_block() for _ in range(3))
+        self.builder.branch(test)
+        self.builder.position_at_end(test)
+        self.builder.cbranch(self.visit(node.test), body, after)
+        self.builder.position_at_end(body)
+        self.run(node.body)
+        self.builder.branch(test)
+        self.builder.position_at_end(after)
+
+    def visit_For(self, node):
+        """Write a loop whose counter is i as a loop over lanes, and other loops without a loop."""
+        count, counter = self.visit(node.iter.args[0]), node.target.id
+        if counter == "i" and count > 1:
+            with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:
+                self.values[counter] = loop.index
+                self.run(node.body)
+            return
+        for k in range(count):
+            self.values[counter] = k
+            self.run(node.body)
+
+    def visit_Name(self, node):
+        if node.id in self.memory:
+            return self.builder.load(self.memory[node.id])
+        known = vars(builtins) | self.function.__globals__ | self.values
+        return known[node.id]
+
+    def visit_Constant(self, node):
+        return node.value
+
+    def visit_Attribute(self, node):
+        return getattr(self.visit(node.value), node.attr)
+
+    def visit_Tuple(self, node):
+        return tuple(map(self.visit, node.elts))
+
+    def visit_Subscript(self, node):
+        value = self.visit(node.value)
+        if isinstance(value, tuple):
+            return value[self.visit(node.slice)]
+        return self.builder.load(self.pointer(node))
+
+    def visit_IfExp(self, node):
+        test = self.visit(node.test)
+        if not _is_llvm(test):
+            return self.visit(node.body if test else node.orelse)
+        return self.builder.select(test, *self.alike(*map(self.visit, (node.body, node.orelse))))
+
+    def visit_BoolOp(self, node):
+        decisive, found = isinstance(node.op, ast.Or), []
+        for each in node.values:
+            value = self.visit(each)
+            if _is_llvm(value):
+                found.append(value)
+            elif value == decisive:
+                return decisive
+        combine = self.builder.or_ if decisive else self.builder.and_
+        return reduce(combine, found) if found else not decisive
+
+    def visit_Compare(self, node):
+        terms = [self.visit(each) for each in (node.left, *node.comparators)]
+        pairs = zip(map(type, node.ops), terms, terms[1:], strict=False)
+        found = [self.compared(kind, *pair) for kind, *pair in pairs]
+        return self.builder.and_(*map(self.llvm, found)) if len(found) > 1 else found[0]
+
+    def compared(self, kind, left, right):
+        """Return whether two numbers satisfy a comparison, as Python does for NaN."""
+        sign, function = COMPARISONS[kind]
+        if not (_is_llvm(left) or _is_llvm(right)):
+            return function(left, right)
+        pair = self.alike(left, right)
+        if pair[0].type != FLOAT:
+            return self.builder.icmp_signed(sign, *pair)
+        compare = self.builder.fcmp_unordered if sign == "!=" else self.builder.fcmp_ordered
+        return compare(sign, *pair)
+
+    def visit_UnaryOp(self, node):
+        value = self.visit(node.operand)
+        if isinstance(node.op, ast.Not):
+            return self.builder.not_(value) if _is_llvm(value) else not value
+        return self.builder.fneg(value, flags=CONTRACT) if _is_llvm(value) else -value
+
+    def visit_BinOp(self, node):
+        left, right = self.visit(node.left), self.visit(node.right)
+        function, real, whole = OPERATORS[type(node.op)]
+        if not (_is_llvm(left) or _is_llvm(right)):
+            return function(left, right)
+        if isinstance(node.op, ast.Pow):
+            return self.power(left, right)
+        pair = self.alike(left, right)
+        if pair[0].type == FLOAT:
+            return getattr(self.builder, real)(*pair, flags=CONTRACT)
+        return getattr(self.builder, whole)(*pair)
+
+    def power(self, value, exponent):
+        """Return a float to the power 2 or 4, or a higher power of 2."""
+        for _ in range(exponent.bit_length() - 1):
+            value = self.builder.fmul(value, value, flags=CONTRACT)
+        return value
+
+    def visit_Call(self, node):
+        function, arguments = self.visit(node.func), [self.visit(each) for each in node.args]
+        varying = [each for each in arguments if _is_llvm(each)]
+        if not varying:
+            return function(*arguments)
+        if function in (min, max):
+            return self.extreme(ast.Lt if function is min else ast.Gt, *self.alike(*arguments))
+        if function in INTRINSICS:
+            name = f"llvm.{INTRINSICS[function]}"
+            return self.builder.call(self.builder.module.declare_intrinsic(name, [FLOAT]), varying)
+        if function in (bits, number):
+            return self.builder.bitcast(*varying, INTEGER if function is bits else FLOAT)
+        if function is np.int64:
+            return self.builder.fptosi(*varying, INTEGER)
+        function = getattr(function, "template", getattr(function, "py_func", function))
+        returns = any(isinstance(each, ast.Return) for each in ast.walk(definition(function)))
+        if returns or not all(each.type.is_pointer for each in varying):
+            return _Body(self.builder, function).expand(arguments)
+        return self.builder.call(_compiled(self.builder.module, function, arguments), varying)
+
+    def extreme(self, kind, first, *others):
+        """Return the least or the largest of numbers, as Python does for NaN."""
+        for other in others:
+            first = self.builder.select(self.compared(kind, other, first), other, first)
+        return first
