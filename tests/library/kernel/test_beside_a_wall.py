@@ -7,7 +7,7 @@ from references import extended
 from impact_damper.kernel.single import workspace
 from impact_damper.kernel.tangents import advance
 
-PARAMETERS = [1.5953653092347446, 0.215, 0.0, 1.0, 1.0, 0.0, 0.0, 0.625, 50.0, 2.5, 0.0]
+PARAMETERS = [1.5953653092347446, 0.215, 0.0, 1.0, 1.0, 0.0, 0.0, 0.625, 50.0, 2.5, *4 * [0.0]]
 STATE = [-0.3200981905676796, -0.26859744176542183, -0.6249999999999999, -1.2260674298048002e-06]
 BEGIN, END = 27.036899746777475, 27.1
 
