@@ -119,14 +119,17 @@ def _converted(data, convert, scales):
 
 
 def _kind(name, data):
-    """Return the kind of a variable; for "followed", the kind of the parameter that varies."""
+    """Return the kind of a variable; for "followed", the kind of the parameter that varies.
+
+    A clearance of a machine is shown as the gap, the full play.
+    """
     kind = VARIABLES[name].kind
-    if kind != "followed":
-        return kind
-    parameter = parameters_of(data).get("parameter")
-    # The parameter of a sweep is not stored by name, but is the coordinate of the sweep.
-    swept = "clearance" if "clearance" in data.coords else "frequency"
-    return facts_of(parameter)[1] if parameter else swept
+    if kind == "followed":
+        parameter = parameters_of(data).get("parameter")
+        # The parameter of a sweep is not stored by name, but is the coordinate of the sweep.
+        swept = "clearance" if "clearance" in data.coords else "frequency"
+        kind = facts_of(parameter)[1] if parameter else swept
+    return "gap" if kind == "clearance" else kind
 
 
 def _name_unit(variable, kind):
@@ -138,8 +141,8 @@ def _name_unit(variable, kind):
     elif kind not in PURE:
         variable.attrs["units"] = QUANTITIES[kind].label
         variable.attrs.pop("symbol", None)
-    if kind == "clearance":
-        variable.attrs["long_name"] += ", on each side"
+    if kind == "gap":
+        variable.attrs["long_name"] += ", as the full play"
 
 
 def flag(name, meaning) -> int:

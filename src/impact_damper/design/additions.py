@@ -18,8 +18,8 @@ from impact_damper.design.task import NOMINAL, VARIED, labelled
 from impact_damper.design.transients import transients
 from impact_damper.motions.strobe_map import strobe_time
 
-# Number of frequencies in `force_map`, besides the resonances.
-FREQUENCIES = 9
+# Number of frequencies in `force_map`, besides the resonances and the promised frequency.
+FREQUENCIES = 5
 # Loose mass of the heavier damper, divided by the loose mass of the task.
 HEAVIER = 2.0
 # Cycles over which the contact force is measured if a motion is not periodic.
@@ -28,7 +28,8 @@ WATCHED = 100
 
 def force_map(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset of promised displacements over frequency and force, at nominal values."""
-    frequencies, shares = task.few(FREQUENCIES), np.array(SHARES)
+    critical = float(decision["promised_frequency"])
+    frequencies, shares = task.few(FREQUENCIES, critical), np.array(SHARES)
     sets = np.tile(NOMINAL, (len(shares), 1))
     sets[:, VARIED.index("force")] = shares
     gap, count = 1e-3 * float(decision["design_gap"]), starts_needed(task.share)

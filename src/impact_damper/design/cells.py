@@ -34,9 +34,9 @@ BLOCK, TAIL, HORIZON = 50, 50, 100_000
 POOLED, MOST_POOLED = 25_000, 200_000
 # Relative growth of a record that is assumed for each doubling of the cycles up to POOLED.
 MISSING = 0.03
-# STEADY: largest relative difference between the records of four quarters of a run on a torus.
+# STEADY: largest relative difference between the records of the QUARTERS of a run on a torus.
 # SLACK: largest relative amount by which a motion exceeds the orbit that it approaches.
-STEADY, SLACK = 0.002, 0.001
+QUARTERS, STEADY, SLACK = 4, 0.002, 0.001
 # Cycles in which a motion is tested for having settled, before the motion is run further.
 CHECKED = 100
 
@@ -114,7 +114,7 @@ class Motions:
             cycles = max(pooled, len(regime) * self.task.effort.settling.watched)
             return record * (1 + MISSING * np.log2(max(2, POOLED / cycles))), False, False
         quarters = np.nanmax(peaks, axis=0)
-        quarters = [part.max() for part in np.array_split(quarters, 4)]
+        quarters = [part.max() for part in np.array_split(quarters, QUARTERS)]
         if np.ptp(quarters) <= STEADY * record:
             return (1 + STEADY) * record, True, True
         middle = peaks.shape[1] // 2
@@ -167,7 +167,7 @@ class Motions:
         if not len(loud):
             return
         done = np.isfinite(self.blocks[k][loud]).sum(axis=1)
-        number = done.max() or int(np.ceil(POOLED / 2 / BLOCK / len(loud)))
+        number = done.max() or max(QUARTERS, int(np.ceil(POOLED / 2 / BLOCK / len(loud))))
         peaks = np.full((len(self.settled[k]), number), np.nan)
         peaks[loud] = self._run(k, loud, number)
         self.blocks[k] = np.hstack([self.blocks[k], peaks])

@@ -19,8 +19,9 @@ from impact_damper.motions.strobe_map import strobe_time
 # Number of states in a forcing cycle at which a motion is measured, and number of cycles over
 # which a motion that is not periodic is measured.
 SAMPLES, WATCHED = 64, 200
-# Largest number of further cycles for a motion that has not settled, to classify the motion.
-FURTHER = 1500
+# Random starts at each frequency of the response, which bounds nothing. Largest number of further
+# cycles of a motion that has not settled, to classify the motion.
+STARTS, FURTHER = 32, 1500
 # Variable of the dataset -> name of the cost in `costs.measured_costs`, physical quantity.
 COSTS = {
     "impact_rate_by_frequency": ("impact_rate", "rate"),
@@ -38,7 +39,7 @@ def response_and_costs(task, decision, progress=None) -> xr.Dataset:
     # Motions that have not settled are run further, to classify them. The search saves this time.
     effort = task.effort
     settling = replace(effort.settling, further=FURTHER)
-    searched = {"starts": effort.starts, "seed": effort.seed, "settling": settling}
+    searched = {"starts": min(STARTS, effort.starts), "seed": effort.seed, "settling": settling}
     searched |= {"workers": effort.workers, "progress": progress}
     damper = task.damper(1e-3 * float(decision["design_gap"]))
     motions = frequency_response(task.machine, damper, task.grid, **searched)

@@ -336,11 +336,6 @@ class Machine:
             raise ValueError(
                 "gap: must be given, the full play, or clearances in its place, and not both"
             )
-        if "each side" in getattr(gap, "attrs", {}).get("long_name", ""):
-            raise ValueError(
-                f"gap = {gap.item():g} {gap.units}: must be the full play; a clearance of a "
-                "dataset is on each side, and twice as much is the gap"
-            )
         if gap is None:
             sides = zip(("clearances[0]", "clearances[1]"), clearances, strict=True)
             gap = sum(check_si(name, value, "clearance", above=0) for name, value in sides)

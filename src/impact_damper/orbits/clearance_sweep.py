@@ -52,7 +52,8 @@ def clearance_sweep(
     frequency : float
         Forcing frequency W, or Hz for a machine.
     clearances : sequence of float
-        Increasing clearances d0 on each side of the loose mass, for a machine in m.
+        Increasing clearances d0 on each side of the loose mass. For a machine full play in m, as in
+        `Machine.damper`; the clearances of the result are then full play, too.
     method : str
         "simulated" finds the motions. "harmonic_balance" returns only the amplitude by (7) and the
         rules.
@@ -92,7 +93,7 @@ def clearance_sweep(
     model = read_swept_damper(system, damper, frequency)
     oscillator, frequency = model.oscillator, model.frequency
     clearances = read_increasing(
-        model.scales, "clearances", clearances, "clearance", 2, **bounds.CLEARANCE_RANGE
+        model.scales, "clearances", clearances, "gap", 2, **bounds.CLEARANCE_RANGE
     )
     bounds.check_starts(starts, len(clearances))
     radius = read_radius(model.scales, radius, whole_gap)

@@ -2,7 +2,9 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
+import xarray as xr
 
 import impact_damper as idm
 
@@ -40,7 +42,7 @@ def test_the_gap_of_a_machine_is_its_full_play_along_a_branch():
     given = {"parameter": "gap", "span": ("4 mm", "6 mm")}
     found = idm.orbit_branches(MACHINE, damper, 20.5, state, **given).followed_value
     assert (float(found.min()), float(found.max())) == pytest.approx((4, 6))
-    assert "each side" not in found.long_name
+    assert found.long_name.endswith("full play")
 
 
 def test_the_version_is_stated_alike_everywhere():
@@ -53,16 +55,20 @@ def test_the_help_begins_with_the_public_names():
 
 
 def test_a_number_of_a_dataset_is_an_argument():
-    import numpy as np
-    import xarray as xr
-
     best = xr.DataArray(2.0, attrs={"units": "1"})
     assert idm.Damper(0.12, best) == DAMPER
     assert isinstance(idm.Damper(np.array(0.12), best).clearance, float)
     with pytest.raises(ValueError, match="clearance = 2.0 mm: must be dimensionless"):
         idm.Damper(0.12, best.assign_attrs(units="mm"))
-    gap = xr.DataArray(3.0, attrs={"units": "mm", "long_name": "optimum, on each side"})
+    gap = xr.DataArray(3.0, attrs={"units": "mm"})
     made = MACHINE.damper(mass=0.6, clearances=(gap, gap), contact_stiffness=2e7)
     assert made.gap == 0.006
-    with pytest.raises(ValueError, match="gap = 3 mm: must be the full play"):
-        MACHINE.damper(mass=0.6, gap=gap, contact_stiffness=2e7)
+
+
+def test_the_optimum_of_a_sweep_is_a_gap_of_a_machine():
+    damper = MACHINE.damper(mass=0.6, gap=5e-3, restitution=0.7, contact_stiffness=2e7)
+    given = 20.5, ["2 mm", "5 mm", "9 mm"]
+    best = idm.clearance_sweep(MACHINE, damper, *given, method="harmonic_balance").rule_clearance
+    force = MACHINE.force / (damper.mass * (2 * np.pi * 20.5) ** 2)
+    assert float(best) == pytest.approx(1e3 * 2 * force, rel=1e-9)  # rule (18), full play in mm
+    assert MACHINE.damper(mass=0.6, gap=best, contact_stiffness=2e7).gap == pytest.approx(2 * force)

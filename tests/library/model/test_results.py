@@ -104,7 +104,7 @@ CALLS = {
         m, d, [20.5, 20.8], starts=3, radius="3 mm"
     ),
     "clearance_sweep": lambda m, d: idm.clearance_sweep(
-        m, d, AT_RESONANCE, [3.7e-3, 3.9e-3], starts=3, radius="3 mm"
+        m, d, AT_RESONANCE, [7.4e-3, 7.8e-3], starts=3, radius="3 mm"
     ),
     # The damper is on for 3 cycles only, so that chaos does not magnify rounding errors.
     "migrate": lambda *_: of_paper(idm.migrate, 1.95, seed=1, longest_hold=3)[
