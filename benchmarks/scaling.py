@@ -16,8 +16,8 @@ from benchmarks.methods import TIMED, advance_rows
 from benchmarks.timing import interleaved, spread
 from impact_damper.model.packed import CLEARANCE
 from impact_damper.model.parameters import Damper
-from impact_damper.motions.ensemble import run_chunks
 from impact_damper.motions.simulate import random_states
+from impact_damper.motions.steady import run_chunks
 
 TOLERANCE = 1e-9
 RADIUS = 2.0

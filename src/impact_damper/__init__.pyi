@@ -10,8 +10,8 @@ from .model.parameters import Oscillator as Oscillator
 from .model.settling import Settling as Settling
 from .motions.migration import migrate as migrate
 from .motions.response import frequency_response as frequency_response
-from .motions.response import steady_motion as steady_motion
 from .motions.simulate import simulate as simulate
+from .motions.steady import steady_motion as steady_motion
 from .orbits.basins import basins as basins
 from .orbits.clearance_sweep import clearance_sweep as clearance_sweep
 from .orbits.orbit_branches import orbit_branches as orbit_branches

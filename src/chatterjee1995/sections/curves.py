@@ -105,7 +105,7 @@ class Motion(system.WithDamper):
 
     frequency: system.FREQUENCY
 
-    @stage("impact_damper.motions.response:steady_orbit", "Steady motion {name}")
+    @stage("impact_damper.motions.steady:steady_orbit", "Steady motion {name}")
     def motion(self, config) -> dict:
         run = {"frequency": self.frequency, "state": START, "samples": 4000}
         return self.system(config) | run | config.settling.job()

@@ -17,6 +17,7 @@ from impact_damper.model.parameters import describe
 from impact_damper.motions import ensemble
 from impact_damper.motions.attractors import PHASES, release_set
 from impact_damper.motions.legs import HOLD, PHASE, SETTLED, STATE, hold
+from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import strobe_time
 
 register(
@@ -163,7 +164,7 @@ class Trials(NamedTuple):
             hold_many(self.on, set_.p, *runs, *sets, held[part], stop)
 
         work(slice(0, 0))
-        ensemble.run_chunks(work, len(starts), self.workers, None, stop, size=64)
+        run_chunks(work, len(starts), self.workers, None, stop, size=64)
         return held
 
     def labels(self, states):

@@ -26,6 +26,7 @@ from impact_damper.motions.records import MOTION, NEVER
 from impact_damper.motions.response import frequency_response
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.start_states import describe_search
+from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.motions.sweep import Catalogue
 from impact_damper.motions.traces import states_at
@@ -70,7 +71,7 @@ def migration(
         for i in range(part.start, part.stop):
             _, logs[i] = control(case, draws[i], longest_hold, settling, periods, None, stop)
 
-    ensemble.run_chunks(work, trials, workers, progress, stop, size=8)
+    run_chunks(work, trials, workers, progress, stop, size=8)
     totals = run_totals(logs)
     data = switching_data(logs[:, : np.max(totals["switchings"])], case)
     example = _example(totals)
@@ -145,7 +146,7 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
                 state = path[LEAD + int(instant * (life - LEAD)) + 1, 1:]
                 entries[i] = _release(case, state, wait, settling, stop)
 
-    ensemble.run_chunks(work, len(draws), workers, progress, stop, size=8)
+    run_chunks(work, len(draws), workers, progress, stop, size=8)
     return motions, entries
 
 

@@ -18,6 +18,7 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.records import is_symmetric_pair
 from impact_damper.motions.simulate import random_states
 from impact_damper.motions.start_states import describe_search, warn_if_narrow
+from impact_damper.motions.steady import CHUNK, run_chunks
 
 register(
     """
@@ -86,8 +87,8 @@ def study_chunk(
         for k, of_cell in enumerate(runs.reshape(-1, starts), part.start):
             found[k] = _condensed(of_cell)
 
-    together = max(1, ensemble.CHUNK // starts)  # number of cells that are run together
-    ensemble.run_chunks(work, last - first, workers, progress, stop, size=together)
+    together = max(1, CHUNK // starts)  # number of cells that are run together
+    run_chunks(work, last - first, workers, progress, stop, size=together)
     data = {
         name: (("cell", "counted_outcome")[: found[name].ndim], found[name]) for name in CELL.names
     }

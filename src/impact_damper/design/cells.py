@@ -15,6 +15,7 @@ from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETTLED, follow_peaks
 from impact_damper.motions.start_states import random_starts
+from impact_damper.motions.steady import run_chunks
 
 # Outcomes with which a displacement is known: LASTING in the first run, KEPT in further runs.
 LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)
@@ -64,7 +65,7 @@ def draw_starts(task, cells, count, stream) -> np.ndarray:
                 system = task.system(*cells[place])
                 states[place], _ = random_starts(*system, count, seed, task.effort.settling)
 
-    ensemble.run_chunks(work, len(cells), task.effort.workers, None, stop, size=DRAWN)
+    run_chunks(work, len(cells), task.effort.workers, None, stop, size=DRAWN)
     return states
 
 
@@ -184,7 +185,7 @@ class Motions:
             for row in peaks:
                 follow_peaks(parameters[part], states[part], BLOCK, tolerance, row[part], stop)
 
-        ensemble.run_chunks(work, len(places), self.task.effort.workers, None, stop, size=FOLLOWED)
+        run_chunks(work, len(places), self.task.effort.workers, None, stop, size=FOLLOWED)
         self.states[k, places] = states
         return peaks.T
 

@@ -16,8 +16,8 @@ from impact_damper.design.task import Effort, Task, labelled
 from impact_damper.model.bounds import PERIODS_RANGE, check_count, names_arguments
 from impact_damper.model.machine import describe_si
 from impact_damper.model.units import check_si
-from impact_damper.motions import ensemble
 from impact_damper.motions.migration import control, release_case
+from impact_damper.motions.steady import run_chunks
 
 
 @names_arguments
@@ -84,7 +84,7 @@ def migration(
             cycles = release_time(case, seed, longest_hold, effort.settling, stop)
             times[i, j, trial] = cycles / task.grid[j]
 
-    ensemble.run_chunks(work, len(places) * effort.starts, effort.workers, progress, stop, size=8)
+    run_chunks(work, len(places) * effort.starts, effort.workers, progress, stop, size=8)
     return _table(task, gaps, times, longest_hold)
 
 

@@ -1,10 +1,8 @@
 """Run many motions on several threads, until they settle or enter a known neighbourhood."""
 
 import math
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
-from tqdm import tqdm
 
 from impact_damper.kernel.batch import (
     LANES,
@@ -19,37 +17,16 @@ from impact_damper.kernel.batch import (
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import assign, side_of
-from impact_damper.model.bounds import check_count
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import Settling
-from impact_damper.motions.records import MOTION, measure
+from impact_damper.motions.steady import run_chunks, settle_with
 from impact_damper.motions.strobe_map import strobe_time
-from impact_damper.motions.undecided import name_undecided
 from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
-# Number of motions, and of states to label, in one call of a kernel. Ctrl-C waits for its end.
-CHUNK, LABELLED = 128, 4096
+# Number of states to label in one call of a kernel. Ctrl-C waits for its end.
+LABELLED = 4096
 # Labels of states that lead to no known orbit: escaped, unresolved (flags of `basin_label`).
 GONE, UNKNOWN = -2, -1
-
-
-def run_chunks(work, count, workers, progress, stop, size=CHUNK):
-    """Call `work(slice)` for slices of length `size` that cover range(count), on `workers` threads.
-
-    After an error or Ctrl-C the function sets `stop[0]` and does not wait for running slices.
-    """
-    check_count("workers", workers, most=4096)
-    slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
-    pool = ThreadPoolExecutor(workers)
-    try:
-        with tqdm(total=count, desc=progress, disable=progress is None, mininterval=1.0) as bar:
-            for part, _ in zip(slices, pool.map(work, slices), strict=True):
-                bar.update(part.stop - part.start)
-    except BaseException:
-        stop[0] = True
-        raise
-    finally:
-        pool.shutdown(wait=False, cancel_futures=True)
 
 
 def settle(
@@ -69,24 +46,11 @@ def settle(
     states, in the forcing cycle before the first strobe. With `from_strobe` the states are at the
     first strobe. If another thread sets `stop[0]`, the records are incomplete.
     """
-    settling = settling or Settling()
     parameters = np.ascontiguousarray(parameters, float)
-    states = np.ascontiguousarray(states, float)
-    records = np.zeros(len(states), MOTION)
-    stop = np.zeros(1, bool) if stop is None else stop
-    begins = 0.5 * np.pi / parameters[:, FREQUENCY] if from_strobe else np.full(len(states), start)
-    settings = settling.tolerance, settling.patience, settling.limit
-
-    def work(part):
-        rows, out = parameters[part], records[part]
-        settle_many(rows, states[part], begins[part], *settings, out, stop)
-        name_undecided(rows, out, settling.limit, settling.further, stop)
-        measure(rows, settling.tolerance, settling.watched, out, stop)
-
-    # This call compiles the kernels in the main thread, where Ctrl-C can interrupt the compilation.
-    work(slice(0, 0))
-    run_chunks(work, len(states), workers, progress, stop)
-    return records
+    strobes = 0.5 * np.pi / parameters[:, FREQUENCY]
+    begins = strobes if from_strobe else np.full(len(states), start)
+    running = {"workers": workers, "progress": progress, "stop": stop}
+    return settle_with(settle_many, parameters, states, begins, settling or Settling(), **running)
 
 
 @kernel

@@ -8,25 +8,22 @@ from dataclasses import replace
 
 import numpy as np
 
-from impact_damper.data.datasets import dataset, flag, is_settled, named
+from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.shares import escape_rate
 from impact_damper.model import bounds
 from impact_damper.model.arguments import (
-    read_forced,
     read_frequencies,
     read_radius,
-    read_start,
-    read_state,
     read_system,
 )
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.ensemble import settle_many
-from impact_damper.motions.records import CHAOTIC, MOTION, UNRESOLVED, tabulate
-from impact_damper.motions.simulate import COMPONENTS, simulate
+from impact_damper.motions.records import CHAOTIC, MOTION, UNRESOLVED
+from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.start_states import describe_search, search_starts
-from impact_damper.motions.strobe_map import STROBE
+from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.sweep import sweep
 from impact_damper.motions.watch import NEAR
 
@@ -34,73 +31,6 @@ from impact_damper.motions.watch import NEAR
 # distance from an orbit at which a transient ends; number of further forcing cycles of a lasting
 # run, which show whether the run is still chaotic.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
-
-
-@bounds.names_arguments
-def steady_motion(
-    system, damper, frequency, state=(0.0, 0.0, 0.0, 0.0), *, start=None, settling=None
-):
-    """Return the steady motion that a state leads to.
-
-    Parameters
-    ----------
-    system : Oscillator or Machine
-    damper : Damper, MachineDamper or None
-    frequency : float
-        Forcing frequency W, or Hz for a machine.
-    state, start
-        As in `simulate`.
-    settling : Settling, optional
-
-    Returns
-    -------
-    xarray.Dataset
-        Outcome (see `decode`), period, contacts per forcing cycle, largest |Z1|, asymmetry (0 if
-        the motion is its own mirror image half a period later), phases of the first harmonic,
-        multiplier, Lyapunov exponent, and the frequencies of a quasi-periodic motion. `state` is
-        the state at W T = pi/2, with this phase as a coordinate. `simulate` and this function can
-        continue from this state, for example at the next frequency of a sweep.
-
-    Examples
-    --------
-    >>> import impact_damper as idm
-    >>> oscillator, damper, state = idm.Oscillator(0.215), idm.Damper(0.12, 2.0), (0, 0, 0, 0)
-    >>> upward = []
-    >>> for frequency in (1.9, 2.0, 2.1):
-    ...     steady = idm.steady_motion(oscillator, damper, frequency, state)
-    ...     state = steady.state
-    ...     upward.append(steady)
-    """
-    settling = check_settling(settling)
-    model = read_forced(system, damper, frequency)
-    p = model.pack()
-    y = read_state(model, state)
-    start = read_start(model, state, start)
-    # Shift the start by whole forcing cycles into the cycle that ends at the strobe.
-    strobe, period = STROBE / model.frequency, 2 * np.pi / model.frequency
-    begin = min(start - np.ceil((start - strobe) / period - 1e-9) * period, strobe)
-    record = ensemble.settle(p[None], y[None], settling, start=begin)[0]
-    data = {name: ((), value) for name, value in tabulate(record).items()}
-    data |= {"state": (("component",), record["state"]), "state_phase": STROBE}
-    parameters = model.describe(settling) | {"state": y.tolist(), "start": start}
-    coordinates = {"component": list(COMPONENTS), "frequency": ((), model.frequency)}
-    return dataset(data, coordinates, parameters, "Steady motion of the oscillator", model)
-
-
-def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None):
-    """Return one period of the steady motion that a state leads to, as a dataset of `simulate`.
-
-    The period begins at W T = pi/2. Raises ArithmeticError if the state leads to no periodic orbit.
-    """
-    settling = check_settling(settling)
-    steady = steady_motion(system, damper, frequency, state, settling=settling)
-    if not is_settled(steady):
-        raise ArithmeticError(
-            f"{named(steady, 'outcome')}: the state has led to no periodic orbit within "
-            f"settling.limit = {settling.limit} forcing cycles; use simulate"
-        )
-    run = {"periods": int(steady["period"]), "samples": samples, "tolerance": settling.tolerance}
-    return simulate(system, damper, frequency, steady["state"], **run)
 
 
 @bounds.names_arguments
@@ -234,7 +164,7 @@ def _lives(parameters, states, periods, settling, **running):
         settings = settling.tolerance, 2 * periods + 2, periods
         settle_many(parameters[part], states[part], begin, *settings, records[part], stop)
 
-    ensemble.run_chunks(work, len(states), running["workers"], running["progress"], stop)
+    run_chunks(work, len(states), running["workers"], running["progress"], stop)
     lasting = np.flatnonzero(records["outcome"] == UNRESOLVED)
     checked = replace(settling, patience=CHECKED, limit=CHECKED)
     again = ensemble.settle(

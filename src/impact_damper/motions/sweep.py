@@ -18,6 +18,7 @@ from impact_damper.model.packed import CLEARANCE
 from impact_damper.motions import ensemble
 from impact_damper.motions.following import StrobeOrbit, follow_stable
 from impact_damper.motions.records import MOTION, measured, tabulate
+from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
 # Limits for records of one motion: relative difference of max |Z1| (and asymmetry of a symmetric
@@ -272,7 +273,7 @@ def add_orbits(catalogues, loose, settling, workers) -> None:
             motions = np.array([each["state"][:2] for each in records])
             found[k] = stable_orbits(catalogues[k].p, motions, loose[k], settling.tolerance, stop)
 
-    ensemble.run_chunks(work, len(catalogues), workers, None, stop, size=1)
+    run_chunks(work, len(catalogues), workers, None, stop, size=1)
     for catalogue, states in zip(catalogues, found, strict=True):
         rows = np.tile(catalogue.p, (len(states), 1))
         for record in ensemble.settle(rows, states, settling, from_strobe=True):

@@ -6,10 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
-from impact_damper.motions.segment_runs import NUDGE
 from impact_damper.orbits import continuation
 from impact_damper.orbits.bifurcations import Event, bifurcations_between, events_between
 from impact_damper.orbits.grazing import through_grazing
+from impact_damper.orbits.segment_runs import NUDGE
 
 # Largest number of orbits in one direction.
 MOST_POINTS = 10_000

@@ -14,10 +14,10 @@ from scipy.optimize import brentq
 
 from impact_damper.model.packed import CLEARANCE
 from impact_damper.motions.records import SYMMETRIC
-from impact_damper.motions.segment_runs import FINE_NUDGE, NUDGE, slopes_of_ends
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
+from impact_damper.orbits.segment_runs import FINE_NUDGE, NUDGE, slopes_of_ends
 from impact_damper.orbits.shooting import AMPLIFYING
 
 # Newton's method: largest number of corrections, and largest change of an unknown by a correction.

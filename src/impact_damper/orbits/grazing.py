@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.model.packed import CLEARANCE
-from impact_damper.motions.segment_runs import slopes_of_ends
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
+from impact_damper.orbits.segment_runs import slopes_of_ends
 
 # Moduli of the heights of points on the side with more contacts: ratio of successive moduli,
 # smallest, largest.

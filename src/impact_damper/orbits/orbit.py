@@ -16,9 +16,9 @@ from impact_damper.model.packed import (
 )
 from impact_damper.motions import records
 from impact_damper.motions.records import survey
-from impact_damper.motions.segment_runs import flow_all, list_turns
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
+from impact_damper.orbits.segment_runs import flow_all, list_turns
 
 # Phase W T, radian: length of a forcing cycle; the strobe, at which states are compared.
 TURN = 2 * math.pi

@@ -11,8 +11,9 @@ from helpers.known_orbits import DESIGN, PAPER
 from impact_damper.data import datasets
 from impact_damper.data.variables import VARIABLES
 from impact_damper.data.whole_files import BrokenFileError
-from impact_damper.motions.response import frequency_response, steady_motion
+from impact_damper.motions.response import frequency_response
 from impact_damper.motions.simulate import simulate
+from impact_damper.motions.steady import steady_motion
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.attractors import free_attractors
 from impact_damper.motions.ensemble import label_states
-from impact_damper.motions.response import steady_motion
+from impact_damper.motions.steady import steady_motion
 from impact_damper.orbits.basins import basins
 
 CUBIC = Oscillator(0.215)

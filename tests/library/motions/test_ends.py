@@ -9,7 +9,7 @@ import impact_damper as idm
 from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
 from impact_damper.motions import legs
-from impact_damper.motions.response import steady_orbit
+from impact_damper.motions.steady import steady_orbit
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish
 
 ESCAPED, AT_REST = flag("outcome", "escaped"), flag("outcome", "at_rest")

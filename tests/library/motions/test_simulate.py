@@ -14,8 +14,8 @@ from scipy.optimize import minimize_scalar
 import impact_damper as idm
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions import panels
-from impact_damper.motions.response import steady_orbit
 from impact_damper.motions.simulate import COMPONENTS, random_states, simulate
+from impact_damper.motions.steady import steady_orbit
 
 
 def test_samples_and_contacts_of_a_simulation():

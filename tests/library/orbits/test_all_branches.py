@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.motions.response import steady_motion
 from impact_damper.motions.simulate import simulate
+from impact_damper.motions.steady import steady_motion
 from impact_damper.orbits.orbit_branches import orbit_branches, periodic_orbit
 
 OSCILLATOR = Oscillator(damping=0.215)

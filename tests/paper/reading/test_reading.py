@@ -10,7 +10,7 @@ from chatterjee1995.reading import orbits
 from chatterjee1995.reading.bands import suppression_band
 from impact_damper.data.datasets import flag
 from impact_damper.model.parameters import Oscillator
-from impact_damper.motions.response import steady_motion
+from impact_damper.motions.steady import steady_motion
 from impact_damper.orbits.orbit_branches import orbit_branches
 
 

@@ -8,8 +8,8 @@ from chatterjee1995.stages.balance_map import balance_map
 from impact_damper.data.datasets import decode
 from impact_damper.model.parameters import Damper
 from impact_damper.model.settling import Settling
-from impact_damper.motions.response import steady_motion
 from impact_damper.motions.simulate import simulate
+from impact_damper.motions.steady import steady_motion
 from impact_damper.theory.design_rule import peak_frequency
 
 FIXED = {"damping": 0.215, "mass_ratio": 0.12, "clearance": 2.0}

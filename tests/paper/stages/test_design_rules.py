@@ -10,7 +10,7 @@ from impact_damper.data.datasets import flag
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.motions import strobe_map
-from impact_damper.motions.response import steady_motion
+from impact_damper.motions.steady import steady_motion
 from impact_damper.orbits.clearance_sweep import clearance_sweep
 
 PAPER = Oscillator(0.215)

@@ -13,8 +13,8 @@ from impact_damper.data.datasets import dataset, load, save
 from impact_damper.data.whole_files import BrokenFileError
 from impact_damper.model.parameters import Damper
 from impact_damper.model.settling import Settling
-from impact_damper.motions.response import steady_motion
 from impact_damper.motions.simulate import random_states
+from impact_damper.motions.steady import steady_motion
 
 QUICK = Settling(tolerance=1e-6, patience=100, limit=200, watched=10)
 AXES = {

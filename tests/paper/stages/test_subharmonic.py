@@ -12,8 +12,8 @@ from chatterjee1995.stages.subharmonic import (
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
-from impact_damper.motions.response import steady_motion
 from impact_damper.motions.simulate import COMPONENTS, simulate
+from impact_damper.motions.steady import steady_motion
 
 PAPER = Oscillator(0.215)
 DAMPER = Damper(0.12, 2.0)
