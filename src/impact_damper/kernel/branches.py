@@ -10,7 +10,8 @@ import builtins
 import inspect
 import math
 import operator
-from functools import reduce
+from functools import cache, partial, reduce
+from pathlib import Path
 
 import numpy as np
 from llvmlite import ir
@@ -19,7 +20,6 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 
 from impact_damper.kernel.compiling import CONTRACT
-from impact_damper.kernel.straight_lines import definition, write
 
 FLOAT, INTEGER, TRUTH = ir.DoubleType(), ir.IntType(64), ir.IntType(1)
 # For each operator: the Python function, LLVM's instruction for floats, and the one for integers.
@@ -34,15 +34,23 @@ OPERATORS = {
     ast.LShift: (operator.lshift, None, "shl"),
     ast.RShift: (operator.rshift, None, "ashr"),
 }
-COMPARISONS = {
-    ast.Lt: ("<", operator.lt),
-    ast.LtE: ("<=", operator.le),
-    ast.Gt: (">", operator.gt),
-    ast.GtE: (">=", operator.ge),
-    ast.Eq: ("==", operator.eq),
-    ast.NotEq: ("!=", operator.ne),
-}
+SIGNS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 INTRINSICS = {math.sqrt: "sqrt", math.sin: "sin", math.cos: "cos", np.floor: "floor", abs: "fabs"}
+
+
+@cache
+def _definitions(file):
+    """Return the syntax trees of the functions of a file, by the number of their first line."""
+    found = {}
+    for node in ast.walk(ast.parse(Path(file).read_text())):
+        if isinstance(node, ast.FunctionDef):
+            found[min(each.lineno for each in (node, *node.decorator_list))] = node
+    return found
+
+
+def definition(function):
+    """Return the syntax tree of a function."""
+    return _definitions(function.__code__.co_filename)[function.__code__.co_firstlineno]
 
 
 def bits(x):
@@ -90,15 +98,15 @@ def _compiled(module, function, arguments):
     made.linkage = "linkonce_odr"
     builder, given = ir.IRBuilder(made.append_basic_block()), iter(made.args)
     values = [next(given) if _is_llvm(each) else each for each in arguments]
-    if hasattr(function, "is_straight"):
-        write(function, builder, values)
+    if hasattr(function, "write"):
+        function.write(function, builder, values)
     else:
-        _Body(builder, function).expand(values)
+        Body(builder, function).expand(values)
     builder.ret_void()
     return made
 
 
-class _Body(ast.NodeVisitor):
+class Body(ast.NodeVisitor):
     """Writes the LLVM code of a template's body. A value is an LLVM value or a Python object."""
 
     def __init__(self, builder, function):
@@ -106,10 +114,10 @@ class _Body(ast.NodeVisitor):
         self.tree = definition(function)
         # Values of names that are assigned once; memory of other names, and of returned values.
         self.values, self.memory, self.returned = {}, {}, []
-        self.end = builder.append_basic_block()
 
     def expand(self, arguments):
         """Write the body with these arguments, and return what it returns."""
+        self.end = self.builder.append_basic_block()
         names = [each.arg for each in self.tree.args.args]
         nodes = [each for each in ast.walk(self.tree) if isinstance(each, ast.Name)]
         stored = names + [each.id for each in nodes if isinstance(each.ctx, ast.Store)]
@@ -231,8 +239,8 @@ class _Body(ast.NodeVisitor):
     def visit_Name(self, node):
         if node.id in self.memory:
             return self.builder.load(self.memory[node.id])
-        known = vars(builtins) | self.function.__globals__ | self.values
-        return known[node.id]
+        known = self.values if node.id in self.values else self.function.__globals__
+        return known[node.id] if node.id in known else getattr(builtins, node.id)
 
     def visit_Constant(self, node):
         return node.value
@@ -268,16 +276,12 @@ class _Body(ast.NodeVisitor):
 
     def visit_Compare(self, node):
         terms = [self.visit(each) for each in (node.left, *node.comparators)]
-        pairs = zip(map(type, node.ops), terms, terms[1:], strict=False)
-        found = [self.compared(kind, *pair) for kind, *pair in pairs]
-        return self.builder.and_(*map(self.llvm, found)) if len(found) > 1 else found[0]
+        signs = [SIGNS[type(each)] for each in node.ops]
+        return reduce(self.builder.and_, map(self.compared, signs, terms, terms[1:]))
 
-    def compared(self, kind, left, right):
+    def compared(self, sign, *pair):
         """Return whether two numbers satisfy a comparison, as Python does for NaN."""
-        sign, function = COMPARISONS[kind]
-        if not (_is_llvm(left) or _is_llvm(right)):
-            return function(left, right)
-        pair = self.alike(left, right)
+        pair = self.alike(*pair)
         if pair[0].type != FLOAT:
             return self.builder.icmp_signed(sign, *pair)
         compare = self.builder.fcmp_unordered if sign == "!=" else self.builder.fcmp_ordered
@@ -294,18 +298,14 @@ class _Body(ast.NodeVisitor):
         function, real, whole = OPERATORS[type(node.op)]
         if not (_is_llvm(left) or _is_llvm(right)):
             return function(left, right)
-        if isinstance(node.op, ast.Pow):
-            return self.power(left, right)
         pair = self.alike(left, right)
         if pair[0].type == FLOAT:
             return getattr(self.builder, real)(*pair, flags=CONTRACT)
         return getattr(self.builder, whole)(*pair)
 
-    def power(self, value, exponent):
-        """Return a float to the power 2 or 4, or a higher power of 2."""
-        for _ in range(exponent.bit_length() - 1):
-            value = self.builder.fmul(value, value, flags=CONTRACT)
-        return value
+    def extreme(self, sign, found, other):
+        """Return the less or the larger one of two numbers, as Python does for NaN."""
+        return self.builder.select(self.compared(sign, other, found), other, found)
 
     def visit_Call(self, node):
         function, arguments = self.visit(node.func), [self.visit(each) for each in node.args]
@@ -313,7 +313,8 @@ class _Body(ast.NodeVisitor):
         if not varying:
             return function(*arguments)
         if function in (min, max):
-            return self.extreme(ast.Lt if function is min else ast.Gt, *self.alike(*arguments))
+            sign = "<" if function is min else ">"
+            return reduce(partial(self.extreme, sign), self.alike(*arguments))
         if function in INTRINSICS:
             name = f"llvm.{INTRINSICS[function]}"
             return self.builder.call(self.builder.module.declare_intrinsic(name, [FLOAT]), varying)
@@ -324,11 +325,5 @@ class _Body(ast.NodeVisitor):
         function = getattr(function, "template", getattr(function, "py_func", function))
         returns = any(isinstance(each, ast.Return) for each in ast.walk(definition(function)))
         if returns or not all(each.type.is_pointer for each in varying):
-            return _Body(self.builder, function).expand(arguments)
+            return Body(self.builder, function).expand(arguments)
         return self.builder.call(_compiled(self.builder.module, function, arguments), varying)
-
-    def extreme(self, kind, first, *others):
-        """Return the least or the largest of numbers, as Python does for NaN."""
-        for other in others:
-            first = self.builder.select(self.compared(kind, other, first), other, first)
-        return first

@@ -7,12 +7,12 @@ lines. With one lane an operation on a pair of numbers takes one instruction, no
 
 import ast
 from contextlib import nullcontext
-from functools import cache, partial
-from pathlib import Path
+from functools import partial
 
 from llvmlite import ir
 from numba.core import cgutils
 
+from impact_damper.kernel.branches import OPERATORS, Body
 from impact_damper.kernel.compiling import CONTRACT
 
 # Number of lanes in a vector. Eight doubles fill one register of 512 bits or several narrower ones.
@@ -20,11 +20,6 @@ WIDTH = 8
 FLOAT = ir.DoubleType()
 PAIR = ir.VectorType(FLOAT, 2)
 INDEX, OFFSET = ir.IntType(32), ir.IntType(64)
-OPERATIONS = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}
-
-
-class NotStraightError(SyntaxError):
-    """`straight` cannot compile a line; the message names the file and the number of the line."""
 
 
 def straight(function):
@@ -40,45 +35,25 @@ def straight(function):
     - `(x, y)` is a pair. A name can hold a pair, and `x, y = ...` unpacks a pair. Operators act on
       both values of a pair, and combine a float with both values.
 
-    Templates can call the function (`branches.template`). A line of another form raises
-    NotStraightError when a template that calls the function is compiled.
+    Templates can call the function (`branches.template`).
     """
-    function.is_straight = True
+    function.write = write
     return function
 
 
-@cache
-def _definitions(file):
-    """Return the syntax trees of the functions of a file, by the number of their first line."""
-    nodes = ast.walk(ast.parse(Path(file).read_text()))
-    functions = [each for each in nodes if isinstance(each, ast.FunctionDef)]
-    return {
-        min([each.lineno, *(d.lineno for d in each.decorator_list)]): each for each in functions
-    }
-
-
-def definition(function):
-    """Return the syntax tree of a function."""
-    code = function.__code__
-    return _definitions(code.co_filename)[code.co_firstlineno]
-
-
 def write(function, builder, pointers):
-    """Write the LLVM code of a `straight` function, with pointers to its arrays."""
-    tree = definition(function)
-    lines = _Lines(function.__code__.co_filename, builder)
-    (loop,) = tree.body
+    """Write the LLVM code of a call of a function (see `straight`) with these pointers."""
+    lines = _Lines(builder, function)
+    (loop,) = lines.tree.body
     lanes = loop.iter.args[0].value
-    lines.arrays = dict(zip([each.arg for each in tree.args.args], pointers, strict=True))
-    lines.counter = loop.target.id
-    lines.lanes, lines.width = lanes, min(lanes, WIDTH)
-    lines.arithmetic = Arithmetic(builder, lines.width)
-    rounds, step = (ir.Constant(OFFSET, count) for count in (lanes // lines.width, lines.width))
+    width = min(lanes, WIDTH)
+    lines.values = dict(zip([each.arg for each in lines.tree.args.args], pointers, strict=True))
+    lines.arithmetic = Arithmetic(builder, width)
+    rounds, step = (ir.Constant(OFFSET, count) for count in (lanes // width, width))
     # One vector for all lanes needs no loop. LLVM would move the stores of a loop behind its end.
     with cgutils.for_range(builder, rounds) if lanes > WIDTH else nullcontext() as turn:
         lines.first = builder.mul(turn.index, step) if turn else None
-        for statement in loop.body:
-            lines.visit(statement)
+        lines.run(loop.body)
 
 
 def is_product(node):
@@ -86,87 +61,38 @@ def is_product(node):
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult)
 
 
-class _Lines(ast.NodeVisitor):
+class _Lines(Body):
     """Writes the LLVM code of assignments for `width` lanes, beginning with lane `first`."""
 
-    def __init__(self, file, builder):
-        self.file, self.builder = file, builder
-        self.values = {}
-
-    def refuse(self, node, reason):
-        """Raise NotStraightError with the line of a node and the reason."""
-        raise NotStraightError(f"{self.file}, line {node.lineno}: {reason}: {ast.unparse(node)}")
-
-    def generic_visit(self, node):
-        self.refuse(node, "cannot be compiled as straight lines")
-
-    def visit_Assign(self, node):
-        self.store(node.targets[0], self.visit(node.value))
-
-    def visit_AugAssign(self, node):
-        value = ast.copy_location(ast.BinOp(node.target, node.op, node.value), node)
-        self.store(node.target, self.visit(value))
+    def set(self, name, value):
+        self.values[name] = value
 
     def store(self, target, value):
-        match target:
-            case ast.Tuple(elts=[first, second]):
-                for number, each in enumerate((first, second)):
-                    self.store(each, self.arithmetic.part(value, number))
-            case ast.Name(name):
-                self.values[name] = value
-            case ast.Subscript():
-                pointer, _ = self.element(target)
-                pointer = self.builder.bitcast(pointer, self.arithmetic.type.as_pointer())
-                self.builder.store(value, pointer, align=8)
-            case _:
-                self.refuse(target, "cannot be assigned to")
+        if isinstance(target, ast.Tuple):
+            value = [self.arithmetic.part(value, number) for number in range(2)]
+        if not isinstance(target, ast.Subscript):
+            super().store(target, value)
+        else:
+            self.builder.store(value, self.pointer(target), align=8)
 
-    def element(self, node):
-        """Return the pointer to `a[1]` or `a[1 + i]`, and whether the index contains i."""
-        match node:
-            case ast.Subscript(ast.Name(array), ast.Constant(int(offset))):
-                own = False
-            case ast.Subscript(
-                ast.Name(array),
-                ast.BinOp(ast.Constant(int(offset)), ast.Add(), ast.Name(self.counter)),
-            ):
-                own = True
-            case _:
-                self.refuse(node, "not of the form a[1] or a[1 + i]")
-        number = ir.Constant(OFFSET, offset)
+    def pointer(self, node):
+        """Return the pointer to `a[1]`, or to the vector of lanes that begins at `a[1 + i]`."""
+        own = isinstance(node.slice, ast.BinOp)
+        number = ir.Constant(OFFSET, (node.slice.left if own else node.slice).value)
         if own and self.first is not None:
             number = self.builder.add(number, self.first)
-        pointer = self.builder.gep(self.arrays[array], [number], inbounds=True)
-        return pointer, own
+        pointer = self.builder.gep(self.values[node.value.id], [number], inbounds=True)
+        return self.builder.bitcast(pointer, self.arithmetic.type.as_pointer()) if own else pointer
 
     def visit_Subscript(self, node):
         if isinstance(node.value, ast.Tuple):
-            return self.constants(node)
-        pointer, own = self.element(node)
-        if own:
-            pointer = self.builder.bitcast(pointer, self.arithmetic.type.as_pointer())
-            return self.builder.load(pointer, align=8)
-        number = self.builder.load(pointer, align=8)
-        return self.arithmetic.in_all_lanes(number)
-
-    def constants(self, node):
-        """Return a number that has its own constant in each lane."""
-        return ir.Constant(self.arithmetic.type, [self.literal(each) for each in node.value.elts])
-
-    def literal(self, node):
-        """Return the value of a number in the source, which may have a minus sign."""
-        match node:
-            case ast.UnaryOp(ast.USub(), operand):
-                return -self.literal(operand)
-            case ast.Constant(value) if type(value) in (int, float):
-                return float(value)
-        self.refuse(node, "not a number")
-
-    def visit_Name(self, node):
-        return self.values[node.id]
+            return ir.Constant(self.arithmetic.type, list(map(ast.literal_eval, node.value.elts)))
+        number = self.builder.load(self.pointer(node), align=8)
+        same = number.type == self.arithmetic.type
+        return number if same else self.arithmetic.in_all_lanes(number)
 
     def visit_Constant(self, node):
-        return self.arithmetic.constant(self.literal(node))
+        return self.arithmetic.constant(float(node.value))
 
     def visit_UnaryOp(self, node):
         return self.arithmetic.negative(self.visit(node.operand))
@@ -180,8 +106,6 @@ class _Lines(ast.NodeVisitor):
         a*b + c becomes fmuladd(a, b, c). If both terms are products, the right product is fused.
         """
         kind, left, right = type(node.op), node.left, node.right
-        if kind not in OPERATIONS:
-            self.refuse(node, "an unknown operator")
         if kind in (ast.Add, ast.Sub) and is_product(right):
             first = self.visit(right.left)
             first = self.arithmetic.negative(first) if kind is ast.Sub else first
@@ -190,12 +114,12 @@ class _Lines(ast.NodeVisitor):
             last = self.visit(right)
             last = self.arithmetic.negative(last) if kind is ast.Sub else last
             return self.arithmetic.fused(self.visit(left.left), self.visit(left.right), last)
-        return self.arithmetic.combined(OPERATIONS[kind], self.visit(left), self.visit(right))
+        return self.arithmetic.combined(OPERATORS[kind][1], self.visit(left), self.visit(right))
 
     def visit_Call(self, node):
         called = {"abs": self.arithmetic.modulus, "max": self.arithmetic.larger}
         if node.func.id not in called:
-            self.refuse(node, "neither abs nor max")
+            self.generic_visit(node)
         return called[node.func.id](*map(self.visit, node.args))
 
 

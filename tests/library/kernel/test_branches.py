@@ -10,6 +10,7 @@ from impact_damper.kernel.branches import bits, number, template
 from impact_damper.kernel.compiling import kernel
 
 LANES, ROWS = 4, (8, 12)
+EXCLUDED = False
 
 
 def first_above(a, i, limit, least=0.25):
@@ -17,7 +18,7 @@ def first_above(a, i, limit, least=0.25):
     limit = max(limit, least)
     if not a[i] < limit:
         return a[i], True
-    return -(a[i] ** 2) + a[i] ** 4 / 3.0, False
+    return -a[i] + a[i] * a[i] / 3.0, False
 
 
 def count_turns(a, i, angle):
@@ -37,7 +38,7 @@ def work(a):
         for k in range(len(ROWS)):
             a[ROWS[k] + i] = min(x, 1.0, a[4 + i]) if k else number(bits(abs(x)) >> 1)
     a[16] = found
-    if LANES > 100:
+    if EXCLUDED:
         a[1000] = missing  # noqa: F821
 
 

@@ -55,7 +55,7 @@ def find_sway(a):
             cosine = math.cos(angle)
             half = math.sin(0.5 * angle)
             series = (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0))) / 6.0
-            series += square**4 / 39916800.0
+            series += (square * square) * (square * square) / 39916800.0
             # (1 - cos x) / x^2 and (x - sin x) / x^3.
             first = 2.0 * half * half / square if square > 1e-16 else 0.5
             second = series if square < SMALL * SMALL else (angle - sine) / (angle * square)

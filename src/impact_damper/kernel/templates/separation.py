@@ -30,7 +30,7 @@ def fast_exp2(y):
 
 def time_to_zero(f, slope, natural):
     """Return the time when a harmonic oscillation is 0, about arctan(-natural f/slope)/natural."""
-    u = (natural * f) ** 2
+    u = natural * f * (natural * f)
     v = slope * slope
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
 
