@@ -1,6 +1,7 @@
 """Functions used by all rules: the checked configuration, files and parameters of jobs."""
 
 import gc
+import hashlib
 import json
 import os
 import subprocess
@@ -15,7 +16,7 @@ from chatterjee1995.sections.registry import CHAPTERS, PAPER, STAGES, TABLES
 from chatterjee1995.sections import selection
 from chatterjee1995.workflow.kernels import compiled_kernels
 from impact_damper.command.section import ConfigurationError, check_file
-from impact_damper.kernel.sources import KERNEL, module_file, sources
+from impact_damper.kernel.sources import KERNEL, kernel_digest, module_file, sources
 
 # Planning makes many small objects, none of which becomes garbage. Collecting garbage less often
 # than by default saves a fifteenth of the time of a dry run.
@@ -38,15 +39,30 @@ wildcard_constraints:
 def checked(given):
     """Return the configuration as an object, or raise an error that lists its problems.
 
-    Only the main process checks all, because other processes run jobs that it has planned.
+    Only the main process checks all, because other processes run jobs that it has planned. A
+    configuration with which the last run into the same folder succeeded is not checked again.
     """
     main = workflow.is_main_process
     try:
         for path in workflow.configfiles if main else ():
             check_file(path)
-        return configuration(given, trusted=not main)
+        return configuration(given, trusted=not main or last_checked(given) == digest(given))
     except ConfigurationError as error:
         raise WorkflowError(f"The configuration cannot be run.\n{error}") from None
+
+
+def digest(given):
+    """Return a digest of a configuration and of the sources that check it."""
+    code = kernel_digest(module_file("chatterjee1995.sections.configuration"))
+    return hashlib.sha256(f"{code} {given!r}".encode()).hexdigest()
+
+
+def last_checked(given):
+    """Return the digest that the last complete run stored, or None without such a run."""
+    try:
+        return json.loads((Path(given["results"]) / "provenance.json").read_text())["checked"]
+    except (OSError, TypeError, KeyError, ValueError):
+        return None
 
 
 # From here on only the object is used.
@@ -213,7 +229,8 @@ def write_provenance():
 
     path = Path(settings.results) / "provenance.json"
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
-    part.write_text(json.dumps(provenance(config, ROOT), indent=2) + "\n")
+    found = provenance(config, ROOT) | {"checked": digest(config)}
+    part.write_text(json.dumps(found, indent=2) + "\n")
     os.replace(part, path)
 
 

@@ -54,7 +54,8 @@ class Curve(system.MaybeWithDamper):
 
     @stage(
         "impact_damper.theory.harmonic_balance:harmonic_balance",
-        "Harmonic balance of the curve {name}",
+        "Harmonic balance of all curves",
+        together=True,
     )
     def harmonic_balance(self, config) -> dict:
         points = config.points.harmonic_balance

@@ -40,7 +40,7 @@ BUILT = {
 }
 # New starts of each design, forcing cycles of a run, and cycles before it is measured, after most
 # chaotic transients.
-NEW, CYCLES, LEAD = 400, 700, 600
+NEW, CYCLES, LEAD = 120, 700, 600
 
 
 @functools.cache

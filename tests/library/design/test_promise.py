@@ -51,7 +51,7 @@ EXAMPLES = {
         2.4,
     ),
 }
-NEW = 60  # new starts of another program in each of four cells
+NEW = 40  # new starts of another program in each of four cells
 needs_odeint = pytest.mark.skipif(
     bool(odeint_runs.obstacle()), reason=odeint_runs.obstacle() or "runs"
 )

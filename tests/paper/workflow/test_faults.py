@@ -49,7 +49,7 @@ def first(tmp_path_factory):
 def test_kernels_that_were_edited_are_compiled_before_the_first_job(first):
     project, told = first
     assert told.count(COMPILING) == 1
-    assert told.index(COMPILING) < told.index("Harmonic balance of the curve")
+    assert told.index(COMPILING) < told.index("Harmonic balance of all curves")
     assert (project.folder / KERNELS).read_text() == compiled_kernels([])
 
 

@@ -35,15 +35,16 @@ def chapters(*names):
 VALUES = [
     (
         ("curves", "figure_08", "clearance", 1.07),
-        *(f"{s}/figure_08" for s in ("harmonic_balance", "response", "subharmonic", "branches")),
+        *(f"{stage}/figure_08" for stage in ("response", "subharmonic", "branches")),
+        "harmonic_balance",
         *chapters("design", "responses", "claims"),
     ),
     (("points", "clearances", 47), "optimum/*", *chapters("clearance", "responses", "claims")),
     (("collisions", "figure_05a", "mass_ratio", 0.13), "collisions", *chapters("claims")),
     (
         ("oscillators", "l100", "damping", 0.22),
-        *(f"{stage}/free_l100" for stage in ("harmonic_balance", "response", "branches")),
-        *("harmonic_balance/figure_03b*", "design_orbit"),
+        *(f"{stage}/free_l100" for stage in ("response", "branches")),
+        *("harmonic_balance", "design_orbit"),
         *chapters("design", "responses", "claims"),
     ),
     (("comparison", "orders", [[12, 15]]), "accuracy/*", *chapters("methods")),

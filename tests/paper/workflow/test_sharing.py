@@ -23,7 +23,7 @@ for path in snakemake.output:
         file.checkout = str(Path.cwd())
 raise SystemExit
 """
-DESIGN = "results/harmonic_balance/free_h215.nc"
+CONTACT = "results/contact_model/figure_10.nc"
 BRANCHES = "results/branches/free_h215.nc"
 OTHER = "results/branches/free_h150.nc"
 
@@ -62,7 +62,7 @@ def shared(tmp_path_factory):
     cache = folder / "cache"
     cache.mkdir()
     first, second = checkout(folder / "first"), checkout(folder / "the second")
-    assert run(first, cache, DESIGN, BRANCHES, OTHER) == [str(first)] * 3
+    assert run(first, cache, CONTACT, BRANCHES, OTHER) == [str(first)] * 3
     return first, second, cache
 
 
@@ -74,8 +74,8 @@ def edit(shared):
 
 def test_a_checkout_takes_what_another_computed(shared):
     first, second, cache = shared
-    assert run(second, cache, DESIGN, BRANCHES) == [str(first)] * 2
-    told = snakemake(second, DESIGN, BRANCHES, "-n")
+    assert run(second, cache, CONTACT, BRANCHES) == [str(first)] * 2
+    told = snakemake(second, CONTACT, BRANCHES, "-n")
     assert "Nothing to be done" in told.stdout + told.stderr
 
 
@@ -89,19 +89,19 @@ def test_what_differs_is_not_shared(shared, edit):
         return yaml.safe_dump(config)
 
     first, second, cache = shared
-    edit("src/impact_damper/theory/harmonic_balance.py", lambda text: text + "# A word.\n")
+    edit("src/chatterjee1995/stages/contact_model.py", lambda text: text + "# A word.\n")
     edit("config/config.yaml", others)
-    found = run(second, cache, DESIGN, OTHER, "results/branches/again.nc", BRANCHES)
+    found = run(second, cache, CONTACT, OTHER, "results/branches/again.nc", BRANCHES)
     assert found == [str(second)] * 3 + [str(first)]
 
 
 def test_nothing_is_shared_between_versions_of_packages_or_without_the_option(shared, edit):
     _, second, cache = shared
     edit("requirements.lock", lambda text: text + "# A word.\n")
-    assert run(second, cache, DESIGN) == [str(second)]
-    (second / DESIGN).unlink()
-    result = snakemake(second, DESIGN)
-    assert result.returncode == 0 and computed_in(second / DESIGN) == str(second)
+    assert run(second, cache, CONTACT) == [str(second)]
+    (second / CONTACT).unlink()
+    result = snakemake(second, CONTACT)
+    assert result.returncode == 0 and computed_in(second / CONTACT) == str(second)
     assert json.loads((second / "results/provenance.json").read_text())["versions"]["numpy"]
 
 
