@@ -121,8 +121,8 @@ def test_averages_agree_between_methods_and_have_errors_that_fall():
 
 def test_stages_use_the_cheapest_tolerance_that_meets_what_a_scene_asks():
     """With this tolerance and with all smaller ones the series is accurate enough."""
-    series_alone = {"taylor": CONFIG["comparison"]["taylor"], "orders": [], "merson": [], "scipy": []}
-    data = errors_of("many_contacts", FEW | series_alone)
+    alone = {"taylor": CONFIG["comparison"]["taylor"]} | dict.fromkeys(("orders", "merson"), [])
+    data = errors_of("many_contacts", FEW | alone | {"scipy": []})
     series = of(data, "taylor").sortby("setting")
     meets = series["meets_accuracy"].values == flag("meets_accuracy", "yes")
     assert series["setting"][np.argmin(meets) - 1] == CONFIG["settling"]["tolerance"]
