@@ -121,15 +121,15 @@ def step(p, y, side, t, longest, tolerance, work):
 def state_in_step(work, side, y, t):
     """Return the state at the time t within the step that `step` did from the state y."""
     a = pointer(work)
+    order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
+    x, v = polynomial(work[X:], order, t)
     if side == 0:
-        x, v = polynomial(work[X:], FLIGHT_ORDER, t)
         a[T] = t
         find_sway(a)
         z = x + (y[2] - y[0]) + (y[3] - y[1]) * t + a[SWAY]
         w = v + (y[3] - y[1]) + a[SWAY_SLOPE]
     else:
-        x, v = polynomial(work[X:], CONTACT_ORDER, t)
-        q, w = polynomial(work[Q:], CONTACT_ORDER, t)
+        q, w = polynomial(work[Q:], order, t)
         z = side * a[PARAMETERS + CLEARANCE] + q
     if a[STUCK] > 0.0:
         return x, v, y[2], 0.0

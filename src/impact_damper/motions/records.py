@@ -153,9 +153,11 @@ def survey(p, states, phases, times, tolerance, log, sums):
 def measure_one(p, periods, tolerance, out):
     """Measure one motion over `periods` forcing cycles, in two halves if `periods` is odd."""
     halves = 1 + periods % 2
-    y = out.state.copy().reshape(1, 4)
+    state = out.state.copy()
+    y = state.copy().reshape(1, 4)
     log, sums = np.empty((0, 5)), np.empty((2, 2))
-    phases, times = np.full(2, STROBE), np.full(2, strobe_time(p))
+    phases, times = np.empty(2), np.empty(2)
+    phases[1], times[1] = STROBE, strobe_time(p)
     largest, contacts, first, second = 0.0, 0, 0.0j, 0.0j
     out.asymmetry = np.nan
     for half in range(halves):
@@ -168,7 +170,7 @@ def measure_one(p, periods, tolerance, out):
         first += complex(sums[0, 0], sums[0, 1]) / halves
         second += complex(sums[1, 0], sums[1, 1]) / halves
         if half == 0 and halves == 2:
-            out.asymmetry = distance(-y[0], out.state, speed_weight(p, side_of(p, y[0])))
+            out.asymmetry = distance(-y[0], state, speed_weight(p, side_of(p, y[0])))
     if has_escaped(p, y[0, 0], y[0, 1]):
         measure_nothing(out)
         out.outcome = ESCAPED

@@ -139,7 +139,7 @@ def settle_with(
 def settle_each(parameters, states, start, tolerance, patience, limit, out, stop):
     """Run motions one after the other as `ensemble.settle_many` does side by side."""
     work, ring = workspace(), np.empty((RING, 4))
-    seen, tangent = np.zeros(1, SEEN), np.empty((1, 4))
+    seen, tangent = np.empty(1, SEEN), np.empty((1, 4))
     for i in range(len(out)):
         p, y = parameters[i], states[i].copy()
         begin_watch(seen[0], i, out[i])

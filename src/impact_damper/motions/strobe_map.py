@@ -78,10 +78,14 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 @inlined
 def period_map(p, y, periods, tolerance):
     """Return the state `periods` cycles after y, its derivative by y, and contacts begun."""
-    half = np.bool_(False)  # numba would compile `flow` again for a literal False
-    state, tangents = y.copy(), np.eye(4)
+    half = np.bool_(False)  # for the literal False numba would compile `flow` again
+    state, tangents, matrix = y.copy(), np.empty((4, 4)), np.empty((4, 4))
+    for i in range(16):
+        tangents[i // 4, i % 4] = 1.0 if i % 5 == 0 else 0.0
     contacts, _ = flow(p, state, tangents, strobe_time(p), periods, half, tolerance)
-    return state, tangents.T.copy(), contacts
+    for i in range(16):
+        matrix[i // 4, i % 4] = tangents[i % 4, i // 4]
+    return state, matrix, contacts
 
 
 @kernel
