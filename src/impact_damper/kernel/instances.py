@@ -60,6 +60,13 @@ FREE = [f"FREE_{name}" for name in HELD]
 SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH + FREE
 SERIES = "X Q G U E H D".split()
 TANGENT_SERIES = "DX DQ".split()
+# First lines of a generated module.
+IMPORTS = f"""import math
+import numpy as np
+from {branches.__name__} import bits, number, template
+from {equation.__name__} import forcing_amplitude, spring, spring_slope
+from {straight.__module__} import {straight.__name__}
+"""
 # Largest number of sums that one kernel computes.
 SUMS = 6
 # Coefficients of (cos x - 1)/x^2 and (sin x - x)/x^3 in powers of x^2.
@@ -308,11 +315,7 @@ class Source(Writer):
             # Upper bound on the change of Z1': the moduli of all terms after the first, summed.
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
-        imports = [
-            f"from {branches.__name__} import bits, number, template",
-            f"from {straight.__module__} import {straight.__name__}\n",
-        ]
-        return "\n".join(imports) + "\n\n" + "\n\n".join(functions)
+        return f"{IMPORTS}\n\n" + "\n\n".join(functions)
 
     def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
         """Return a kernel that sums series at the time in the row `time`.

@@ -5,10 +5,6 @@ the gap. The other term is the acceleration of a moving base from which Z1 is me
 double integral of the acceleration across, from the beginning of the step.
 """
 
-import math
-
-LANES: int
-
 # Phase angle (rad) below which (x - sin x) / x^3 is computed from its series.
 SMALL = 0.5
 

@@ -1,9 +1,5 @@
 """Template (see `step`): search for the beginning of a contact within a flight."""
 
-import math
-
-LANES: int
-
 # Upper bound on (t - t^k)/k for t in [0, 1] and all powers k >= 2. The maximum is 0.1283, at k = 3.
 SAG = 0.13
 

@@ -1,13 +1,5 @@
 """Template (see `step`): cosine and sine of the forcing's phase at the beginning of a step."""
 
-import math
-
-import numpy as np
-
-from impact_damper.kernel.equation import forcing_amplitude
-
-LANES: int
-
 # pi/2 as the sum of two numbers. QUARTER has few digits, so its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11

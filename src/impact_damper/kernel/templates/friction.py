@@ -9,18 +9,6 @@ masses move together,
 while the friction that holds them together, per unit of loose mass, stays below FRICTION.
 """
 
-import math
-
-from impact_damper.kernel.equation import spring
-
-LANES: int
-CONTACT_ORDER: int
-FLIGHT_ORDER: int
-HELD_ROWS: tuple
-FREE_ROWS: tuple
-TANGENTS: int
-KEPT: int
-
 
 def load_friction(a):
     """Decide at the beginning of a step whether the loose mass sticks, or which way it slides.

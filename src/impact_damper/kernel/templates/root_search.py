@@ -13,10 +13,6 @@ In contact f is the penetration, and its root is the separation. The row MODE ha
     TURNED    the loose mass turns, or begins to slide, before the root (`friction.find_turn`).
 """
 
-import math
-
-LANES: int
-
 # Relative rounding error of an event function, 4 units in the last place.
 ROUNDING = 2.0**-50
 # Largest ratio of the first neglected term to the tolerance at which the iteration for a root ends.

@@ -4,14 +4,6 @@ A contact ends when q + LAG q' falls to zero, where q is the penetration. With L
 paper's rule: the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the wall's force is then 0.
 """
 
-import math
-
-import numpy as np
-
-from impact_damper.kernel.equation import spring, spring_slope
-
-LANES: int
-
 # Longest step while the penetration grows, and while it shrinks, in natural periods of the contact.
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
 # Largest relative increase of the rate at which the phase of the contact turns (`find_separation`).

@@ -5,21 +5,10 @@ its next event, the beginning or end of a contact, or over the longest admitted 
 
 The files in this folder are templates. `instances.instance` joins them into one module for a number
 of lanes (trajectories side by side) and orders of the Taylor series in flight and in contact. The
-module begins with the constants declared below and the functions that `instances.Source` writes.
-All numbers stand in flat arrays, `a` for trajectories and `d` for tangents. A name in capitals,
-such as Y0, is the index at which a row begins (`instances.rows`): a[Y0 + i] belongs to lane i.
+module begins with imports, constants, and the functions that `instances.Source` writes. All numbers
+stand in flat arrays, `a` for trajectories and `d` for tangents. A name in capitals, such as Y0, is
+the index at which a row begins (`instances.rows`): a[Y0 + i] belongs to lane i.
 """
-
-import math
-
-LANES: int
-TANGENTS: int
-FLIGHT_ORDER: int
-CONTACT_ORDER: int
-EARLY: int
-SIZE: int
-TANGENT_SIZE: int
-KEPT: int
 
 # Bits of the float 1.0.
 ONE = 1023 << 52
