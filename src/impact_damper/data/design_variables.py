@@ -98,6 +98,14 @@ ring_envelope | equipment ring_window | displacement | | largest displacement in
 ring_status | equipment | | | how the unforced decay ended
   : escaped 1, at_rest 2, limit 3
 sweep_frequency | direction sweep_window | frequency | | forcing frequency
+# shocks
+shock_impulse | shock_impulse | impulse | | impulse on the machine
+shock_return | shock_impulse | | | cycles until the machine stays below the promised displacement,
+  infinite if it does not
+critical_shock | | impulse | | minimal critical shock: smallest impulse after which the machine
+  does not return
+return_limit | return_limit | | | cycles within which a motion returns
+returned_share | return_limit | | | finite-time basin stability: share of starts that return
 # motions of the design
 reached_displacement | frequency | displacement | | largest displacement that starts lead to
 untouched_displacement | frequency | displacement | | largest displacement of a motion in which

@@ -14,6 +14,7 @@ from impact_damper.design.costs import measured_costs
 from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.quiet_branch import follow_quiet_orbit
 from impact_damper.design.search import search
+from impact_damper.design.shocks import shocks
 from impact_damper.design.task import NOMINAL, VARIED, labelled
 from impact_damper.design.transients import transients
 from impact_damper.motions.strobe_map import strobe_time
@@ -91,5 +92,6 @@ ADDITIONS = {
     "forces": force_map,
     "masses": other_masses,
     "transients": transients,
+    "shocks": shocks,
     "competitors": competitors,
 }

@@ -22,7 +22,7 @@ LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)
 KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 # Purposes for which starts are drawn. The index of a purpose is part of the seed. A choice and its
 # confirmation therefore have different starts.
-STREAMS = ("search", "compared", "confirmed", "orbit", "forces", "masses", "repeated")
+STREAMS = ("search", "compared", "confirmed", "orbit", "forces", "masses", "repeated", "shocks")
 # Cells for which a thread draws starts at once (DRAWN), motions that a thread runs at once
 # (FOLLOWED), cells whose motions are run further between two comparisons of bounds (TOGETHER).
 DRAWN, FOLLOWED, TOGETHER = 4, 8, 8
@@ -170,24 +170,12 @@ class Motions:
         done = np.isfinite(self.blocks[k][loud]).sum(axis=1)
         number = done.max() or max(QUARTERS, int(np.ceil(POOLED / 2 / BLOCK / len(loud))))
         peaks = np.full((len(self.settled[k]), number), np.nan)
-        peaks[loud] = self._run(k, loud, number)
+        states = self.states[k, loud]
+        peaks[loud] = peaks_of_blocks(self.task, self.parameters[k], states, number, BLOCK)
+        self.states[k, loud] = states
         self.blocks[k] = np.hstack([self.blocks[k], peaks])
         before = np.where(done > 0, self.peaks[k, loud], 0.0)
         self.peaks[k, loud] = np.maximum(before, peaks[loud].max(axis=1))
-
-    def _run(self, k, places, number):
-        """Run motions of cell k for a number of blocks; return peaks, shape (motions, number)."""
-        tolerance, stop = self.task.effort.settling.tolerance, np.zeros(1, bool)
-        states, peaks = self.states[k, places], np.zeros((number, len(places)))
-        parameters = np.repeat(self.parameters[k : k + 1], len(places), axis=0)
-
-        def work(part):
-            for row in peaks:
-                follow_peaks(parameters[part], states[part], BLOCK, tolerance, row[part], stop)
-
-        run_chunks(work, len(places), self.task.effort.workers, None, stop, size=FOLLOWED)
-        self.states[k, places] = states
-        return peaks.T
 
     def _settle(self, k, places):
         """Mark the motions of cell k that have settled meanwhile, and return their mask."""
@@ -239,6 +227,24 @@ def run(task, cells, count, stream, progress=None) -> Motions:
         peaks=peaks.copy(),
         blocks=blocks,
     )
+
+
+def peaks_of_blocks(task, p, states, number, cycles) -> np.ndarray:
+    """Run motions from a strobe in place; return largest displacements, shape (motions, number).
+
+    A motion is run for a number of blocks of forcing cycles. After an escape they are infinite.
+    """
+    tolerance, stop = task.effort.settling.tolerance, np.zeros(1, bool)
+    peaks, parameters = np.zeros((number, len(states))), np.tile(p, (len(states), 1))
+
+    def work(part):
+        for k, row in enumerate(peaks):
+            if k:
+                row[part] = np.where(np.isinf(peaks[k - 1, part]), np.inf, 0.0)
+            follow_peaks(parameters[part], states[part], cycles, tolerance, row[part], stop)
+
+    run_chunks(work, len(states), task.effort.workers, None, stop, size=FOLLOWED)
+    return peaks.T
 
 
 def return_level(peaks) -> float:

@@ -1,17 +1,11 @@
 """Dampers as they are built: their promises hold in a simulator that shares no code with ours."""
 
-import ctypes
-import functools
-import math
 import shutil
-import subprocess
-import tempfile
-from pathlib import Path
 
 import numpy as np
 import pytest
 from helpers.design_tasks import task
-from scipy.optimize import brentq
+from references.built import by_program
 from scipy.stats import binom
 
 import impact_damper as idm
@@ -19,7 +13,6 @@ from impact_damper.design.promise import Promise
 from impact_damper.design.task import NOMINAL
 from impact_damper.motions.start_states import random_starts
 
-PROGRAM = Path(__file__).parents[2] / "references" / "built.c"
 needs_compiler = pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler `cc`")
 PUMP = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.01, force=40)
 BOARD = idm.Machine(
@@ -41,48 +34,6 @@ BUILT = {
 # New starts of each design, forcing cycles of a run, and cycles before it is measured, after most
 # chaotic transients.
 NEW, CYCLES, LEAD = 120, 700, 600
-
-
-@functools.cache
-def program():
-    with tempfile.TemporaryDirectory(prefix="impact-damper-") as folder:
-        library = Path(folder) / "built.so"
-        command = ["cc", "-O2", "-std=c11", "-shared", "-fPIC", "-o", library, PROGRAM, "-lm"]
-        subprocess.run(command, check=True)
-        found = ctypes.CDLL(str(library)).largest
-    row = np.ctypeslib.ndpointer(float, flags="C")
-    found.argtypes, found.restype = [row, row, *[ctypes.c_double] * 5], ctypes.c_double
-    return found
-
-
-def dashpot(restitution):
-    """Return the damping ratio z for e = exp(-(pi - 2 a) tan a), z = sin a."""
-    logarithm = math.log(restitution)
-    return math.sin(brentq(lambda a: (math.pi - 2 * a) * math.tan(a) + logarithm, 0, 1.5))
-
-
-def by_program(machine, damper, hertz, state, cycles, lead, steps=120):
-    """Return the largest displacement, m, from a state in SI units at W T = 0 on."""
-    angular = 2 * math.pi * hertz
-    reduced = machine.mass * damper.mass / (machine.mass + damper.mass)
-    natural = math.sqrt(damper.contact_stiffness / reduced)
-    given = [
-        machine.mass,
-        2 * machine.damping_ratio * math.sqrt(machine.linear_stiffness * machine.mass),
-        machine.linear_stiffness,
-        machine.cubic_stiffness,
-        machine.force or 0.0,
-        (machine.base_displacement or 0.0) * angular**2,
-        damper.mass,
-        damper.gap / 2,
-        damper.contact_stiffness,
-        2 * dashpot(damper.restitution) * natural * reduced,
-        damper.gravity,
-        damper.friction,
-        angular,
-    ]
-    times = 0.0, lead / hertz, cycles / hertz, 1 / (steps * hertz), 30 / (steps * natural)
-    return program()(np.array(given), np.array(state, float), *times)
 
 
 @needs_compiler

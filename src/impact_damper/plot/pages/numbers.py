@@ -22,6 +22,7 @@ ADDITIONS = {
     "forces": "other excitations",
     "masses": "other loose masses",
     "transients": "sweeps and decay",
+    "shocks": "impulses on the machine",
     "competitors": "the tuned absorber over the frequency",
 }
 QUANTITIES = {
@@ -130,6 +131,7 @@ def numbers_of(data) -> dict:
             if f"absorber_{key}" in data
         },
         "masses": _masses(data, asked),
+        "shock": _shocks(data),
     }
     return found | _transients(data, asked)
 
@@ -157,6 +159,21 @@ def _worst_values(data):
         for name, factor in zip(data["varied"].values, factors, strict=True)
         if factor != 1
     ]
+
+
+def _shocks(data):
+    """Return numbers of the impulses on the machine, or None if they were not computed."""
+    if "shock_return" not in data:
+        return None
+    impulses, cycles = np.abs(data["shock_impulse"].values), data["shock_return"].values
+    critical = float(data["critical_shock"])
+    shares = zip(data["return_limit"].values, data["returned_share"].values, strict=True)
+    return SimpleNamespace(
+        critical=critical,
+        most=float(impulses.max()),
+        longest=cycles[impulses < critical].max(initial=0.0),
+        shares=list(shares),
+    )
 
 
 def _condition(data, tolerated):

@@ -1,0 +1,59 @@
+"""Robustness of a design: impulses on the machine, and how soon motions stay below the promise.
+
+The names *minimal critical shock*, *convergence time* and *finite-time basin stability* come from
+Attractors.jl, version 2. Motions return here when they stay below the promised displacement. A
+chaotic motion can do so, though it never settles.
+"""
+
+import numpy as np
+import xarray as xr
+
+from impact_damper.design.cells import Cell, draw_starts, peaks_of_blocks, run
+from impact_damper.design.task import labelled
+from impact_damper.model.packed import FREQUENCY
+
+# Number of impulses of each sign. The largest impulse changes the velocity of the machine by WIDEST
+# times its largest velocity without damper.
+SHOCKS, WIDEST = 32, 2.0
+# Cycles of a motion, and cycles between which its largest displacement is compared.
+LONGEST, BLOCK = 1000, 10
+# Cycles for which the share of starts that have returned is stored.
+LIMITS = (10, 30, 100, 300, 1000 - BLOCK)
+
+
+def shocks(task, decision, progress=None) -> xr.Dataset:
+    """Return a dataset of convergence times after impulses, and of shares of starts that return.
+
+    The machine has its nominal values and is excited at the promised frequency. An impulse acts at
+    a strobe on the smallest motion that starts have found.
+    """
+    frequency = float(decision["promised_frequency"])
+    cell = Cell(1e-3 * float(decision["design_gap"]), frequency)
+    promised = float(decision["promised_displacement"]) / task.millimetres(1.0)
+    motions = run(task, [cell], task.effort.starts, ("shocks",), progress)
+    p = motions.parameters[0]
+    states = np.tile(motions.states[0, np.argmin(motions.peaks[0])], (2 * SHOCKS, 1))
+    bare = task.bare_at([frequency])[0] / task.millimetres(1.0)
+    most = WIDEST * p[FREQUENCY] * bare if np.isfinite(bare) else WIDEST * p[FREQUENCY] * promised
+    changes = most * np.arange(1, SHOCKS + 1) / SHOCKS
+    changes = np.concatenate([-changes[::-1], changes])
+    states[:, 1::2] += changes[:, None]
+    returned = convergence_times(task, p, states, promised)
+    drawn = draw_starts(task, [cell], task.effort.starts, ("shocks", 1))[0]
+    starts = convergence_times(task, p, drawn, promised)
+    critical = np.abs(changes)[np.isinf(returned)].min(initial=np.inf)
+    values = {
+        "shock_return": returned,
+        "critical_shock": task.scales.to_si(critical, "impulse"),
+        "returned_share": [np.mean(starts <= limit) for limit in LIMITS],
+    }
+    impulses = task.scales.to_si(changes, "impulse")
+    return labelled(values, shock_impulse=impulses, return_limit=np.array(LIMITS))
+
+
+def convergence_times(task, p, states, promised) -> np.ndarray:
+    """Return the cycles until motions stay below a displacement; infinity if they do not."""
+    peaks = peaks_of_blocks(task, p, states.copy(), LONGEST // BLOCK, BLOCK)
+    loud = peaks > promised
+    last = np.where(loud.any(axis=1), loud.shape[1] - np.argmax(loud[:, ::-1], axis=1), 0)
+    return np.where(loud[:, -1], np.inf, BLOCK * last)
