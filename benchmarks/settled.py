@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.timing import interleaved, spread
-from impact_damper.data.variables import OUTCOME
+from impact_damper.data.motion_variables import OUTCOME
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling

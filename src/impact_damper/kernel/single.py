@@ -17,7 +17,7 @@ from impact_damper.kernel.compiling import (
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.instances import rows
 from impact_damper.model import packed
-from impact_damper.model.packed import CLEARANCE, LAG
+from impact_damper.model.packed import CLEARANCE, DAMPING, DASHPOT, FREQUENCY, LAG
 
 _ONE = instances.instance(1)
 constant_series, find_sway = _ONE.constant_series, _ONE.find_sway
@@ -75,9 +75,13 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel_only
 def load(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace, and fill its constant series."""
+    """Write a trajectory into a workspace, and fill its constant series if they have changed."""
+    kept = True
+    for i in (FREQUENCY, DAMPING, DASHPOT):
+        kept = kept and a[PARAMETERS + i] == p[i]
     write_trajectory(p, y, side, tolerance, a)
-    constant_series(a)
+    if not kept:
+        constant_series(a)
 
 
 @kernel_only

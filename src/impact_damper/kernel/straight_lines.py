@@ -10,13 +10,15 @@ from contextlib import nullcontext
 from functools import partial
 
 from llvmlite import ir
+from llvmlite.binding import get_host_cpu_features
 from numba.core import cgutils
 
 from impact_damper.kernel.branches import OPERATORS, Body
 from impact_damper.kernel.compiling import CONTRACT
 
-# Number of lanes in a vector. Eight doubles fill one register of 512 bits or several narrower ones.
-WIDTH = 8
+# Number of lanes in a vector, which fills one register, or two registers of 256 bits. Without
+# AVX-512 there are half as many registers, and two for each vector would be too few.
+WIDTH = 8 if get_host_cpu_features().get("avx512f") else 4
 FLOAT = ir.DoubleType()
 PAIR = ir.VectorType(FLOAT, 2)
 INDEX, OFFSET = ir.IntType(32), ir.IntType(64)

@@ -11,8 +11,8 @@ from impact_damper.kernel.single import (
     X,
     assign,
     polynomial,
+    series_of_loose_mass,
     side_of,
-    state_in_step,
     step,
     workspace,
 )
@@ -26,6 +26,8 @@ PHASELESS = 1e-9
 SYMMETRIC = 1e-6
 # Number of samples in a forcing cycle, from which harmonics are computed.
 SAMPLES = 64
+# Cosine and sine of the phases of the samples, for the numbers of samples from 0 to SAMPLES - 1.
+COSINE, SINE = (f(STROBE + 2 * np.pi * np.arange(SAMPLES) / SAMPLES) for f in (np.cos, np.sin))
 # Pieces of a step, in each of which a polynomial is assumed to have at most one turning point.
 PIECES = 8
 # Number of windows of an envelope in one call of the kernel. Ctrl-C waits for its end.
@@ -119,6 +121,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
     sample = math.ceil((phases[0] - STROBE) / spacing)
     last = sample + round((phases[-1] - phases[0]) / spacing)
     weight, contacts, largest = 2.0 / (last - sample), 0, 0.0
+    loose, apart = np.empty(CONTACT_ORDER + 1), spacing / frequency
     for i in range(2):
         sums[i, 0] = sums[i, 1] = 0.0
     for k in range(len(states)):
@@ -131,22 +134,41 @@ def survey(p, states, phases, times, tolerance, log, sums):
             length, side = step(p, y, side, t, end - t, tolerance, work)
             largest = extremum(work[X:], order, length, largest)
             ahead = end if length >= end - t else t + length
+            series_of_loose_mass(work, before, start, loose)
             final = k == len(states) - 1 and ahead == end
-            while sample < last and (final or STROBE + sample * spacing < ahead * frequency):
-                phase = STROBE + sample * spacing
-                x, _, z, _ = state_in_step(work, before, start, phase / frequency - t)
-                cosine, sine = weight * math.cos(phase), weight * math.sin(phase)
-                sums[0, 0] += x * cosine
-                sums[0, 1] -= x * sine
-                sums[1, 0] += z * cosine
-                sums[1, 1] -= z * sine
-                sample += 1
+            until = last if final else math.ceil((ahead * frequency - STROBE) / spacing)
+            while sample < min(until, last):
+                count = min(until - sample, last - sample, 4)
+                first = (STROBE + sample * spacing) / frequency - t
+                moments = first, first + apart, first + 2.0 * apart, first + 3.0 * apart
+                add_samples(work[X:], order, moments, sample, count, sums[0])
+                add_samples(loose, order, moments, sample, count, sums[1])
+                sample += count
             t = ahead
             if before == 0 and side != 0:
                 contacts = record_beginning(log, contacts, side, t, y[3])
             elif before != 0 and side == 0 and 0 < contacts <= len(log):
                 log[contacts - 1, 2], log[contacts - 1, 4] = t, y[3]
+    for i in range(2):
+        sums[i, 0] *= weight
+        sums[i, 1] *= -weight
     return contacts, largest
+
+
+@kernel_only
+def add_samples(c, order, moments, sample, count, sums):
+    """Add values of a polynomial, times cosine and sine of their phases, to the two `sums`.
+
+    Four values are computed side by side, and the first `count` are added.
+    """
+    t0, t1, t2, t3 = moments
+    v0 = v1 = v2 = v3 = c[order]
+    for k in range(order - 1, -1, -1):
+        v0, v1, v2, v3 = v0 * t0 + c[k], v1 * t1 + c[k], v2 * t2 + c[k], v3 * t3 + c[k]
+    for j, value in enumerate((v0, v1, v2, v3)):
+        if j < count:
+            sums[0] += value * COSINE[(sample + j) % SAMPLES]
+            sums[1] += value * SINE[(sample + j) % SAMPLES]
 
 
 @inlined

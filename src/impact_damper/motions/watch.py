@@ -3,6 +3,7 @@
 Near an orbit of period n the distances between states n cycles apart decrease geometrically. Once
 the sum of all further distances is small, Newton's method looks for a stable orbit close by. So a
 slow passage near a fold is not mistaken for an orbit.
+Up to a distance of 0.01 the motion must also follow the linearised map of the orbit (`is_linear`).
 """
 
 import math
@@ -17,9 +18,11 @@ from impact_damper.motions import records
 from impact_damper.motions.strobe_map import (
     POLISH_TOLERANCE,
     distance,
+    flow,
     polish,
     repeats_sooner,
     speed_weight,
+    strobe_time,
 )
 
 # Longest period of an orbit in forcing cycles; length of a ring, the buffer of last strobe states.
@@ -32,15 +35,18 @@ CONFIDENCE, WEAK = 4.0, 0.05
 BLOCK, RECENT = 10, 5
 # Largest and smallest distance from an orbit at which Newton's method is tried.
 NEAR, NEAREST = 1e-4, 1e-9
+# Early trials of Newton's method: distance at the first and second trial; number of returns that
+# must approach each other; largest nonlinear part and most returns of the further approach.
+EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 # Largest energy of an unforced motion at rest, divided by the first energy.
 REST = 1e-9
-# Data of one motion while it runs. untouched: number of last forcing cycles without contact. near:
-# distance at which Newton's method is tried next. periods: cycles with a tangent. batch: growth of
-# the tangent in this batch. mean, squares, recent: growth in full batches, its mean, sum of squared
-# deviations and last values.
+# Data of one motion while it runs. untouched: number of last forcing cycles without contact. near,
+# early: distances at which Newton's method is tried next. periods: cycles with a tangent. batch:
+# growth of the tangent in this batch. mean, squares, recent: growth in full batches, its mean, sum
+# of squared deviations and last values.
 SEEN = np.dtype(
     [(name, "i8") for name in ("index", "strobes", "untouched", "periods")]
-    + [(name, "f8") for name in ("near", "energy", "batch", "mean", "squares")]
+    + [(name, "f8") for name in ("near", "early", "energy", "batch", "mean", "squares")]
     + [("recent", "f8", RECENT)]
 )
 
@@ -130,6 +136,66 @@ def move_onto_orbit(p, y, periods, near, out):
     return True
 
 
+@kernel_only
+def approaches(ring, k, n, weight):
+    """Return whether the last RETURNS distances between states n cycles apart have decreased."""
+    before = 0.0
+    for j in range(RETURNS):
+        if k < (j + 1) * n or (j + 1) * n >= RING:
+            return False
+        apart = distance(ring[(k - j * n) % RING], ring[(k - (j + 1) * n) % RING], weight)
+        if apart <= before:
+            return False
+        before = apart
+    return True
+
+
+@kernel
+def is_linear(p, y, ring, k, n, weight):
+    """Return whether the last two returns of a motion to the orbit of y, of period n, are linear.
+
+    In a period the distance e from the orbit becomes M e + r. If |r| is at most c |e|^2, and c
+    times the sum of all further distances is small, the motion tends to the orbit. This is a test,
+    because c is measured in two returns, which lie further from the orbit than all later ones. None
+    of 7 000 motions left its orbit in a longer run: errors are below 0.05 % (95 % confidence).
+    """
+    state, matrix, half = y.copy(), np.zeros((4, 4)), np.bool_(False)
+    for i in range(4):
+        matrix[i, i] = 1.0
+    contacts, _ = flow(p, state, matrix, strobe_time(p), n, half, POLISH_TOLERANCE)
+    # A loose mass that drifts slowly may still reach a wall.
+    if contacts == 0 and p[CLEARANCE] < math.inf:
+        return False
+    apart, ahead, none = np.zeros((3, 4)), np.zeros(4), np.zeros(4)
+    for j in range(3):
+        for i in range(4 if contacts > 0 else 2):
+            apart[j, i] = ring[(k - j * n) % RING, i] - y[i]
+    curvature, total = 0.0, 0.0
+    for j in range(2):
+        push_forward(matrix, apart[j + 1], ahead)
+        rest, size = distance(apart[j], ahead, weight), distance(apart[j + 1], none, weight)
+        curvature = max(curvature, rest / size**2)
+    left = apart[0]
+    smallest = 0.01 * distance(left, none, weight)
+    for _ in range(APPROACH):
+        size = distance(left, none, weight)
+        total += size
+        if size < smallest or curvature * total > NONLINEAR:
+            break
+        push_forward(matrix, left, ahead)
+        assign(left, ahead)
+    return size < smallest and curvature * total <= NONLINEAR
+
+
+@kernel_only
+def push_forward(matrix, apart, ahead):
+    """Multiply a distance from an orbit by the matrix of a period, whose rows are tangents."""
+    for i in range(4):
+        ahead[i] = 0.0
+        for j in range(4):
+            ahead[i] += matrix[j, i] * apart[j]
+
+
 @inlined
 def leave_transient(p, out):
     """Replace the Lyapunov exponent of a transient by the orbit's, from the orbit's multiplier."""
@@ -156,6 +222,7 @@ def stays_without_contact(p, y, ring, k, out):
 def begin_watch(seen, index, out):
     """Reset `seen` and the record `out` before the motion `index` is run."""
     seen.index, seen.strobes, seen.untouched, seen.near = index, 0, 0, NEAR
+    seen.early = EARLY[0]
     seen.periods, seen.batch, seen.mean, seen.squares = 0, 0.0, 0.0, 0.0
     out.outcome, out.period = records.UNRESOLVED, 0
     out.residual, out.multiplier = np.nan, complex(np.nan, np.nan)
@@ -216,14 +283,26 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
         return True
     if forcing_amplitude(p) == 0.0:
         return watch_free(p, y, seen, out)
-    n = nearby_period(ring, k, speed_weight(p, side), 20.0 * tolerance, seen.near)
+    weight, floor = speed_weight(p, side), 20.0 * tolerance
+    n = nearby_period(ring, k, weight, floor, max(seen.near, seen.early))
+    early = False
+    if n > 0 and seen.early > seen.near:
+        close = nearby_period(ring, k, weight, floor, seen.near)
+        early = close == 0 and approaches(ring, k, n, weight)
+        n = n if early else close
     if n > 0:
-        if move_onto_orbit(p, y, n, seen.near, out):
+        settled = move_onto_orbit(p, y, n, seen.near, out)
+        if settled and (not early or is_linear(p, y, ring, k, np.int64(out.period), weight)):
             if seen.untouched >= out.period and bounded:
                 out.outcome = records.NON_COLLIDING
             leave_transient(p, out)
             return True
-        seen.near = max(0.1 * seen.near, NEAREST)
+        assign(y, ring[k % RING])
+        out.outcome, out.period = records.UNRESOLVED, 0
+        if early:
+            seen.early = EARLY[1] if seen.early == EARLY[0] else 0.0
+        else:
+            seen.near = max(0.1 * seen.near, NEAREST)
     drift = abs(y[3] - y[1]) * limit * period
     if bounded and seen.untouched >= patience and drift < 0.01 * p[CLEARANCE]:
         if stays_without_contact(p, y, ring, k, out):
