@@ -1,5 +1,6 @@
 """Snakemake plans again exactly the jobs that depend on an edited value or file."""
 
+import json
 import re
 from fnmatch import fnmatch
 from modulefinder import ModuleFinder
@@ -130,6 +131,16 @@ def test_an_edit_of_files_concerns_what_runs_them(project, edit):
         edit(path, lambda text: text + "\n")
     planned, known = to_do(project)
     assert planned == matching(known, set().union(*FILES.values()))
+
+
+def test_a_configuration_is_checked_again_after_an_edit(project, edit, config):
+    """The check is left out for the configuration of the last complete run alone."""
+    assert "checked" in json.loads((project / "results/provenance.json").read_text())
+    below = config["settling"]["patience"] - 1
+    wrong = configurations.changed(config, ["settling", "limit"], below)
+    edit("config/config.yaml", lambda _: yaml.safe_dump(wrong, sort_keys=False))
+    result = snakemake(project, "-n")
+    assert result.returncode == 1 and "settling.limit" in result.stdout + result.stderr
 
 
 @pytest.mark.parametrize("script", SCRIPTS)
