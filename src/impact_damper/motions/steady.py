@@ -23,6 +23,8 @@ from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
 # Number of motions in one call of a kernel. Ctrl-C waits for its end.
 CHUNK = 128
+# Largest number of such slices that are settled together; least number of calls for each thread.
+MOST_CHUNKS, SLICES = 8, 3
 
 
 @bounds.names_arguments
@@ -126,12 +128,18 @@ def settle_with(
     def work(part):
         rows, out = parameters[part], records[part]
         settle(rows, states[part], begins[part], *settings, out, stop)
-        name_undecided(rows, out, settling.limit, settling.further, stop)
-        measure(rows, settling.tolerance, settling.watched, out, stop)
+        # Results may depend on these slices, which are the same for each number of workers.
+        for first in range(0, max(len(out), 1), CHUNK):
+            some = slice(first, first + CHUNK)
+            name_undecided(rows[some], out[some], settling.limit, settling.further, stop)
+            measure(rows[some], settling.tolerance, settling.watched, out[some], stop)
 
     # This call compiles the kernels in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
-    run_chunks(work, len(states), workers, progress, stop)
+    # Lanes idle near the end of a slice. Several workers need some slices each to end together.
+    share = len(states) // CHUNK if workers == 1 else len(states) // (SLICES * workers * CHUNK)
+    size = CHUNK * min(max(share, 1), MOST_CHUNKS)
+    run_chunks(work, len(states), workers, progress, stop, size=size)
     return records
 
 
