@@ -1,13 +1,13 @@
 """Accuracy of the contact model against restitution and load (figure kind `contact_model`)."""
 
 import numpy as np
-from matplotlib.colors import LogNorm
+from matplotlib.colors import ListedColormap, LogNorm
 from matplotlib.ticker import FuncFormatter
 
 from chatterjee1995.figures.rigid_limit import contours
 from impact_damper.data.datasets import decode
 from impact_damper.plot import style
-from impact_damper.plot.maps import marked, mesh
+from impact_damper.plot.maps import mesh
 
 # Rule for the end of a contact -> title of the panel.
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
@@ -35,7 +35,10 @@ def draw_contact_model(*, contact_model):
         cells = mesh(axes, x, y, shown, norm, "the contact does not end")
         contours(axes, x, y, error, LEVELS)
         back = decode(cell["contact_verdict"]).values == "falls_back"
-        marked(axes, x, y, back, style.PALE_ORANGE, "the loose mass falls back")
+        cells = {"cmap": ListedColormap([style.PALE_ORANGE]), "shading": "nearest"}
+        axes.pcolormesh(x, y, np.ma.masked_where(~back, back), rasterized=True, **cells)
+        look = {"facecolor": style.PALE_ORANGE, "edgecolor": style.GREY}
+        axes.fill([], [], label="the loose mass falls back", **look)
         axes.set_yscale("symlog", linthresh=LINEAR)
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axes.set_title(words)

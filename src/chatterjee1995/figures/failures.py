@@ -6,7 +6,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from chatterjee1995.methods.integrators import integrators
 from impact_damper.data.datasets import parameters_of
 from impact_damper.plot import style
-from impact_damper.plot.maps import edges
+from impact_damper.plot.maps import edges_of
 
 COLUMNS = 3  # panels side by side
 LINEAR = "linear stability limit"
@@ -44,7 +44,7 @@ def _panel(axes, data, name):
     of, depths, fixed = data.sel(integrator=name), data["depth"].values, integrators()[name].fixed
     y = data["fixed_steps"].values if fixed else data["method_tolerance"].values
     shares = {"cmap": "cividis_r", "vmin": 0, "vmax": 1, "rasterized": True}
-    image = axes.pcolormesh(edges(depths), edges(y), of["contacts_missed"], **shares)
+    image = axes.pcolormesh(_edges(depths), _edges(y), of["contacts_missed"], **shares)
     axes.plot(of["motion_error"], y, color=style.VERMILION, label="median error of the motion")
     if fixed:
         expected = data["expected_unseen"].values
@@ -58,7 +58,7 @@ def _panel(axes, data, name):
         axes.plot(
             depths[j], y[i], "x", color=style.VERMILION, markersize=3, label="some runs failed"
         )
-    axes.set(xscale="log", yscale="log", xlim=edges(depths)[[0, -1]], ylim=edges(y)[[0, -1]])
+    axes.set(xscale="log", yscale="log", xlim=_edges(depths)[[0, -1]], ylim=_edges(y)[[0, -1]])
     axes.xaxis.set_major_locator(LogLocator(numticks=5))
     axes.xaxis.set_minor_formatter(NullFormatter())
     return image
@@ -97,3 +97,10 @@ def _draw_method(axes, data, index, title):
     if data["linear_limit"] > 0:
         look = LINES[LINEAR] | {"color": style.curve(index)["color"]}
         axes.axhline(float(data["linear_limit"]), **look)
+
+
+def _edges(values):
+    """Return edges of cells, midway on a logarithmic axis. A single cell is a decade wide."""
+    if len(values) == 1:
+        return np.asarray(values) * np.sqrt([0.1, 10])
+    return np.exp(edges_of(np.log(values)))

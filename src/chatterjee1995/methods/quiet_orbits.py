@@ -10,8 +10,7 @@ import numpy as np
 
 from chatterjee1995.methods.grid_following import Grid
 from impact_damper.motions.records import SYMMETRIC, measured
-from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish
-from impact_damper.orbits.orbit import STROBE
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, polish
 from impact_damper.orbits.shooting import newton, shoot
 from impact_damper.theory.straight_flight import (
     Flight,

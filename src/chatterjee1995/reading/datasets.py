@@ -5,7 +5,7 @@
 
 import numpy as np
 
-from impact_damper.data.datasets import decode, flag, has_damper, parameters_of
+from impact_damper.data.datasets import decode, flag, has_damper, named, parameters_of
 
 # Entries of the configuration. CAPTIONS: dampers with d0 of the captions of figure 3, by increasing
 # omega_l. RULES: the same with d0 by rule (19). BY_MASS: dampers of figure 5, by increasing rm.
@@ -124,7 +124,7 @@ def quiet_balance(design):
 
 def design_point(orbit):
     """Return the exact quiet orbit at Wp, with the least h of its branch, or raise Missing."""
-    if int(orbit.design_orbit_status) != flag("design_orbit_status", "found"):
+    if named(orbit, "design_orbit_status") != "found":
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))
 

@@ -5,11 +5,21 @@ import math
 import numpy as np
 
 from impact_damper.data.datasets import dataset
+from impact_damper.data.variables import register
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import side_of, step, workspace
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.motions.simulate import random_states
+
+register(
+    """
+ball | ball | | | ball of states from which random starts are drawn
+beyond_wall | ball | | | share of starts that lie beyond a wall
+colliding | ball | | | share of starts that lead to a collision
+longest_wait | ball | | | longest time to the first collision, cycles
+    """
+)
 
 
 def collisions(

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from impact_damper.data.datasets import dataset, flag, is_settled
+from impact_damper.data.variables import register
 from impact_damper.model.families import family_of
 from impact_damper.model.packed import pack
 from impact_damper.model.parameters import describe
@@ -14,6 +15,16 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit_branches import branches_dataset
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory.design_rule import peak_frequency
+
+register(
+    """
+design_orbit_status | | | | whether the quiet orbit was followed from heavy damping
+  : no_start 0, found 1, not_followed 2
+design_run_outcome | design_start | | | outcome of a random start at the design point
+  : outcome
+design_run_displacement | design_start | displacement | max |Z1| | largest displacement from a start
+    """
+)
 
 # The heavy damping h is the largest of HEAVY, twice the h of the oscillator, and HEAVY_SHARE Wp.
 HEAVY, HEAVY_SHARE = 2.0, 0.5

@@ -30,9 +30,7 @@ cold_status | highest_harmonic | | | how Newton's method ended when started from
   : not_tried -1, same_motion 0, stalled 1, iteration_limit 2, another_motion 3
 hill_status | highest_harmonic | | | how Hill's method ended
   : not_tried -1, found 0, not_separated 1, not_converged 2
-exact_status | | | | whether the exact orbit was found
-  : not_found 0, found 1
-exact_maximum | | displacement | max |Z1| | largest displacement of the exact orbit
+exact_maximum | | displacement | max |Z1| | largest displacement of the exact orbit, or NaN
 asymptotic_harmonic | | | | lowest N whose errors are used in the fit of the decrease
 decay_kind | | | | decrease of the errors: a power of N, or exponential
   : algebraic 0, exponential 1
@@ -167,10 +165,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     }
     number = 2 if damper is None else 4
     found = exact.converged and exact.active == number
-    data |= {
-        "exact_status": flag("exact_status", "found" if found else "not_found"),
-        "exact_maximum": exact.record["maximum_displacement"] if found else np.nan,
-    }
+    data["exact_maximum"] = exact.record["maximum_displacement"] if found else np.nan
     exponents = [hill.exponents(each) if each.status == "converged" else None for each in solutions]
     status = [each.status if each else "not_tried" for each in exponents]
     data["hill_status"] = [flag("hill_status", each) for each in status]

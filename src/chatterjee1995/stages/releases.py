@@ -8,7 +8,7 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag, is_settled
 from impact_damper.data.motion_variables import DAMPED_MOTION, FREE_MOTION
 from impact_damper.data.shares import BOUNDS, wilson
-from impact_damper.data.variables import VARIABLES
+from impact_damper.data.variables import VARIABLES, register
 from impact_damper.model.packed import FREQUENCY, pack
 from impact_damper.model.parameters import describe
 from impact_damper.motions import ensemble, legs
@@ -31,6 +31,30 @@ from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.motions.sweep import Catalogue
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.single_harmonic import impacting_solutions
+
+register(
+    """
+example | | | | index of the run whose displacement is stored
+bound | bound | | | share, or lower or upper end of its 95 % interval
+damped_motion | damped_motion | | | kind of damped motion
+free_motion | free_motion | | | kind of free motion
+destination_count | damped_motion free_motion | | | releases by damped and free motion
+reached_share | bound | | | share of runs that arrive on the non-resonance branch
+within_share | bound | | | share of runs that arrive within 350 cycles
+damped_kind | damped | | | kind of damped motion
+  : released_from
+damped_period | damped | | n | period in cycles, 0 if it has not settled
+damped_displacement | damped | displacement | max |Z1| | largest displacement, if settled
+damped_contacts | damped | | | contacts begun per cycle, if the motion has settled
+release_phase | damped release | | | cycles from Omega T = pi/2 to the release
+release_displacement | damped release | displacement | Z1 | displacement of the primary mass at
+  the release
+release_velocity | damped release | velocity | Z1' | velocity of the primary mass at the release
+release_destination | damped release | | | free motion to which the release leads
+  : destination
+release_share | damped free_motion bound | | | share of releases that lead to each free motion
+    """
+)
 
 LEAD = 20  # first cycles of a run, in which the start still matters and no release lies
 PAPER_CYCLES = 350  # cycles within which the paper's controller reaches the non-resonance branch

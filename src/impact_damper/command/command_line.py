@@ -208,7 +208,7 @@ def migrate(
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.data.datasets import save
     from impact_damper.design.migration import migration
-    from impact_damper.plot.migration_map import migration_map
+    from impact_damper.plot.maps import migration_map
     from impact_damper.plot.style import save_figure
 
     given = read(machine_file)

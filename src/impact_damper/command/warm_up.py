@@ -32,11 +32,12 @@ def warm_up_orbits() -> None:
 
     from impact_damper.orbits import segments
     from impact_damper.orbits.continuation import Problem
+    from impact_damper.orbits.grazing import turns_of
     from impact_damper.orbits.orbit import integrate
 
     orbit = integrate(on, 1, np.array([0.0, 0.01, 0.02]), np.zeros((2, 4)))
     segments.multipliers(orbit.factors)
-    orbit.turns()
+    turns_of(orbit)
     problem = Problem.of(lambda value: np.append(value, on[1:]), orbit, symmetric=False)
     problem.correct(np.append(orbit.state, on[0]), np.eye(5)[-1])
 

@@ -22,8 +22,6 @@ SOURCE = "impact-damper"
 
 # Kinds whose values are not converted; a mixed number stays in the scales of the machine.
 PURE = ("number", "angle", "mixed")
-# Largest number of values read at once from an open file.
-PIECE = 2**14
 
 
 def variable(name, data, dims=None) -> xr.Variable:
@@ -274,18 +272,10 @@ def _digest(variables):
         digest.update(f"{name} {variable.dims} {variable.shape}".encode())
         # Strings and empty arrays may have another type after reading from a file.
         if variable.dtype.kind in "biuf":
-            for piece in _pieces(variable):
-                digest.update(piece.tobytes())
+            values = variable.values
+            if values.dtype.kind == "f":  # NetCDF does not preserve the sign of NaN
+                values = np.where(np.isnan(values), np.nan, values)
+            digest.update(values.tobytes())
         else:
             digest.update("\0".join(map(str, np.asarray(variable).ravel())).encode())
     return digest.hexdigest()
-
-
-def _pieces(variable):
-    """Yield the values of a variable, some rows at a time."""
-    count = variable.shape[0] if variable.ndim else 1
-    rows = max(1, PIECE * count // max(variable.size, 1))
-    for first in range(0, count, rows):
-        values = np.asarray(variable[first : first + rows] if variable.ndim else variable)
-        # NetCDF does not preserve the sign of NaN
-        yield np.where(np.isnan(values), np.nan, values) if values.dtype.kind == "f" else values

@@ -85,11 +85,6 @@ start_speed | frequency | velocity | |Z1'| | largest speed of a random start
 free_displacement | frequency | displacement | max |Z1| | largest displacement of the free motions
 free_speed | frequency | velocity | max |Z1'| | largest speed of the free motions
 missed_share | | | | upper bound, at 95 %, on the share of starts that lead to a motion not found
-# first collisions
-ball | ball | | | ball of states from which random starts are drawn
-beyond_wall | ball | | | share of starts that lie beyond a wall
-colliding | ball | | | share of starts that lead to a collision
-longest_wait | ball | | | longest time to the first collision, cycles
 # harmonic balance
 amplitude | frequency solution | displacement | a | amplitude of Z1, negative in antiphase to Z2
 relative_amplitude | frequency solution | displacement | b | amplitude of Z2
@@ -158,12 +153,6 @@ orbit_multiplier_imaginary | point multiplier | | | Floquet multipliers by modul
 liouville_error | point | | | relative error of the determinant of the monodromy matrix
 least_speed | point | velocity | | smallest relative speed at the beginning of a contact
 orbit_restitution | point | | | smallest ratio of the relative speeds after and before a contact
-# design points
-design_orbit_status | | | | whether the quiet orbit was followed from heavy damping
-  : no_start 0, found 1, not_followed 2
-design_run_outcome | design_start | | | outcome of a random start at the design point
-  : outcome
-design_run_displacement | design_start | displacement | max |Z1| | largest displacement from a start
 # branches
 branch_period | branch | | n | period in cycles of the orbits
 branch_events_lost | branch | | | number of events on a branch that were not located
@@ -229,26 +218,6 @@ trial_outcome | trial | | | whether a run arrives on the non-resonance branch
 switchings | trial | | | number of times that the damper is switched on in a run
 damper_time | trial | | | cycles with the damper on
 total_time | trial | | | cycles from first switching the damper on to the end of the last free run
-example | | | | index of the run whose displacement is stored
-bound | bound | | | share, or lower or upper end of its 95 % interval
-damped_motion | damped_motion | | | kind of damped motion
-free_motion | free_motion | | | kind of free motion
-destination_count | damped_motion free_motion | | | releases by damped and free motion
-reached_share | bound | | | share of runs that arrive on the non-resonance branch
-within_share | bound | | | share of runs that arrive within 350 cycles
-# releases of each damped motion
-damped_kind | damped | | | kind of damped motion
-  : released_from
-damped_period | damped | | n | period in cycles, 0 if it has not settled
-damped_displacement | damped | displacement | max |Z1| | largest displacement, if settled
-damped_contacts | damped | | | contacts begun per cycle, if the motion has settled
-release_phase | damped release | | | cycles from Omega T = pi/2 to the release
-release_displacement | damped release | displacement | Z1 | displacement of the primary mass at
-  the release
-release_velocity | damped release | velocity | Z1' | velocity of the primary mass at the release
-release_destination | damped release | | | free motion to which the release leads
-  : destination
-release_share | damped free_motion bound | | | share of releases that lead to each free motion
     """
 )
 

@@ -8,8 +8,9 @@ from impact_damper.design.cells import Cell, run
 from impact_damper.design.task import labelled
 from impact_damper.model.families import family_of
 from impact_damper.motions.records import is_symmetric_pair
+from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits.branches import follow_branch
-from impact_damper.orbits.orbit import STROBE, Orbit
+from impact_damper.orbits.orbit import Orbit
 from impact_damper.orbits.shooting import find_orbit
 
 # Least and greatest gap of the branch, divided by the nominal one.

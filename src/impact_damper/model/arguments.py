@@ -58,8 +58,12 @@ def read_system(system, damper=None, *, needs_damper=False) -> Model:
     Raise TypeError if an argument has another type, ValueError if the damper does not fit.
     """
     if isinstance(system, Machine):
-        damper, scaled = _read_machine_damper(system, damper, needs_damper)
-        return Model(system.oscillator(), scaled, None, system, damper)
+        if damper is None and not needs_damper:
+            return Model(system.oscillator(), None, None, system)
+        if not isinstance(damper, MachineDamper):
+            raise TypeError(f"damper = {shown(damper)}: must be a MachineDamper, by machine.damper")
+        damper.check_for(system)
+        return Model(system.oscillator(), damper.scaled(system.scales), None, system, damper)
     if not isinstance(system, Oscillator):
         raise TypeError(f"system = {shown(system)}: must be an Oscillator or a Machine")
     if not isinstance(damper, Damper) and (needs_damper or damper is not None):
@@ -70,24 +74,9 @@ def read_system(system, damper=None, *, needs_damper=False) -> Model:
 
 def read_forced(system, damper, frequency, *, needs_damper=False) -> Model:
     """Return the model of `system` and `damper` at a frequency, in Hz for a machine."""
-    if not isinstance(system, Machine):
-        model = read_system(system, damper, needs_damper=needs_damper)
-        frequency = check_number("frequency", frequency, **FREQUENCY_RANGE)
-        return model._replace(frequency=frequency)
-    damper, scaled = _read_machine_damper(system, damper, needs_damper)
-    frequency = system.check_frequency("frequency", frequency)
-    own = system.scales.from_si(frequency, "frequency")
-    return Model(system.oscillator(), scaled, own, system, damper)
-
-
-def _read_machine_damper(machine, damper, needs_damper):
-    """Return a damper in SI units and the dimensionless damper; both are None without a damper."""
-    if damper is None and not needs_damper:
-        return None, None
-    if not isinstance(damper, MachineDamper):
-        raise TypeError(f"damper = {shown(damper)}: must be a MachineDamper, by machine.damper")
-    damper.check_for(machine)
-    return damper, damper.scaled(machine.scales)
+    model = read_system(system, damper, needs_damper=needs_damper)
+    own = model.scales.read("frequency", frequency, "frequency", **FREQUENCY_RANGE)
+    return model._replace(frequency=own)
 
 
 def read_swept_damper(system, damper, frequency) -> Model:

@@ -23,10 +23,6 @@ STROBES_AT_ONCE = 50_000
 SETTLED, HOLD, PHASE, STATE = range(4)
 
 
-class Stopped(Exception):
-    """Raised in a thread after another thread has stopped its run."""
-
-
 def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
     """Run a motion until it is near a stable orbit, for at most `limit` cycles after a strobe.
 
@@ -44,7 +40,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
     side, _, _ = advance(p, y, np.empty((0, 4)), side, begin, t, tolerance, workspace())
     for first in range(0, limit + 1, STROBES_AT_ONCE):
         if stop[0]:
-            raise Stopped
+            raise InterruptedError("another thread has stopped the run")
         last = min(first + STROBES_AT_ONCE, limit + 1)
         side, near = run_strobes(
             p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out

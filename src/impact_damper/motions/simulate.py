@@ -22,15 +22,11 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
     Without a damper the ball is a disk of (Z1, Z1'). With `within_gap`, a state with |Z2| above the
     clearance is drawn again, because the contact spring would store a large energy.
     """
-    bounds.check_count("count", count, least=0, most=10**8)
-    bounds.check_number("radius", radius, **bounds.RADIUS_RANGE)
     if damper is not None and within_gap:
         most = bounds.MOST_RADIUS * damper.clearance
         bounds.check_number(
             "radius", radius, above=0.0, most=most, why="few states lie within the gap"
         )
-    for value in np.atleast_1d(seed):
-        bounds.check_count("seed", value, **bounds.SEED_RANGE)
     generator = np.random.default_rng(seed)
     size = 2 if damper is None else 4
     states = np.empty((0, size))

@@ -39,11 +39,6 @@ class Event(NamedTuple):
     after: str
 
 
-def _fold(point):
-    """Return the parameter's component of the tangent, which is zero at a fold."""
-    return point.tangent[-1]
-
-
 def _reversal(point, symmetric):
     """Return the product of mu + 1 over the multipliers mu of a cycle.
 
@@ -70,7 +65,7 @@ def _product(values):
 # tolerance of the place of the zero. The tolerance is larger at a fold: Newton's method is nearly
 # singular there, and the parameter changes with the square of the distance.
 TESTS = {
-    "fold": (_fold, 1e-7),
+    "fold": (lambda point: point.tangent[-1], 1e-7),
     "symmetry_breaking": (partial(_reversal, symmetric=True), 1e-11),
     "period_doubling": (partial(_reversal, symmetric=False), 1e-11),
     "neimark_sacker": (_pairs, 1e-11),

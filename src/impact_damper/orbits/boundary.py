@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 
+from impact_damper.data.sweeps import runs_of_true
 from impact_damper.kernel.batch import advance
 from impact_damper.model.packed import DAMPING, FREQUENCY
 from impact_damper.orbits.shooting import find_orbit
@@ -108,8 +109,7 @@ def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
         total, within = total + np.sum(near), within + np.sum(inside)
         if total > MOST_IN_ALL or within > MOST_POINTS:
             break
-        ends = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
-        for first, last in ends.reshape(-1, 2):
+        for first, last in runs_of_true(inside):
             pieces.append(states[max(first - 1, 0) : last + 1])
         kept = near.copy()
         kept[1:] |= near[:-1]

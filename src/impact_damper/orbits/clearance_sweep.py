@@ -19,7 +19,7 @@ from impact_damper.motions.sweep import reached, sweep
 from impact_damper.orbits.branches import between, follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory.design_rule import rule_clearance
-from impact_damper.theory.optimum_clearance import analytical_table
+from impact_damper.theory.harmonic_balance import analytical_table
 from impact_damper.theory.straight_flight import Flight, least_displacement_ratio
 
 METHODS = "simulated", "harmonic_balance"

@@ -12,7 +12,7 @@ from impact_damper.model.packed import CLEARANCE
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
-from impact_damper.orbits.segment_runs import slopes_of_ends
+from impact_damper.orbits.segment_runs import list_turns, slopes_of_ends
 
 # Moduli of the heights of points on the side with more contacts: ratio of successive moduli,
 # smallest, largest.
@@ -158,6 +158,8 @@ def _targets(height, sharp, direction):
 
 # Distance along the tangent of a branch over which the change of a height is estimated.
 SHIFT = 1e-10
+# First size of the list of extrema, divided by the number of segments.
+TURNS = 256
 # Largest difference of phase, radian, of the same extremum on two orbits.
 MOVED = 0.1
 
@@ -178,7 +180,12 @@ class Turn(NamedTuple):
 
 def turns_of(orbit):
     """Return a list of all extrema of Z2 of an orbit, without their gradients."""
-    return [Turn(int(row[0]), row[1], bool(row[2]), row[3]) for row in orbit.turns()]
+    count = room = TURNS * len(orbit.states)
+    while count >= room:
+        room = count + 1
+        rows = np.empty((room, 4))
+        count = list_turns(orbit.p, orbit.states.copy(), orbit.phases, POLISH_TOLERANCE, rows)
+    return [Turn(int(row[0]), row[1], bool(row[2]), row[3]) for row in rows[:count]]
 
 
 def with_gradient(problem, x, orbit, turn):

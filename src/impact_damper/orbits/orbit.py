@@ -16,20 +16,19 @@ from impact_damper.model.packed import (
 )
 from impact_damper.motions import records
 from impact_damper.motions.records import survey
-from impact_damper.motions.strobe_map import POLISH_TOLERANCE
+from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE
 from impact_damper.orbits import segments
-from impact_damper.orbits.segment_runs import flow_all, list_turns
+from impact_damper.orbits.segment_runs import flow_all
 
-# Phase W T, radian: length of a forcing cycle; the strobe, at which states are compared.
+# Length of a forcing cycle as a phase, radian.
 TURN = 2 * math.pi
-STROBE = math.pi / 2
 # Largest residual of a converged orbit, divided by its largest state. With contacts the residual is
 # also divided by the natural frequency of contacts, which multiplies rounding errors.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # Smallest distance of the first phase of an orbit from a contact, radian.
 MARGIN = 0.15
-# First size of arrays: contacts in a forcing cycle, and extrema of Z2 in a segment.
-CONTACTS, TURNS = 64, 256
+# First size of the log of contacts, divided by the number of forcing cycles.
+CONTACTS = 64
 
 
 @dataclass(frozen=True)
@@ -202,16 +201,6 @@ class Orbit:
         state = self.states[k].copy()
         segments.run(self.p, state, np.empty((0, 4)), self.phases[k], max(local, self.phases[k]))
         return self.sign**turns * state
-
-    def turns(self):
-        """Return segment, phase, 1 at maxima of |Z2|, and |Z2| - d0 of extrema of Z2, (n, 4)."""
-        room = TURNS * len(self.states)
-        while True:
-            turns = np.empty((room, 4))
-            count = list_turns(self.p, self.states.copy(), self.phases, POLISH_TOLERANCE, turns)
-            if count <= room:
-                return turns[:count]
-            room = count
 
     @cached_property
     def deviation(self):

@@ -14,11 +14,10 @@ from impact_damper.model.arguments import (
     read_system,
 )
 from impact_damper.model.families import LINEAR, family_of, read_followed
-from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.records import phase_of
 from impact_damper.motions.simulate import COMPONENTS
+from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits.branches import follow_branch
-from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import follow_others, met_by
 
@@ -197,12 +196,7 @@ def _all_branches(system, damper, span, motions, progress):
         raise TypeError(f"motions = {bounds.shown(motions)}: must be a list of datasets of motions")
 
     motions = [from_si(each, model.scales) for each in motions]
-    packed = model.pack(span[0])
-
-    def family(value):
-        p = packed.copy()
-        p[FREQUENCY] = bounds.check_frequency(value)
-        return p
+    family, _, _ = family_of(model.oscillator, damper, span[0], "frequency", span)
 
     def follow(orbit, value):
         beyond = np.inf if orbit.periods == 1 else BEYOND / orbit.periods

@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits import segments
-from impact_damper.orbits.orbit import STROBE, TURN, Orbit, integrate
+from impact_damper.orbits.orbit import TURN, Orbit, integrate
 
 # Newton's method: largest number and largest size of corrections.
 ITERATIONS, FAR = 20, 10.0

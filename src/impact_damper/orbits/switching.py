@@ -34,7 +34,9 @@ def other_branch(event, *, stable=False) -> Point | None:
     doubled = event.kind == "period_doubling"
 
     def fits(point):
-        return _is_other(point.orbit, doubled) and (point.orbit.stable or not stable)
+        orbit = point.orbit
+        other = not orbit.repeats_sooner() if doubled else orbit.record["asymmetry"] > SYMMETRIC
+        return other and (orbit.stable or not stable)
 
     found = filter(None, (_at_distance(leaving, distance) for distance in DISTANCES))
     points = list(found) if stable else list(islice(found, 1))
@@ -114,11 +116,6 @@ def _at_heights(leaving):
             yield found[0]
 
 
-def _is_other(orbit, doubled):
-    """Return whether an orbit has twice the period if `doubled`, otherwise whether asymmetric."""
-    return not orbit.repeats_sooner() if doubled else orbit.record["asymmetry"] > SYMMETRIC
-
-
 # Periods of branches from which also unstable new branches are followed; longest period of a new
 # branch from other branches; longest period of a branch that leads to a branch of more symmetry.
 WHOLE, STABLE, MET = (1, 3), 9, 4
@@ -160,7 +157,8 @@ def _new_branch(branches, branch, place, event):
     If the first branch has a period in WHOLE, a period doubling must lie next to stable orbits.
     Otherwise the new branch must begin stable, next to stable orbits, with a period up to STABLE.
     """
-    if event.kind not in LEAVING or _is_end(branch, place, event):
+    ends = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
+    if event.kind not in LEAVING or ends.get(place) == event.kind:
         return None
     if any(ends_at(branches, k, edge, event) for k in range(len(branches)) for edge in (0, 1)):
         return None
@@ -175,12 +173,6 @@ def _new_branch(branches, branch, place, event):
     if start is None or any(each.holds(start.orbit, start.value) for each in others):
         return None
     return start
-
-
-def _is_end(branch, place, event):
-    """Return whether a branch ends at its event whose point has the index `place`."""
-    edges = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
-    return edges.get(place) == event.kind
 
 
 def ends_at(branches, number, edge, event):

@@ -1,7 +1,7 @@
 """Parts of maps over two parameters: coloured or hatched cells, contour lines, legend entries."""
 
 import numpy as np
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import Normalize
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
@@ -17,13 +17,6 @@ def mesh(axes, x, y, values, norm, absent=None):
         axes.fill([], [], label=absent, **back)
     cells = {"shading": "nearest", "rasterized": True, "norm": norm, "cmap": "cividis_r"}
     return axes.pcolormesh(x, y, values, **cells)
-
-
-def marked(axes, x, y, where, colour, label):
-    """Draw the cells of a mask in one colour."""
-    cells = {"cmap": ListedColormap([colour]), "shading": "nearest", "rasterized": True}
-    axes.pcolormesh(x, y, np.ma.masked_where(~where, where), **cells)
-    axes.fill([], [], facecolor=colour, edgecolor=style.GREY, label=label)
 
 
 def hatch(axes, x, y, where, **look):
@@ -45,8 +38,20 @@ def edges_of(centres):
     return np.concatenate([[2 * centres[0] - middles[0]], middles, [2 * centres[-1] - middles[-1]]])
 
 
-def edges(values):
-    """Return edges of cells, midway on a logarithmic axis. A single cell is a decade wide."""
-    if len(values) == 1:
-        return np.asarray(values) * np.sqrt([0.1, 10])
-    return np.exp(edges_of(np.log(values)))
+@style.context()
+def migration_map(data):
+    """Return the figure of a result of `design.migration.migration`."""
+    drawn = style.figure("single", 3.2)
+    axes = drawn.subplots()
+    frequencies, gaps = data["released_frequency"].values, data["released_gap"].values
+    shares = 100 * data["migration_share"].values
+    cells = mesh(axes, frequencies, gaps, shares, Normalize(0, 100), "one motion without damper")
+    drawn.colorbar(cells, label="Releases that succeed (%)")
+    sure = np.array(data["migration_status"] == 1)
+    places = np.argwhere(sure)
+    look = {"color": style.BLACK, "marker": "o", "markersize": 3, "linestyle": "", "mfc": "white"}
+    label = f"sure ({100 * float(data['migration_required']):g} % at 95 %)"
+    axes.plot(frequencies[places[:, 1]], gaps[places[:, 0]], label=label, **look)
+    axes.set(xlabel="Forcing frequency (Hz)", ylabel="Gap, full play (mm)", yscale="log")
+    style.legend(drawn, 1)
+    return drawn

@@ -1,13 +1,17 @@
-"""Single-term harmonic balance of an elastic impact damper over frequency; its suppression band.
+"""Single-term harmonic balance of an elastic impact damper over frequency and over clearance.
 
 Equations of the paper: (7) is the balance with elastic contacts, (14) the limit for rigid walls.
 """
 
+from dataclasses import replace
+
 import numpy as np
+from scipy.optimize import brentq
 
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.model.arguments import read_frequencies, read_system
 from impact_damper.model.bounds import names_arguments
+from impact_damper.model.parameters import beyond_closed_forms
 from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.free_oscillator import free_solutions, resonance
 from impact_damper.theory.single_harmonic import (
@@ -218,9 +222,7 @@ def _band(oscillator, damper):
 
 def _look(oscillator, damper, frequency):
     """Return the `band_status` at one frequency, and the ascending |a| of stable solutions."""
-    solutions = impacting_solutions(oscillator, damper, frequency)
-    growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
-    stable = np.sort(np.abs(solutions.amplitude[stability(growth) == flag("stability", "stable")]))
+    stable = np.sort(np.abs(_stable_amplitudes(oscillator, damper, frequency)))
     free = resonance(oscillator, frequency)
     if len(stable) != 1:
         return "no_single_motion", stable
@@ -242,3 +244,48 @@ def _edge(inside, peak, limit):
         middle = (inner + outer) / 2
         inner, outer = (middle, outer) if inside(middle) else (inner, middle)
     return inner
+
+
+def _stable_amplitudes(oscillator, damper, frequency):
+    """Return the amplitudes a of the stable solutions of (7) at one frequency."""
+    solutions = impacting_solutions(oscillator, damper, frequency)
+    growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
+    return solutions.amplitude[stability(growth) == flag("stability", "stable")]
+
+
+# Largest |a| that is treated as a = 0, in units of the clearance.
+ZERO_AMPLITUDE = 1e-6
+
+
+def _smallest(oscillator, damper, frequency):
+    """Return the amplitude a of the smallest stable solution of (7), and `analytical_status`."""
+    if damper.restitution != 1:
+        return np.nan, "inelastic"
+    if beyond_closed_forms(oscillator, damper):
+        return np.nan, "unknown"
+    try:
+        stable = _stable_amplitudes(oscillator, damper, frequency)
+    except ArithmeticError:
+        return np.nan, "unresolved"
+    return (min(stable, key=abs), "found") if len(stable) else (np.nan, "absent")
+
+
+def analytical_table(oscillator, dampers, frequency):
+    """Return variables: |a| by (7) for dampers of ascending clearance; the clearance for a = 0."""
+    found = [_smallest(oscillator, each, frequency) for each in dampers]
+    signed, status = np.array([size for size, _ in found]), [name for _, name in found]
+    best = np.nan
+
+    def amplitude(clearance):
+        return _smallest(oscillator, replace(dampers[0], clearance=clearance), frequency)[0]
+
+    for k in np.flatnonzero(signed[1:] * signed[:-1] < 0):
+        clearance = brentq(amplitude, dampers[k].clearance, dampers[k + 1].clearance)
+        # The sign also changes at a jump, where another solution becomes the smallest.
+        if abs(amplitude(clearance)) < ZERO_AMPLITUDE * clearance:
+            best = clearance
+    return {
+        "analytical_amplitude": np.abs(signed),
+        "analytical_status": np.array([flag("analytical_status", each) for each in status]),
+        "analytical_optimum": best,
+    }

@@ -10,8 +10,8 @@ from numpy.testing import assert_allclose
 from references import extended
 
 from impact_damper.model.packed import FREQUENCY, pack
+from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits import segments
-from impact_damper.orbits.orbit import STROBE
 from impact_damper.orbits.shooting import polish, shoot
 
 # A state of a chaotic motion at W = 1.55 that nearly repeats after 12 forcing cycles.

@@ -18,7 +18,7 @@ from impact_damper.model.parameters import Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import is_symmetric_pair
-from impact_damper.orbits.orbit import STROBE
+from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits.shooting import shoot
 
 LEFT, RIGHT = 0, 1
