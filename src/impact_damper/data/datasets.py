@@ -10,7 +10,7 @@ import xarray as xr
 # The import of these modules registers variables.
 from impact_damper.data import design_variables, motion_variables  # noqa: F401
 from impact_damper.data.variables import VARIABLES
-from impact_damper.data.whole_files import BrokenFileError, check_length, whole_netcdf
+from impact_damper.data.whole_files import BrokenFileError, check_length, whole
 from impact_damper.model.arguments import PHASES, STATE, STATE_UNITS
 from impact_damper.model.bounds import shown
 from impact_damper.model.families import facts_of
@@ -234,9 +234,13 @@ def save(data, path) -> None:
     """Write a dataset to NetCDF with the attributes of `seal`; the file appears when complete."""
     whole_numbers = [name for name in data.data_vars if data[name].dtype.kind in "iub"]
     encoding = {name: {"_FillValue": None} for name in (*data.coords, *whole_numbers)}
-    with whole_netcdf(path) as part:
-        sealed = data.assign_attrs(seal(data.variables, path))
-        sealed.to_netcdf(part, engine="netcdf4", encoding=encoding)
+    sealed = data.assign_attrs(seal(data.variables, path))
+    with whole(path) as part:
+        try:
+            sealed.to_netcdf(part, engine="netcdf4", encoding=encoding)
+        except RuntimeError as error:  # raised by the NetCDF library
+            raise OSError(str(error)) from error
+        check_length(part)
 
 
 def load(path) -> xr.Dataset:

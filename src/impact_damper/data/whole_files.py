@@ -42,17 +42,6 @@ def whole(path):
             part.unlink()
 
 
-@contextmanager
-def whole_netcdf(path):
-    """Do as `whole`, but check the NetCDF file with `check_length` before it is renamed."""
-    with whole(path) as part:
-        try:
-            yield part
-        except RuntimeError as error:  # raised by the NetCDF library
-            raise OSError(str(error)) from error
-        check_length(part)
-
-
 def _reason(folder, error):
     """Write a trial file, and return in one line why a file could not be written.
 

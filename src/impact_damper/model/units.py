@@ -118,7 +118,7 @@ def _factor(text, unit):
     """Return the factor from the unit `text` to an SI unit; None if there is no such factor."""
     import pint
 
-    registry = _registry()
+    registry = pint.get_application_registry()
     try:
         one = registry.Quantity(1.0, registry.Unit(text)).to_root_units()
         target = registry.Quantity(1.0, registry.Unit(unit)).to_root_units()
@@ -127,13 +127,6 @@ def _factor(text, unit):
         return None
     turns = 2 * math.pi if unit == "Hz" and "radian" in str(one.units) else 1.0
     return factor.magnitude / turns if factor.dimensionless else None
-
-
-@cache
-def _registry():
-    import pint
-
-    return pint.UnitRegistry()
 
 
 def check_si(name, value, quantity, **bounds) -> float:

@@ -139,7 +139,8 @@ def _walk(problem, first, span, beyond) -> Branch:
         if not pieces:
             length *= factor
             if length < continuation.SHORTEST_STEP:
-                end = _loss(point)
+                slow = np.max(np.abs(point.orbit.contacts[:, 3]), initial=0.0) < WEAK
+                end = "contact_lost" if point.orbit.touching and slow else "lost"
             continue
         for piece in pieces:
             start, ahead, _, missed = piece
@@ -247,14 +248,6 @@ def _meeting(events, orbit):
         if np.max(np.abs(events[k].point.orbit.deviation)) < least:
             return k
     return None if folds else len(events)
-
-
-def _loss(last):
-    """Return the reason why no next point is found after the last point of a branch."""
-    orbit = last.orbit
-    if orbit.touching and np.max(np.abs(orbit.contacts[:, 3])) < WEAK:
-        return "contact_lost"
-    return "lost"
 
 
 def _passes(point, ahead, first):

@@ -14,7 +14,7 @@ from impact_damper.model.arguments import (
     read_system,
 )
 from impact_damper.model.families import LINEAR, family_of, read_followed
-from impact_damper.motions.records import phase_of
+from impact_damper.motions.records import MOTION, phase_of
 from impact_damper.motions.simulate import COMPONENTS
 from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits.branches import follow_branch
@@ -267,20 +267,17 @@ def _status(orbit):
 def orbit_variables(pairs):
     """Return the variables with the dimension `point`, from pairs of a value and an `Orbit`."""
     values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
-    records = [orbit.record for orbit in orbits]
-    first, second = (
-        np.array([record[name] for record in records], complex)
-        for name in ("harmonic_displacement", "harmonic_relative")
-    )
+    records = np.array([orbit.record for orbit in orbits], MOTION)
+    first, second = records["harmonic_displacement"], records["harmonic_relative"]
     multipliers = np.array([orbit.multipliers for orbit in orbits]).reshape(-1, 4)
     stable = [flag("stability", "stable" if orbit.stable else "unstable") for orbit in orbits]
     return {
         "followed_value": np.array(values, float),
-        "orbit_displacement": np.array([record["maximum_displacement"] for record in records]),
+        "orbit_displacement": records["maximum_displacement"],
         "orbit_stability": np.array(stable, int),
         "orbit_status": np.array([_status(orbit) for orbit in orbits], int),
-        "orbit_contacts": np.array([record["contacts"] for record in records]),
-        "orbit_asymmetry": np.array([record["asymmetry"] for record in records]),
+        "orbit_contacts": records["contacts"],
+        "orbit_asymmetry": records["asymmetry"],
         "orbit_amplitude": np.abs(first),
         "orbit_phase_relative": phase_of(first, second),
         "orbit_phase_loose": phase_of(first, first - second),

@@ -49,17 +49,6 @@ def other_branch(event, *, stable=False) -> Point | None:
     return None
 
 
-def met_branch(point, kind) -> Point | None:
-    """Return the point of the branch of more symmetry that a branch meets at its end, or None."""
-    orbit, symmetric = point.orbit, kind == "symmetry_breaking"
-    periods = orbit.periods // (1 if symmetric else 2)
-    orbit = shoot(orbit.p, orbit.state, periods, orbit.phase, symmetric=symmetric)
-    problem = Problem.of(point.problem.family, orbit, symmetric=symmetric)
-    x = problem.unknowns(orbit, point.value)
-    found = problem.correct(x, np.eye(len(x))[-1])
-    return None if found is None or problem.length(found.x - x) > MEETING else found
-
-
 def _leaving(event):
     """Return the `Problem` of the other branch, and its unknowns and direction at an event."""
     point, problem = event.point, event.point.problem
@@ -143,12 +132,19 @@ def follow_others(branches, follow):
 
 
 def _more_symmetric(branches, branch, edge):
-    """Return the point of a new branch of more symmetry that a branch meets, or None."""
-    kind = branch.ends[edge]
-    if kind not in LEAVING or branch.points[0].orbit.periods > MET:
+    """Return the point of a new branch of more symmetry that a branch meets at its end, or None."""
+    kind, point = branch.ends[edge], branch.points[edge]
+    orbit, symmetric = point.orbit, kind == "symmetry_breaking"
+    if kind not in LEAVING or orbit.periods > MET:
         return None
-    met = met_branch(branch.points[edge], kind)
-    return met if met and not any(_passes(each, kind, met) for each in branches) else None
+    periods = orbit.periods // (1 if symmetric else 2)
+    orbit = shoot(orbit.p, orbit.state, periods, orbit.phase, symmetric=symmetric)
+    problem = Problem.of(point.problem.family, orbit, symmetric=symmetric)
+    x = problem.unknowns(orbit, point.value)
+    met = problem.correct(x, np.eye(len(x))[-1])
+    if met is None or problem.length(met.x - x) > MEETING:
+        return None
+    return None if any(_passes(each, kind, met) for each in branches) else met
 
 
 def _new_branch(branches, branch, place, event):
