@@ -1,18 +1,10 @@
-"""Documents name every stage and only files that exist; the environment of jobs is complete."""
+"""Documents name only files that exist; the environment of jobs is complete."""
 
 import re
 import tomllib
 
 import yaml
 from helpers.running import ROOT
-
-from chatterjee1995.sections.registry import STAGES
-
-
-def test_the_table_of_stages_has_every_stage():
-    table = "".join(re.findall(r"^\| (.*?) \|", (ROOT / "config/README.md").read_text(), re.M))
-    named = set(re.findall("`(.*?)`", table))
-    assert named >= STAGES.keys(), "config/README.md: the table of stages lacks some"
 
 
 def test_the_walk_throughs_name_files_that_exist():
