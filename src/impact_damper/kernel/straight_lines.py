@@ -25,19 +25,13 @@ INDEX, OFFSET = ir.IntType(32), ir.IntType(64)
 
 
 def straight(function):
-    """Decorate a function that executes the same lines of arithmetic for each lane.
+    """Decorate a function, a loop `for i in range(lanes)` with the same arithmetic for each lane.
 
-    The function takes one or two pointers to float64. Its body is a loop `for i in range(lanes)`.
-    The number of lanes is at most WIDTH, or a multiple of WIDTH. The loop has only assignments:
-
-    - The left side of `=` or `+=` is a name, `a[1 + i]`, or, with one lane, `a[1]`.
-    - The right side consists of names, constants, `a[1 + i]`, `a[1]` (the same for all lanes),
-      `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`,
-      which means `x if x > y else y`.
-    - `(x, y)` is a pair. A name can hold a pair, and `x, y = ...` unpacks a pair. Operators act on
-      both values of a pair, and combine a float with both values.
-
-    Templates can call the function (`branches.template`).
+    The number of lanes is at most WIDTH, or a multiple of WIDTH. The left side of `=` or `+=` is a
+    name, `a[1 + i]`, or, with one lane, `a[1]`. The right side consists of names, constants,
+    `a[1 + i]`, `a[1]` (the same for all lanes), `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`,
+    `*`, `/`, `abs(x)`, and `max(x, y)`, which means `x if x > y else y`. `(x, y)` is a pair, and
+    `x, y = ...` unpacks one. Operators act on both values of a pair, or combine them with a float.
     """
     function.write = write
     return function
