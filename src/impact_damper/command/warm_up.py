@@ -65,6 +65,7 @@ def warm_up_settling() -> None:
 
     from impact_damper.model.settling import Settling
     from impact_damper.motions.response import frequency_response
+    from impact_damper.motions.steady import steady_motion
     from impact_damper.orbits.basins import basins
 
     settling = Settling(patience=100, limit=100, watched=1)
@@ -72,3 +73,4 @@ def warm_up_settling() -> None:
     frequency_response(
         OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling
     )
+    steady_motion(OSCILLATOR, DAMPER, FREQUENCY, settling=settling)
