@@ -141,11 +141,9 @@ def test_measures_against_dense_samples(known_orbit):
 
 
 def test_starts_that_settle_early_stay_on_their_orbits():
-    rows, states = [], []
-    for frequency in np.linspace(1.4, 2.3, 10):
-        rows += [pack(PAPER, Damper(0.12, 2.0, 1.0), frequency)] * 60
-        states.append(random_states(60, 2.0, Damper(0.12, 2.0, 1.0), [5, len(rows)]))
-    rows, states = np.array(rows), np.concatenate(states)
+    damper = Damper(0.12, 2.0, 1.0)
+    rows = np.array([pack(PAPER, damper, each) for each in np.linspace(1.4, 2.3, 600)])
+    states = random_states(600, 2.0, damper, 5)
     found = ensemble.settle(rows, states, Settling(further=0), from_strobe=True)
     on = (found["outcome"] == records.SETTLED) & (found["period"] < 3)
     assert np.mean(on) > 0.7
