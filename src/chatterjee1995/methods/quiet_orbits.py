@@ -12,12 +12,7 @@ from chatterjee1995.methods.grid_following import Grid
 from impact_damper.motions.records import SYMMETRIC, measured
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, polish
 from impact_damper.orbits.shooting import newton, shoot
-from impact_damper.theory.straight_flight import (
-    Flight,
-    flight_of,
-    least_displacement_ratio,
-    least_harmonic_ratio,
-)
+from impact_damper.theory.straight_flight import Flight, flight_of, least_displacement_ratio
 
 CONTACTS = 2  # number of contacts of the orbits in a forcing cycle
 
@@ -169,6 +164,22 @@ def elastic_ratios(flight) -> tuple[float, float]:
     displacement = whole * IMPULSE * (kink - contact) - flight.mass_ratio
     harmonic = whole * (1 - contact) * np.pi**2 / 8 - flight.mass_ratio
     return displacement, harmonic
+
+
+def least_harmonic_ratio(flight) -> float:
+    """Return rm W^2 d0 at which the first harmonic of Z1 is smallest.
+
+    Forcing and impulses together have the first harmonic 1 - c q exp(-i p), where c = 8/pi^2 and p
+    is the lag of the impact. With sin(u) = q L/A and n = u - p, the modulus of this harmonic is
+    smallest where tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
+    """
+    factor = 8 / np.pi**2
+    loss = flight.loss
+    if loss == 0:
+        return float(flight.ratio(1 / factor))
+    shift = flight.forced_lag + flight.setback
+    angle = np.arctan2(2 * loss * np.cos(shift), factor - 2 * loss * np.sin(shift)) / 2
+    return float(flight.ratio(np.sin(angle) / loss))
 
 
 def rule_ratios(oscillator, damper, frequency):

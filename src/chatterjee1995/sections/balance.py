@@ -4,8 +4,7 @@ from typing import ClassVar
 
 from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
-from impact_damper.command.section import missing, problem
-from impact_damper.command.values import choice, count, number
+from impact_damper.command.section import choice, count, missing, number, problem
 from impact_damper.model.bounds import FREQUENCY_RANGE, HARMONIC_RANGE
 from impact_damper.model.text import plain
 

@@ -5,8 +5,14 @@ from typing import ClassVar
 
 from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
-from impact_damper.command.section import dotted, increasing, problem
-from impact_damper.command.values import number_or_range, several, starts_of
+from impact_damper.command.section import (
+    dotted,
+    increasing,
+    number_or_range,
+    problem,
+    several,
+    starts_of,
+)
 from impact_damper.model.bounds import MOST_RUNS
 
 # Axes of the grid of a study, in the order in which the stage numbers the cells.

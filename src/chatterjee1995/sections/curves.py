@@ -2,8 +2,7 @@
 
 from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
-from impact_damper.command.section import dotted, problem
-from impact_damper.command.values import choice, several
+from impact_damper.command.section import choice, dotted, problem, several
 
 # Stages that an entry of `curves` can list, and those of them that need a damper.
 STAGES_OF_CURVES = ("harmonic_balance", "design_orbit", "response", "subharmonic", "branches")

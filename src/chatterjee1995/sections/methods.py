@@ -5,8 +5,16 @@ from typing import ClassVar
 from chatterjee1995.methods.labels import ERRORS, START_HARMONICS, STATISTICS, TOLERANCE_KEYS
 from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
-from impact_damper.command.section import Section, increasing, problem
-from impact_damper.command.values import choice, count, number, points_of, several
+from impact_damper.command.section import (
+    Section,
+    choice,
+    count,
+    increasing,
+    number,
+    points_of,
+    problem,
+    several,
+)
 from impact_damper.model import bounds
 
 GEOMETRIC = system.range_of(number("end of a geometric grid", least=1e-14, most=1e9), points=True)

@@ -2,8 +2,7 @@
 
 from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
-from impact_damper.command.section import increasing
-from impact_damper.command.values import count, entries, number, several
+from impact_damper.command.section import count, entries, increasing, number, several
 from impact_damper.model.bounds import FARTHEST, FASTEST, LIFETIME_RANGE, PERIODS_RANGE, RUNS_RANGE
 
 

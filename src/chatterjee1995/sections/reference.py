@@ -3,8 +3,7 @@
 from typing import get_args, get_origin
 
 from chatterjee1995.sections.configuration import ENTRIES, Configuration, Settings
-from impact_damper.command.section import Section
-from impact_damper.command.values import NAME, Allowed
+from impact_damper.command.section import NAME, Allowed, Section
 
 HEAD = f"""# Reference of the configuration
 

@@ -5,8 +5,17 @@ from typing import ClassVar
 
 from pydantic import create_model
 
-from impact_damper.command.section import Section, missing, one_of, problem
-from impact_damper.command.values import count, number, number_or_word, points_of, text
+from impact_damper.command.section import (
+    Section,
+    count,
+    missing,
+    number,
+    number_or_word,
+    one_of,
+    points_of,
+    problem,
+    text,
+)
 from impact_damper.model.bounds import FREQUENCY_RANGE, MOST_RUNS, PERIODS_RANGE, RADIUS_RANGE
 from impact_damper.model.parameters import Damper, Oscillator, parameters_in
 from impact_damper.theory.design_rule import rule_clearance

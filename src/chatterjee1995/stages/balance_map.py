@@ -15,8 +15,12 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.records import MOTION, is_symmetric_pair
 from impact_damper.theory.design_rule import peak_frequency, rule_clearance
 from impact_damper.theory.free_oscillator import resonance
-from impact_damper.theory.single_harmonic import impacting_solutions
-from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
+from impact_damper.theory.single_harmonic import (
+    fixed_points,
+    growth_rate,
+    impacting_solutions,
+    stability,
+)
 
 register(
     """

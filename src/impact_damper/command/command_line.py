@@ -69,9 +69,9 @@ def design(
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.design_damper import design_damper
 
-    given = read(machine_file)
-    decide = partial(design_damper, machine(given), **design_arguments(given, workers))
-    answer(decide, machine(given), machine_file, output / "design.nc", force, as_json)
+    given, machine = read(machine_file)
+    decide = partial(design_damper, machine, **design_arguments(given, workers))
+    answer(decide, machine, machine_file, output / "design.nc", force, as_json)
 
 
 @app.command()
@@ -90,12 +90,12 @@ def evaluate(
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.design_damper import evaluate_damper
 
-    given = read(machine_file)
+    given, machine = read(machine_file)
     names = ("band", "share", "tolerances", "absorber", "displacement_limit", "effort")
     values = design_arguments(given, workers)
     values = {name: values[name] for name in names}
-    decide = partial(evaluate_damper, machine(given), damper(given, gap), **values)
-    answer(decide, machine(given), machine_file, output / "evaluation.nc", force, as_json)
+    decide = partial(evaluate_damper, machine, damper(given, machine, gap), **values)
+    answer(decide, machine, machine_file, output / "evaluation.nc", force, as_json)
 
 
 @app.command()
@@ -115,10 +115,10 @@ def simulate(
 
     from impact_damper.motions import simulate as motions
 
-    given = read(machine_file)
+    given, machine = read(machine_file)
     motion = motions.simulate(
-        machine(given),
-        damper(given, gap),
+        machine,
+        damper(given, machine, gap),
         quantity(frequency),
         tuple(map(quantity, state.split(","))),
         periods=periods,
@@ -150,12 +150,12 @@ def response(
     from impact_damper.model.units import si_value
     from impact_damper.motions.response import frequency_response
 
-    given = read(machine_file)
+    given, machine = read(machine_file)
     band = given["band"]
     ends = (si_value("band", band[end], "frequency") for end in ("first", "last"))
     found = frequency_response(
-        machine(given),
-        damper(given, gap),
+        machine,
+        damper(given, machine, gap),
         np.linspace(*ends, band["points"]),
         starts=starts,
         workers=workers,
@@ -211,11 +211,11 @@ def migrate(
     from impact_damper.plot.maps import migration_map
     from impact_damper.plot.style import save_figure
 
-    given = read(machine_file)
+    given, machine = read(machine_file)
     values = design_arguments(given, workers)
     for name in ("tolerances", "absorber", "displacement_limit"):
         del values[name]
-    found = migration(machine(given), **values, progress=None if as_json else "Releases")
+    found = migration(machine, **values, progress=None if as_json else "Releases")
     output.mkdir(parents=True, exist_ok=True)
     save(found, output / "migration.nc")
     save_figure(migration_map(found), output / "migration")
@@ -252,8 +252,8 @@ def report(
     as_json: AsJson = False,
 ):
     """Write the page of a finished design or evaluation again, from its data."""
-    from impact_damper.command.folders import check_folder
     from impact_damper.data.datasets import load, parameters_of
+    from impact_damper.plot.pages.render import check_folder
 
     found = load(data)
     if "promised_displacement" not in found:
@@ -265,25 +265,20 @@ def report(
 
 
 def read(path):
-    """Return the content of a machine's YAML file (imports are local so that `--help` is fast)."""
+    """Return the content of a YAML file, and its machine (local imports make `--help` fast)."""
     from impact_damper.command.machine_file import read_machine_file
-
-    return read_machine_file(path)
-
-
-def machine(given):
-    """Return the machine of a file's content."""
     from impact_damper.model.machine import Machine
 
-    return Machine(**given["machine"])
+    given = read_machine_file(path)
+    return given, Machine(**given["machine"])
 
 
 def answer(decide, made, machine_file, file, force, as_json):
     """Compute a design or an evaluation, save its data and its page, and print the answer."""
-    from impact_damper.command.folders import check_folder
     from impact_damper.data.datasets import decode, save
     from impact_damper.model.machine import describe_si
     from impact_damper.plot import conclusion
+    from impact_damper.plot.pages.render import check_folder
 
     check_folder(file.parent, describe_si(made), force)
     shown = sys.stderr.isatty() and not as_json
@@ -303,7 +298,7 @@ def answer(decide, made, machine_file, file, force, as_json):
     tell(as_json, [*words, f"The page: {page}"], numbers)
 
 
-def damper(given, gap):
+def damper(given, machine, gap):
     """Return a damper with a gap and the contact stiffness of a design, or None without a gap."""
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.task import Task
@@ -312,7 +307,7 @@ def damper(given, gap):
         return None
     values = design_arguments(given)
     values = {name: values[name] for name in ("mass", "restitution", "contact", "band")}
-    task = Task(machine=machine(given), **values, gap=quantity(gap))
+    task = Task(machine=machine, **values, gap=quantity(gap))
     return task.damper(task.gap)
 
 

@@ -10,7 +10,7 @@ from pydantic import ValidationError, create_model
 from pydantic_core import core_schema
 
 from impact_damper.command import section
-from impact_damper.command.values import Allowed, count, number, points_of, starts_of
+from impact_damper.command.section import Allowed, count, number, points_of, starts_of
 from impact_damper.model.bounds import RESTITUTION_RANGE, range_words
 from impact_damper.model.hertz import HertzContact
 from impact_damper.model.machine import ANGLES, FRICTIONS, MOUNT, Machine, TunedAbsorber
@@ -89,38 +89,29 @@ def span_of(quantity, meaning):
     )
 
 
-Damper = create_model(
-    "Damper",
-    __base__=Given,
-    mass=quantity_of("mass", "loose mass, at most the mass of the machine", above=0),
-    restitution=quantity_of("number", "coefficient of restitution", **RESTITUTION_RANGE),
-    contact_stiffness=(
-        quantity_of(
-            "stiffness",
-            "stiffness of the contact (without it computed from `contact` after Hertz)",
-            above=0,
-        ),
-        None,
-    ),
-    inclination=(
-        quantity_of(
-            "angle",
-            "angle between the gap and the horizontal; left out, the gap is horizontal",
-            **ANGLES,
-        ),
-        None,
-    ),
-    friction_coefficient=(
-        quantity_of("number", "friction of the loose mass on its floor", **FRICTIONS),
-        None,
-    ),
-    normal_force=(
-        quantity_of(
-            "force", "force between loose mass and floor; by default its weight", least=0, most=1e9
-        ),
-        None,
-    ),
-)
+class Damper(Given):
+    """A loose mass in a gap that is to be found."""
+
+    mass: quantity_of("mass", "loose mass, at most the mass of the machine", above=0)
+    restitution: quantity_of("number", "coefficient of restitution", **RESTITUTION_RANGE)
+    contact_stiffness: quantity_of(
+        "stiffness",
+        "stiffness of the contact (without it computed from `contact` after Hertz)",
+        above=0,
+    ) = None
+    inclination: quantity_of(
+        "angle",
+        "angle between the gap and the horizontal; left out, the gap is horizontal",
+        **ANGLES,
+    ) = None
+    friction_coefficient: quantity_of(
+        "number", "friction of the loose mass on its floor", **FRICTIONS
+    ) = None
+    normal_force: quantity_of(
+        "force", "force between loose mass and floor; by default its weight", least=0, most=1e9
+    ) = None
+
+
 Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 

@@ -41,11 +41,10 @@ def warm_up_orbits() -> None:
     problem = Problem.of(lambda value: np.append(value, on[1:]), orbit, symmetric=False)
     problem.correct(np.append(orbit.state, on[0]), np.eye(5)[-1])
 
-    from impact_damper.motions import following, legs, steady
+    from impact_damper.motions import legs, steady
 
     one, out, stop = np.zeros((1, 4)), np.zeros(1, records.MOTION), np.ones(1, bool)
     steady.settle_each(on[None], one, np.zeros(1), 1e-9, 1, 1, out, stop)
-    following.extrapolate(np.zeros(4), np.zeros(4), 1.0)
     legs.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2)
 
 

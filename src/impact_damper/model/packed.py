@@ -2,13 +2,12 @@
 
 import numpy as np
 
-from impact_damper.model.bounds import MOST_STIFF, check_frequency
+from impact_damper.model.bounds import MOST_STIFF, check_frequency, shown
 from impact_damper.model.exit_rules import NO_TENSION
 from impact_damper.model.parameters import (
     NONLINEAR,
     Oscillator,
     check_damper,
-    check_oscillator,
     parameters_in,
 )
 from impact_damper.model.text import number
@@ -43,7 +42,8 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
     """
     p = np.zeros(COUNT)
     p[FREQUENCY] = frequency = check_frequency(frequency)
-    check_oscillator(oscillator)
+    if not isinstance(oscillator, Oscillator):
+        raise TypeError(f"oscillator = {shown(oscillator)}: must be an Oscillator")
     p[1 : 1 + len(FIELDS)] = [getattr(oscillator, name) for name in FIELDS]
     p[STIFFNESS] = oscillator.linear_frequency**2
     if damper is None:

@@ -32,12 +32,6 @@ def _check(part):
             object.__setattr__(part, each.name, number)
 
 
-def check_oscillator(oscillator):
-    """Raise TypeError if `oscillator` is not an Oscillator."""
-    if not isinstance(oscillator, Oscillator):
-        raise TypeError(f"oscillator = {bounds.shown(oscillator)}: must be an Oscillator")
-
-
 def check_damper(damper):
     """Raise TypeError if `damper` is not a Damper; None is an error too."""
     if not isinstance(damper, Damper):

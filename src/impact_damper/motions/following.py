@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from impact_damper.kernel.compiling import kernel
 from impact_damper.motions.records import measured
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_sooner
 
@@ -28,11 +27,6 @@ class Followed(NamedTuple):
     orbits: tuple
     status: str
     arrived: bool
-
-    @property
-    def value(self):
-        """Value of the parameter at the last orbit."""
-        return self.values[1]
 
     @property
     def orbit(self):
@@ -74,7 +68,7 @@ def follow(
         ahead = target if step == target - value else value + step
         state = orbit.state.copy()
         if extrapolating and behind is not None:
-            extrapolate(state, behind.state, step / last_step)
+            state += (state - behind.state) * (step / last_step)
         corrected, status = correct(ahead, state)
         if corrected is not None and np.max(np.abs(corrected.state - orbit.state)[:3]) < reach:
             before, behind, last_step = (value, orbit), orbit, step
@@ -85,12 +79,6 @@ def follow(
             if abs(step) < shortest:
                 break
     return Followed((before[0], value), (before[1], orbit), status, value == target)
-
-
-@kernel
-def extrapolate(state, before, ratio):
-    """Replace a state in place by state + ratio (state - before)."""
-    state += (state - before) * ratio
 
 
 def follow_stable(p, state, periods, parameter, target) -> tuple:
@@ -119,7 +107,7 @@ def follow_stable(p, state, periods, parameter, target) -> tuple:
     start = float(p[parameter])
     orbit = StrobeOrbit(first, multiplier)
     followed = follow(correct, start, target, orbit, shortest=RESOLUTION, reach=2 * REACH)
-    p[parameter] = followed.value
+    p[parameter] = followed.values[1]
     return p, followed.orbit
 
 

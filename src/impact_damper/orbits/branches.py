@@ -9,7 +9,7 @@ import numpy as np
 from impact_damper.orbits import continuation
 from impact_damper.orbits.bifurcations import Event, bifurcations_between, events_between
 from impact_damper.orbits.grazing import through_grazing
-from impact_damper.orbits.segment_runs import NUDGE
+from impact_damper.orbits.segments import NUDGE
 
 # Largest number of orbits in one direction.
 MOST_POINTS = 10_000
@@ -86,9 +86,9 @@ def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
     """Follow a branch from an orbit both ways, each way up to `beyond` unstable points in a row."""
     family = _extended(family, span)
     problem = continuation.Problem.of(family, orbit)
-    walks = []
+    x, walks = problem.unknowns(orbit, value), []
     for direction in (-1, 1):
-        first = problem.begin(orbit, value, direction)
+        first = problem.correct(x, direction * np.eye(len(x))[-1])
         if first is None:
             raise ArithmeticError(f"no orbit of the family at {value:g} close to the one given")
         walks.append(_walk(problem, first, span, beyond))
@@ -191,7 +191,10 @@ def _next_pieces(point, span, length, search):
         return [], 0.5, search
     along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
     located, missed = events_between(point, ahead, along)
-    if length > CLEAR_STEP and (missed or continuation.passes_unseen(point, ahead, located)):
+    # Where a step crosses a branch of more symmetry, its branch has a fold.
+    crosses = point.orbit.deviation @ ahead.orbit.deviation < 0
+    unseen = crosses and not any(event.kind == "fold" for event in located)
+    if length > CLEAR_STEP and (missed or unseen):
         return [], 0.5, search
     return [(point, ahead, located, missed)], factor, search
 

@@ -17,7 +17,7 @@ from impact_damper.motions.records import SYMMETRIC
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
-from impact_damper.orbits.segment_runs import FINE_NUDGE, NUDGE, slopes_of_ends
+from impact_damper.orbits.segments import FINE_NUDGE, NUDGE, slopes_of_ends
 from impact_damper.orbits.shooting import AMPLIFYING
 
 # Newton's method: largest number of corrections, and largest change of an unknown by a correction.
@@ -206,11 +206,6 @@ class Problem:
                 return out
         return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
-    def step(self, point, length):
-        """Return the next point of the branch, at the distance `length`, or None on failure."""
-        bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
-        return self.near(point.x + length * point.tangent + bent, point.tangent, length)
-
     def near(self, x, border, length):
         """Return the point that `correct` finds at most about ASIDE * `length` from x, or None."""
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
@@ -231,11 +226,6 @@ class Problem:
             return None
         turned = np.sign((self.metric * near.tangent) @ point.tangent)
         return near._replace(tangent=near.tangent * turned)
-
-    def begin(self, orbit, value, direction):
-        """Return the point of an orbit, or None. `direction` is the sign of `tangent[-1]`."""
-        x = self.unknowns(orbit, value)
-        return self.correct(x, direction * np.eye(len(x))[-1])
 
 
 def point_at_distance(origin, point, ahead, distance):
@@ -292,7 +282,8 @@ AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 def next_point(point, span, length):
     """Return the next point within `span` (or None), and the factor for the next step's length."""
     problem = point.problem
-    ahead = problem.step(point, length)
+    bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
+    ahead = problem.near(point.x + length * point.tangent + bent, point.tangent, length)
     if ahead is not None and np.clip(ahead.value, *span) != ahead.value:
         ahead = point_at_value(point, ahead, float(np.clip(ahead.value, *span)))
     if ahead is None:
@@ -328,15 +319,6 @@ def folds_twice(point, ahead):
     if first * last <= 0 or not 0 < -middle * bend < 2 * bend**2:
         return False
     return first * (first - middle**2 / (4 * bend)) < 0
-
-
-def passes_unseen(point, ahead, located):
-    """Return whether a step crosses a branch of more symmetry without a located fold.
-
-    Where the two branches meet, the branch of less symmetry has a fold.
-    """
-    folds = any(event.kind == "fold" for event in located)
-    return not folds and point.orbit.deviation @ ahead.orbit.deviation < 0
 
 
 # Bounds of an orbit that keeps its segments: smallest distance of an edge of a segment from a

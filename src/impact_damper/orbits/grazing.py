@@ -12,7 +12,7 @@ from impact_damper.model.packed import CLEARANCE
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
-from impact_damper.orbits.segment_runs import list_turns, slopes_of_ends
+from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
 # Moduli of the heights of points on the side with more contacts: ratio of successive moduli,
 # smallest, largest.
@@ -125,7 +125,10 @@ def _along(point, turn, targets, direction, contacts):
         x = guess(points[-1], turns[-1], target)
         found = at_height(point.problem, x, turns[-1], target, direction)
         stays = found is not None and len(found[0].orbit.sequence) == contacts(target)
-        if stays and (ratio < 0 or not _has_left(points[-1].orbit, found[0].orbit)):
+        if stays and ratio > 0:
+            sizes = [np.max(np.abs(each.orbit.deviation)) for each in (points[-1], found[0])]
+            stays = not sizes[1] < FALLEN * sizes[0]
+        if stays:
             points.append(found[0])
             heights.append(target)
             turns.append(found[1])
@@ -140,11 +143,6 @@ def _before(height, target):
     if height * target > 0:
         return height * (target / height) ** 0.5
     return height / 2 if abs(height) > abs(target) else target / RATIO
-
-
-def _has_left(orbit, ahead):
-    """Return whether the orbit `ahead` lies on another branch of more symmetry."""
-    return np.max(np.abs(ahead.deviation)) < FALLEN * np.max(np.abs(orbit.deviation))
 
 
 def _targets(height, sharp, direction):

@@ -18,7 +18,7 @@ from impact_damper.motions import records
 from impact_damper.motions.records import survey
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE
 from impact_damper.orbits import segments
-from impact_damper.orbits.segment_runs import flow_all
+from impact_damper.orbits.segments import flow_all
 
 # Length of a forcing cycle as a phase, radian.
 TURN = 2 * math.pi

@@ -15,7 +15,7 @@ from impact_damper.model.arguments import (
 )
 from impact_damper.model.families import LINEAR, family_of, read_followed
 from impact_damper.motions.records import MOTION, phase_of
-from impact_damper.motions.simulate import COMPONENTS
+from impact_damper.motions.simulate import COMPONENTS, CONTACT
 from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
@@ -78,15 +78,8 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
         bounds.warn(
             f"period = {period}: the orbit found already repeats after a divisor of {period}"
         )
-    log = orbit.contacts
-    data = orbit_variables([(model.frequency, orbit)]) | {
-        "orbit_branch": np.zeros(1, int),
-        "contact_wall": log[:, 0],
-        "contact_begin": log[:, 1],
-        "contact_end": log[:, 2],
-        "approach_velocity": log[:, 3],
-        "departure_velocity": log[:, 4],
-    }
+    data = orbit_variables([(model.frequency, orbit)]) | {"orbit_branch": np.zeros(1, int)}
+    data |= dict(zip(CONTACT, orbit.contacts.T, strict=True))
     made = model.describe() | {"period": int(period), "state": state.tolist()}
     return dataset(data, {"component": list(COMPONENTS)}, made, "Periodic orbit", model)
 

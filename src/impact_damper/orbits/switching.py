@@ -180,8 +180,9 @@ def ends_at(branches, number, edge, event):
     factor = 2 if event.kind == "period_doubling" else 1
     if end.orbit.periods != factor * orbit.periods or factor == 1 and orbit.sign > 0:
         return False
+    sizes = [each.record["maximum_displacement"] for each in (orbit, end.orbit)]
     near = abs(event.point.value - end.value) < SAME_VALUE
-    return near and abs(_size(orbit) - _size(end.orbit)) < SAME_SIZE
+    return near and abs(sizes[0] - sizes[1]) < SAME_SIZE
 
 
 def met_by(branches, number, edge):
@@ -192,11 +193,6 @@ def met_by(branches, number, edge):
         if any(ends_at(branches, number, edge, event) for _, event in candidate.events):
             return other
     return -1
-
-
-def _size(orbit):
-    """Return max |Z1| of an orbit."""
-    return orbit.record["maximum_displacement"]
 
 
 def _passes(branch, kind, point):

@@ -16,11 +16,13 @@ from impact_damper.theory.design_rule import peak_frequency
 from impact_damper.theory.free_oscillator import free_solutions, resonance
 from impact_damper.theory.single_harmonic import (
     Solutions,
+    fixed_points,
+    growth_rate,
     impacting_solutions,
     resting_solutions,
     rigid_solutions,
+    stability,
 )
-from impact_damper.theory.slow_flow import fixed_points, growth_rate, stability
 
 # Largest distance of neighbouring solutions of a branch, divided by the largest solution's size.
 JUMP = 0.25

@@ -151,19 +151,3 @@ def least_displacement_ratio(flight) -> float:
         flight.largest_displacement, bounds=bounds, method="bounded", options={"xatol": 1e-10}
     )
     return float(flight.ratio(minimum.x))
-
-
-def least_harmonic_ratio(flight) -> float:
-    """Return rm W^2 d0 at which the first harmonic of Z1 is smallest.
-
-    Forcing and impulses together have the first harmonic 1 - c q exp(-i p), where c = 8/pi^2 and p
-    is the lag of the impact. With sin(u) = q L/A and n = u - p, the modulus of this harmonic is
-    smallest where tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
-    """
-    factor = 8 / np.pi**2
-    loss = flight.loss
-    if loss == 0:
-        return float(flight.ratio(1 / factor))
-    shift = flight.forced_lag + flight.setback
-    angle = np.arctan2(2 * loss * np.cos(shift), factor - 2 * loss * np.sin(shift)) / 2
-    return float(flight.ratio(np.sin(angle) / loss))

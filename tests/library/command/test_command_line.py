@@ -19,7 +19,7 @@ from impact_damper.command.section import ConfigurationError
 from impact_damper.data.datasets import load
 from impact_damper.design.migration import migration
 from impact_damper.design.task import Task
-from impact_damper.model.machine import describe_si
+from impact_damper.model.machine import Machine, describe_si
 from impact_damper.plot.machine_figures import FIGURES
 
 FILE = """
@@ -68,7 +68,8 @@ def test_a_motion_and_its_mirror_image_are_told_once_with_their_starts(machine_f
     asked = ("--gap", "2.5 mm", "--starts", 12, "--json")
     told = json.loads(run("response", machine_file, *asked))["response"]
     given = read_machine_file(machine_file)
-    machine, damper = command_line.machine(given), command_line.damper(given, "2.5 mm")
+    machine = Machine(**given["machine"])
+    damper = command_line.damper(given, machine, "2.5 mm")
     frequencies = [row["frequency_hz"] for row in told]
     found = idm.frequency_response(machine, damper, frequencies, starts=12)
     for i, row in enumerate(told):
@@ -155,7 +156,7 @@ def test_releases_of_a_damper_are_those_of_the_library(machine_file, tmp_path):
     found, given = load(told["data"]), read_machine_file(machine_file)
     effort = idm.Effort(frequencies=3, candidates=4, starts=73)
     asked = {"mass": 0.6, "restitution": 0.7, "contact": 2e6, "band": (22, 24)}
-    same = migration(command_line.machine(given), **asked, effort=effort)
+    same = migration(Machine(**given["machine"]), **asked, effort=effort)
     np.testing.assert_array_equal(found["migration_bound"], same["migration_bound"])
     assert (tmp_path / "out" / "migration.png").exists()
 
@@ -165,9 +166,9 @@ def test_all_commands_compute_with_the_stiffness_of_a_ball(machine_file):
     ball = "contact: {radius: 20 mm, youngs_modulus: 3 GPa, poissons_ratio: 0.4}\n"
     machine_file.write_text(FILE.replace(", contact_stiffness: 2e6 N/m", "") + ball)
     given = read_machine_file(machine_file)
-    task = Task(machine=command_line.machine(given), **design_arguments(given))
+    task = Task(machine=Machine(**given["machine"]), **design_arguments(given))
     speed = 2 * task.rule_gap(20.5) * 20.5  # in the middle of the band
-    found = command_line.damper(given, "3 mm").contact_stiffness
+    found = command_line.damper(given, task.machine, "3 mm").contact_stiffness
     expected = idm.HertzContact("20 mm", "3 GPa", 0.4).stiffness(speed, 12 * 0.6 / 12.6)
     assert found == task.contact_stiffness == pytest.approx(expected)
 
@@ -192,7 +193,7 @@ def test_frequencies_and_tolerances_in_the_words_of_python(machine_file):
     machine_file.write_text(f"{FILE}frequencies: 15\ntolerances: {{gap: 0.1 mm, force: 2 N}}\n")
     given = read_machine_file(machine_file)
     assert given["band"]["points"] == 15
-    task = Task(machine=command_line.machine(given), **design_arguments(given))
+    task = Task(machine=Machine(**given["machine"]), **design_arguments(given))
     np.testing.assert_allclose(task.deviations(2.0), [0.05, 0, 0, 0, 0, 0, 0, 0.05])
 
 

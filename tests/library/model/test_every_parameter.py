@@ -38,10 +38,10 @@ from impact_damper.theory.free_oscillator import (
 )
 from impact_damper.theory.single_harmonic import (
     impacting_solutions,
+    jacobian,
     resting_solutions,
     rigid_solutions,
 )
-from impact_damper.theory.slow_flow import jacobian
 from impact_damper.theory.straight_flight import flight_of
 
 ROOT = Path(__file__).parents[3]

@@ -1,4 +1,4 @@
-"""Undecided motions that are run longer: spectra, multipliers, and integration over a period."""
+"""Undecided motions that are run longer: spectra, multipliers, and rotation numbers."""
 
 import math
 
@@ -12,6 +12,7 @@ from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble, records, strobe_map, undecided
 from impact_damper.motions.following import follow_stable
+from impact_damper.motions.undecided import AGREEMENT, find_rotation
 
 NEVER = np.zeros(1, bool)
 
@@ -111,3 +112,29 @@ def test_drifting_mass_has_its_own_name():
     # with a longer limit the loose mass touches a wall
     later = Settling(patience=300, limit=20_000)
     assert ensemble.settle(rows, state[None], later)[0]["outcome"] != records.DRIFTING
+
+
+GOLDEN = (math.sqrt(5) - 1) / 2
+
+
+def on_curve(number, count=3000):
+    """Return points of a rotation by `number` revolutions, on a closed curve without symmetry."""
+    angle = 2 * np.pi * number * np.arange(count)
+    return 1 + 2j + np.exp(1j * angle) + 0.3 * np.exp(-1j * angle) + 0.1 * np.exp(2j * angle)
+
+
+@pytest.mark.parametrize("number", [1 - GOLDEN, 0.1 / math.pi, 1 / math.sqrt(5)])
+@pytest.mark.parametrize("sense", [1, -1])
+def test_rotation_of_a_curve(number, sense):
+    found, error = find_rotation(on_curve(sense * number))
+    assert error <= AGREEMENT
+    assert abs(found - number) < 1e-12
+
+
+def test_chaotic_points_are_no_curve():
+    """Points of Henon's map."""
+    points = [0.1 + 0.1j]
+    for _ in range(3000):
+        x, y = points[-1].real, points[-1].imag
+        points.append(complex(1 - 1.4 * x * x + y, 0.3 * x))
+    assert find_rotation(np.array(points)) is None

@@ -1,4 +1,4 @@
-"""The oscillator without a damper, with any spring and forcing: limits and searches."""
+"""The oscillator without a damper, with any spring and forcing, and real roots of equations."""
 
 import numpy as np
 import pytest
@@ -18,6 +18,7 @@ from impact_damper.theory.free_oscillator import (
     resonance,
 )
 from impact_damper.theory.harmonic_balance import harmonic_balance
+from impact_damper.theory.roots import polynomial_roots, smooth_roots
 from impact_damper.theory.single_harmonic import (
     impacting_solutions,
     resting_solutions,
@@ -159,3 +160,20 @@ def test_without_force_there_is_rest():
         rule_clearance(free, 0.1)
     with pytest.raises(ValueError, match="needs a forcing"):
         rule_ratios(free, damper, 1.2)
+
+
+@pytest.mark.parametrize("gap", [1e-2, 1e-4, 1e-6])
+def test_near_double_roots_are_told_from_a_near_miss(gap):
+    assert len(polynomial_roots([1 - gap**2, -2, 1])) == 2
+    assert len(polynomial_roots([1 + gap**2, -2, 1])) == 0
+
+
+def test_zeros_of_a_function_that_oscillates_ever_faster():
+    """sin(1/x) has its zeros at 1/(k pi)."""
+    found = smooth_roots(lambda x: np.sin(1 / x), lambda x: 1 + 1 / x, 0.05, 1.0)
+    assert_allclose(found, 1 / (np.pi * np.arange(6, 0, -1)), rtol=1e-12)
+
+
+def test_function_that_is_not_smooth_is_refused():
+    with pytest.raises(ArithmeticError, match="degree"):
+        smooth_roots(np.abs, np.ones_like, -1.0, 1.3)

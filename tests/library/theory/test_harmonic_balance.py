@@ -11,8 +11,7 @@ from impact_damper.theory.free_oscillator import free_folds, maximum_response
 from impact_damper.theory.harmonic_balance import (
     harmonic_balance,
 )
-from impact_damper.theory.single_harmonic import impacting_solutions
-from impact_damper.theory.slow_flow import fixed_points, growth_rate
+from impact_damper.theory.single_harmonic import fixed_points, growth_rate, impacting_solutions
 
 CUBIC = Oscillator(0.215)
 PAPER = Damper(0.12, 2.0)

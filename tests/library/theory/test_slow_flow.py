@@ -7,8 +7,14 @@ from references.equation import KNOWN, SPRINGS
 
 from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.theory.free_oscillator import free_solutions
-from impact_damper.theory.single_harmonic import contact_amplitude, impacting_solutions
-from impact_damper.theory.slow_flow import fixed_points, growth_rate, jacobian, stability
+from impact_damper.theory.single_harmonic import (
+    contact_amplitude,
+    fixed_points,
+    growth_rate,
+    impacting_solutions,
+    jacobian,
+    stability,
+)
 
 DAMPER, FREQUENCY = Damper(0.12, 1.5, contact_stiffness=400.0), 1.4
 SCENE = Oscillator(0.215, 0.7), Damper(0.12, 1.5), 1.6

@@ -6,15 +6,10 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
-from chatterjee1995.methods.quiet_orbits import elastic_ratios
+from chatterjee1995.methods.quiet_orbits import elastic_ratios, least_harmonic_ratio
 from chatterjee1995.stages.design_rules import QuietMotion
 from impact_damper.model.parameters import Damper, Oscillator
-from impact_damper.theory.straight_flight import (
-    Flight,
-    flight_of,
-    least_displacement_ratio,
-    least_harmonic_ratio,
-)
+from impact_damper.theory.straight_flight import Flight, flight_of, least_displacement_ratio
 
 PHASES = np.linspace(0, np.pi, 8001)
 

@@ -2,19 +2,23 @@
 
 import base64
 import io
+import json
 import re
 from importlib.metadata import version
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from impact_damper.data.whole_files import whole
-from impact_damper.model.text import number, percent
+from impact_damper.data.datasets import decode, load, named, parameters_of
+from impact_damper.data.design_variables import KEEPS, WORTH
+from impact_damper.data.sweeps import runs_of_true
+from impact_damper.data.whole_files import BrokenFileError, whole
+from impact_damper.model.text import number, percent, with_unit
 from impact_damper.plot import style
 from impact_damper.plot.machine_figures import ENDLESS, FIGURES
-from impact_damper.plot.pages.numbers import numbers_of, size
 
 # Dots per inch: 1540 pixels for a figure of 7 inches, so that pages never enlarge it.
 DPI = 220
@@ -25,6 +29,33 @@ GENERATOR = '<meta name="generator" content="impact-damper'
 def conclusion(data) -> list[str]:
     """Return the conclusion of a result of `design_damper` in paragraphs."""
     return _conclusion(numbers_of(data))
+
+
+def check_folder(folder, machine, force) -> None:
+    """Raise OSError unless files can be written into a folder.
+
+    Without `force` the folder must hold no foreign `index.html` and no data of another machine.
+    """
+    probe = folder / "index.html.check"
+    with whole(probe) as part:
+        part.touch()
+    probe.unlink()
+    if force:
+        return
+    page = folder / "index.html"
+    if page.exists() and GENERATOR not in page.read_text(errors="replace")[:1000]:
+        raise FileExistsError(
+            f"{page} is no page of impact-damper: choose another --output, or replace it by --force"
+        )
+    for path in (folder / "design.nc", folder / "evaluation.nc"):
+        try:
+            held = parameters_of(load(path)).get("machine")
+        except (FileNotFoundError, BrokenFileError):
+            continue
+        if held != machine:
+            raise FileExistsError(
+                f"{path} is of another machine: choose another --output, or replace it by --force"
+            )
 
 
 def write_page(name, data, folder, file=None, date="", figures=FIGURES) -> None:
@@ -89,3 +120,263 @@ def _one_line(text):
     """Return a text in one line. Escaped text stays escaped."""
     joined = " ".join(str(text).split())
     return Markup(joined) if isinstance(text, Markup) else joined
+
+
+# Fraction of the first displacement to which an unforced vibration falls in the decay time.
+DECAY = 0.1
+# Largest relative distance at which a range of gaps and a tolerance are said to end at one gap.
+NEAR = 0.01
+# Names on the page of additions to the decision and of quantities.
+ADDITIONS = {
+    "response": "motions and forces at the gap",
+    "orbits": "the quiet orbit over the gap",
+    "forces": "other excitations",
+    "masses": "other loose masses",
+    "transients": "sweeps and decay",
+    "shocks": "impulses on the machine",
+    "competitors": "the tuned absorber over the frequency",
+}
+QUANTITIES = {
+    "gap": "gap",
+    "restitution": "restitution",
+    "contact_stiffness": "stiffness of the walls",
+    "gravity": "gravity along the gap",
+    "friction": "friction of the loose mass",
+    "stiffness": "stiffness of the spring",
+    "damping": "damping",
+    "force": "excitation",
+}
+HARDLY = 0.2  # impacts in a cycle, below which the loose mass is only ballast
+# Columns of tables: name of a variable or key; description; unit; factor that divides (in GIVEN) or
+# multiplies (in COSTS) the value; key of the tolerance.
+TABLES = {
+    "GIVEN": (
+        ("mass", "mass without the loose mass", "kg", 1, None),
+        ("linear_stiffness", "stiffness of the spring", "N/m", 1, "stiffness"),
+        ("cubic_stiffness", "cubic stiffness of the spring", "N/m³", 1, "stiffness"),
+        ("damping_ratio", "damping ratio", "%", 0.01, "damping"),
+        ("damping", "coefficient of the dashpot", "N s/m", 1, "damping"),
+        ("force", "amplitude of the force", "N", 1, "force"),
+        ("unbalance", "unbalance", "kg mm", 1e-3, "force"),
+        ("base_displacement", "amplitude of the moving base", "mm", 1e-3, "force"),
+        ("base_acceleration", "amplitude of the base's acceleration", "m/s²", 1, "force"),
+    ),
+    "COSTS": (
+        ("contact_force_by_frequency", "largest force in a contact", "N", 1),
+        ("penetration_by_frequency", "largest penetration of a wall", "mm", 1),
+        ("impact_speed_by_frequency", "largest relative speed of an impact", "m/s", 1),
+        ("impact_rate_by_frequency", "impacts", "per second", 1),
+        ("impact_power_by_frequency", "mean power lost in impacts, which becomes heat", "W", 1),
+        ("pressure_by_frequency", "largest pressure after Hertz", "MPa", 1e-6),
+        (
+            "acceleration_by_frequency",
+            "largest acceleration of the machine, with impacts",
+            "m/s²",
+            1,
+        ),
+        ("absolute_displacement_by_frequency", "largest absolute displacement", "mm", 1),
+    ),
+}
+
+
+def size(value, unit="mm", digits=3) -> str:
+    """Return a number with its unit, "escapes" for a motion that escapes, "not known" for NaN."""
+    if np.isnan(value):
+        return "not known"
+    escapes = np.isinf(value) or (unit == "mm" and value >= ENDLESS)
+    return "escapes" if escapes else with_unit(float(value), unit, digits)
+
+
+def numbers_of(data) -> dict:
+    """Return all numbers of a design, keyed by the names that the templates use."""
+    asked = parameters_of(data)
+    gap, tolerances = float(data["design_gap"]), asked["tolerances"]
+    tolerance = tolerances.get("gap", 0.0)
+    ends = gap * (1 - tolerance), gap * (1 + tolerance)
+    nominal = data["promise_displacement"].values[0]
+    scalars = {name: float(each) for name, each in data.items() if each.ndim == 0}
+    found = TABLES | {
+        "asked": asked,
+        "made": json.loads(data.attrs["machine"]),
+        "has": lambda name: name in data,
+        "of": scalars,
+        "flags": lambda name: named(data, name),
+        "own": scalars.get("own_absorber_displacement", np.nan),
+        "gap": gap,
+        "given": asked["gap"] is not None,
+        "tolerance": tolerance,
+        "ends": ends,
+        "tolerances": [
+            f"{QUANTITIES[key]} {percent(value)}" for key, value in tolerances.items() if value
+        ],
+        "nominal": float(np.nanmax(nominal)),
+        "sets": len(data["promise_factor"]),
+        "worst_values": _worst_values(data),
+        "untouched": _peak(data, "untouched_displacement").size,
+        "based": any(
+            asked["machine"].get(f"base_{each}") for each in ("displacement", "acceleration")
+        ),
+        "hits": _hits(data),
+        "ballast": _hits(data) < HARDLY,
+        "linear": not asked["machine"].get("cubic_stiffness"),
+        "condition": _condition(data, ends),
+        "keeping": (
+            min(ends[0], float(data["keeping_gap"][0])),
+            max(ends[1], float(data["keeping_gap"][1])),
+        ),
+        "worse": _worse(data, nominal),
+        "other": _other_mass(data, asked),
+        "failed": [
+            ADDITIONS.get(str(name), str(name))
+            for name, status in zip(
+                data["addition"].values, decode(data["addition_status"]).values, strict=True
+            )
+            if status == "failed"
+        ],
+        "unsettled": float(np.nanmax(data["unsettled_share"])),
+        "late": float(np.fmax.reduce(data["settling_late"].values)),
+        "peak": lambda name: _peak(data, name),
+        "absorber": {
+            key: float(data[f"absorber_{key}"].sel(competitor="tuned", detuning=0.0))
+            for key in ("stiffness", "damping")
+            if f"absorber_{key}" in data
+        },
+        "masses": _masses(data, asked),
+        "shock": _shocks(data),
+    }
+    return found | _transients(data, asked)
+
+
+def _hits(data) -> float:
+    """Return the largest number of impacts in a cycle over the band, or NaN if it is unknown."""
+    if "impact_rate_by_frequency" not in data:
+        return np.nan
+    return float((data["impact_rate_by_frequency"] / data["frequency"]).max())
+
+
+def _peak(data, name) -> SimpleNamespace:
+    """Return the largest value of a variable over the band and its frequency, or NaN for both."""
+    if name not in data or np.isnan(data[name]).all():
+        return SimpleNamespace(size=np.nan, frequency=np.nan)
+    k = int(np.nanargmax(data[name].values))
+    return SimpleNamespace(size=float(data[name][k]), frequency=float(data["frequency"][k]))
+
+
+def _worst_values(data):
+    """Return texts of the deviations of the values that lead to the promised displacement."""
+    factors = data["promise_factor"].values[int(data["promised_set"])]
+    return [
+        f"{QUANTITIES[str(name)]} {'+' if factor > 1 else '-'}{percent(abs(factor - 1))}"
+        for name, factor in zip(data["varied"].values, factors, strict=True)
+        if factor != 1
+    ]
+
+
+def _shocks(data):
+    """Return numbers of the impulses on the machine, or None if they were not computed."""
+    if "shock_return" not in data:
+        return None
+    impulses, cycles = np.abs(data["shock_impulse"].values), data["shock_return"].values
+    critical = float(data["critical_shock"])
+    shares = zip(data["return_limit"].values, data["returned_share"].values, strict=True)
+    return SimpleNamespace(
+        critical=critical,
+        most=float(impulses.max()),
+        longest=cycles[impulses < critical].max(initial=0.0),
+        shares=list(shares),
+    )
+
+
+def _condition(data, tolerated):
+    """Return the nearest change that breaks the promise: of the gap, or of the excitation."""
+    gap, promised = float(data["design_gap"]), float(data["promised_displacement"])
+    found = []
+    kinds = decode(data["keeping_end"]).values
+    ends = zip(data["keeping_gap"].values, kinds, tolerated, (-1, 1), strict=True)
+    for end, kind, least, sign in ends:
+        if kind != "search_ends":
+            inside = sign * end <= sign * least * (1 + sign * NEAR)
+            end, kind = (least, "tolerance") if inside else (end, kind)
+            side = "above" if sign < 0 else "below"
+            found.append(SimpleNamespace(kind=kind, side=side, end=end, margin=abs(end / gap - 1)))
+    if "force_map_displacement" in data:
+        shares = data["force_share"].values
+        sizes = data["force_map_displacement"].max("operating_frequency").values
+        # The displacement may grow in proportion to the excitation.
+        kept = sizes <= KEEPS * promised * np.maximum(shares, 1)
+        for step in (1, -1):
+            k = int(np.argmin(np.abs(shares - 1)))
+            while 0 <= k + step < len(shares) and kept[k + step]:
+                k += step
+            if 0 <= k + step < len(shares):
+                facts = {"end": shares[k], "beyond": shares[k + step], "size": sizes[k + step]}
+                margin = abs(shares[k + step] - 1)
+                found.append(SimpleNamespace(kind="force", margin=margin, **facts))
+    return min(found, key=lambda each: each.margin, default=None)
+
+
+def _worse(data, nominal):
+    """Return the frequencies at which the machine moves more with the damper than without."""
+    if float(data["worst_ratio"]) <= 1:
+        return None
+    known = ~np.isnan(nominal)
+    names = ("promise_frequency", "promise_bare_displacement")
+    frequency, bare = (data[name].values[known] for name in names)
+    ratio = nominal[known] / bare
+    k = int(np.argmax(ratio))
+    spans = [
+        size(frequency[first], "Hz", 4)
+        if after - first == 1
+        else f"{number(frequency[first], 4)} to {size(frequency[after - 1], 'Hz', 4)}"
+        for first, after in runs_of_true(ratio > 1)
+    ]
+    return SimpleNamespace(spans=spans, size=nominal[known][k], bare=bare[k], at=frequency[k])
+
+
+def _other_mass(data, asked):
+    """Return another loose mass that meets the limit or is worth building; None if not needed."""
+    missed = named(data, "limit_status") == "missed"
+    fails = missed or named(data, "decision") == "do_not_build"
+    if "other_mass" not in data or not fails:
+        return None
+    most = (1 - WORTH) * float(data["largest_bare_displacement"])
+    good = data["other_displacement"] <= (float(data["displacement_limit"]) if missed else most)
+    good &= ~np.isclose(data["other_mass"], asked["mass"])
+    if not good.any():
+        return None
+    k = int(np.argmax(good.values))
+    names = ("mass", "gap", "displacement")
+    return SimpleNamespace(**{name: float(data[f"other_{name}"][k]) for name in names})
+
+
+def _masses(data, asked):
+    """Return the table rows of dampers with other loose masses."""
+    if "other_mass" not in data:
+        return []
+    names = ("other_mass", "other_gap", "other_displacement", "other_force")
+    rows = []
+    for mass, gap, moved, force in zip(*(data[name].values for name in names), strict=True):
+        note = " (this one)" * bool(np.isclose(mass, asked["mass"]))
+        rows.append([size(mass, "kg") + note, size(gap), size(moved), size(force, "N")])
+    return rows
+
+
+def _transients(data, asked):
+    """Return largest displacements in sweeps through the band, and decay times."""
+    if "sweep_envelope" not in data:
+        return {"swept": [], "rung": None}
+    low, high = asked["band"]
+    swept = []
+    for direction in data["direction"].values:
+        each = data.sel(direction=direction)
+        inside = (each["sweep_frequency"] >= low) & (each["sweep_frequency"] <= high)
+        sizes = each["sweep_envelope"].where(inside).max("sweep_window")
+        bare, damped = (float(sizes.sel(equipment=name)) for name in ("bare", "damped"))
+        swept.append({"direction": direction, "bare": bare, "damped": damped})
+    rung = {"first": float(data["ring_envelope"].sel(equipment="bare")[0])}
+    for equipment in ("bare", "damped"):
+        each = data.sel(equipment=equipment)
+        sizes, times = each["ring_envelope"].values, each["ring_time"].values
+        below = sizes < DECAY * sizes[0]
+        rung[equipment] = float(times[np.argmax(below)]) if below.any() else np.nan
+    return {"swept": swept, "rung": rung}
