@@ -1,13 +1,16 @@
 """Harmonic balance with any number of harmonics, and Newton's method for its equations."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
 from chatterjee1995.methods import fourier
+from impact_damper.kernel.equation import spring, spring_slope
 from impact_damper.model.exit_rules import ZERO_PENETRATION
+from impact_damper.model.packed import pack
 from impact_damper.model.parameters import SPRING_POWER, check_closed_form
 from impact_damper.theory import single_harmonic
 from impact_damper.theory.free_oscillator import main_solutions
@@ -35,6 +38,11 @@ class Balance:
     def harmonics(self) -> np.ndarray:
         """Retained harmonics k, shape (m,)."""
         return np.arange(1, self.highest + 1, 2)
+
+    @cached_property
+    def packed(self) -> np.ndarray:
+        """Parameters of the oscillator in the array that kernels read."""
+        return pack(self.oscillator, None, self.frequency)
 
     @property
     def rates(self) -> np.ndarray:
@@ -66,10 +74,10 @@ class Balance:
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
         count = fourier.product_samples(k, SPRING_POWER)
-        bent = np.fft.rfft(own.nonlinear_force(fourier.samples(first, k, count)))[k] / count
-        spring = rate**2 + own.damping * rate + own.linear_frequency**2
+        pull = spring.py_func(self.packed, fourier.samples(first, k, count))
+        restoring = np.fft.rfft(pull)[k] / count
         forcing = 0.5 * own.forcing_amplitude(self.frequency)
-        balance = spring * first + bent - forcing * (k == 1)
+        balance = (rate**2 + own.damping * rate) * first + restoring - forcing * (k == 1)
         if self.damper is None:
             return balance[None]
         by_value, by_conjugate = _convolution(self._contact_indicator(rows), k)
@@ -96,11 +104,11 @@ class Balance:
         k, rate, own = self.harmonics, self.rates, self.oscillator
         unit = np.eye(len(k))
         inertia = (rate**2, 2 * rate, np.ones(len(k)))[power]
-        spring = (own.damping * rate + own.linear_frequency**2, own.damping, 0)[power]
-        first = _real(unit * (inertia + spring), 0 * unit)
+        drag = (own.damping * rate, own.damping, 0)[power]
+        first = _real(unit * (inertia + drag), 0 * unit)
         if power == 0:
             count = fourier.product_samples(k, SPRING_POWER)
-            slope = own.nonlinear_slope(fourier.samples(coefficients[0], k, count))
+            slope = spring_slope.py_func(self.packed, fourier.samples(coefficients[0], k, count))
             first += _real(*_convolution(np.fft.rfft(slope) / count, k))
         if self.damper is None:
             return first

@@ -286,13 +286,8 @@ def answer(decide, made, machine_file, file, force, as_json):
     found.attrs["input_file"] = machine_file.name
     save(found, file)
     page, words = write_report(found, file, file.parent), conclusion(found)
-    sizes = (
-        "design_gap",
-        "promised_displacement",
-        "largest_bare_displacement",
-        "tuned_displacement",
-    )
-    numbers = {f"{name}_mm": float(found[name]) for name in sizes}
+    sizes = "design_gap promised_displacement largest_bare_displacement tuned_displacement"
+    numbers = {f"{name}_mm": float(found[name]) for name in sizes.split()}
     numbers |= {name: decode(found[name]).item() for name in ("decision", "limit_status")}
     numbers |= {"conclusion": words, "page": str(page), "data": str(file)}
     tell(as_json, [*words, f"The page: {page}"], numbers)

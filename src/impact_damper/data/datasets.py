@@ -264,22 +264,18 @@ def load(path) -> xr.Dataset:
 
 
 def seal(variables, path) -> dict:
-    """Return the attributes by which `load` detects that a file was replaced or damaged."""
-    path = Path(path).absolute()
-    return {"id": f"{path.parent.name}/{path.stem}", "sha256": _digest(variables)}
+    """Return the attributes by which `load` detects that a file was replaced or damaged.
 
-
-def _digest(variables):
-    """Return the SHA-256 digest of all names, dimensions, shapes and values."""
-    digest = hashlib.sha256()
+    The SHA-256 digest is of all names, dimensions, shapes and values.
+    """
+    path, digest = Path(path).absolute(), hashlib.sha256()
     for name, variable in sorted(variables.items()):
         digest.update(f"{name} {variable.dims} {variable.shape}".encode())
-        # Strings and empty arrays may have another type after reading from a file.
-        if variable.dtype.kind in "biuf":
-            values = variable.values
-            if values.dtype.kind == "f":  # NetCDF does not preserve the sign of NaN
-                values = np.where(np.isnan(values), np.nan, values)
+        values = np.asarray(variable)
+        if values.dtype.kind == "f":  # NetCDF does not preserve the sign of NaN
+            values = np.where(np.isnan(values), np.nan, values)
+        if values.dtype.kind in "biuf":
             digest.update(values.tobytes())
-        else:
-            digest.update("\0".join(map(str, np.asarray(variable).ravel())).encode())
-    return digest.hexdigest()
+        else:  # strings and empty arrays may have another type after reading from a file
+            digest.update("\0".join(map(str, values.ravel())).encode())
+    return {"id": f"{path.parent.name}/{path.stem}", "sha256": digest.hexdigest()}

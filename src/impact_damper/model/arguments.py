@@ -193,19 +193,14 @@ def read_state(model, state) -> np.ndarray:
     if alone:
         values = np.concatenate([values, values])
     if damper is not None and abs(values[2]) > 2 * damper.clearance:
-        _warn_of_compression(values[2], model)
+        speed = damper.contact_frequency * (abs(values[2]) - damper.clearance)
+        warn(
+            f"{scales.told('state[2]', values[2], 'displacement')}: the loose mass is beyond its "
+            f"wall, which is at {scales.told('clearance', damper.clearance, 'clearance')}; the "
+            f"compressed contact throws the mass back with up to "
+            f"{scales.told('speed', speed, 'velocity')}",
+        )
     return values
-
-
-def _warn_of_compression(relative, model):
-    """Warn that a contact is compressed by more than the clearance, and how fast it expands."""
-    damper, told = model.damper, model.scales.told
-    speed = damper.contact_frequency * (abs(relative) - damper.clearance)
-    warn(
-        f"{told('state[2]', relative, 'displacement')}: the loose mass is beyond its wall, which "
-        f"is at {told('clearance', damper.clearance, 'clearance')}; the compressed contact throws "
-        f"the mass back with up to {told('speed', speed, 'velocity')}",
-    )
 
 
 def carried_phase(state):

@@ -131,17 +131,6 @@ class Oscillator:
         self._refuse(others, "in closed forms (cubic springs)")
         return 0.75 * self.cubic
 
-    def nonlinear_force(self, displacement):
-        """Return the force of the spring without its linear part, at displacements Z1."""
-        return sum(getattr(self, name) * displacement**n for name, n in NONLINEAR.items())
-
-    def nonlinear_slope(self, displacement):
-        """Return the derivative of `nonlinear_force` with respect to Z1."""
-        slopes = [
-            n * getattr(self, name) * displacement ** (n - 1) for name, n in NONLINEAR.items()
-        ]
-        return sum(slopes)
-
     def forcing_amplitude(self, frequency):
         """Return the amplitude F + U W^2 of the force at forcing frequencies W."""
         return self.force + self.unbalance * frequency**2

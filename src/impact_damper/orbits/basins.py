@@ -194,7 +194,10 @@ def _free(p, plane, window, reach, phase, cells, settling, running):
     lost = np.flatnonzero(labels == BASIN_LABEL["unresolved"])
     if len(lost):
         more = find_attractors(p, plane[lost[:: max(1, len(lost) // TRIED)]], settling)
-        attractors = _joined(p, attractors, more)
+        first = more.centre[np.unique(more.owner, return_index=True)[1]]
+        known = np.isclose(first[:, None], attractors.centre, atol=1e-6).all(axis=2).any(axis=1)
+        both = np.concatenate([attractors.records, more.records[~known]])
+        attractors = with_neighbourhoods(p, both)
         again = label_states(p, plane[lost], phase, attractors, *limits, **running)
         labels[lost], periods[lost] = again
         order = np.argsort(attractors.records["maximum_displacement"], kind="stable")
@@ -208,21 +211,6 @@ def _free(p, plane, window, reach, phase, cells, settling, running):
         return label_states(p, states[:, :2], phase, attractors, *limits, running["workers"])
 
     return data, Labelled(labels[None], periods[None], attractors.records, label)
-
-
-def _joined(p, attractors, more):
-    """Return `Attractors` of `attractors` and of those in `more` that are new."""
-    new = [
-        record
-        for index, record in enumerate(more.records)
-        if not any(
-            np.allclose(more.centre[more.owner == index][0], centre, atol=1e-6)
-            for centre in attractors.centre
-        )
-    ]
-    if not new:
-        return attractors
-    return with_neighbourhoods(p, np.concatenate([attractors.records, new]))
 
 
 def boundary_data(p, attractors, window, reach, phase, cells, settling):
@@ -321,15 +309,10 @@ def saddles(p, states, periods, phase):
                 continue
             if len(known) and np.min(np.max(np.abs(known - orbit.state[:2]), axis=1)) < SAME:
                 continue
-            known = np.concatenate([known, images(orbit)])
+            turns = orbit.phase + 2 * math.pi * np.arange(n)
+            known = np.concatenate([known, [orbit.at(turn)[:2] for turn in turns]])
             orbits.append(orbit)
     return orbits
-
-
-def images(orbit):
-    """Return the states Z1, Z1' of a free orbit of period n, one for each cycle, shape (n, 2)."""
-    turns = orbit.phase + 2 * math.pi * np.arange(orbit.periods)
-    return np.array([orbit.at(turn)[:2] for turn in turns])
 
 
 def run_backwards(p, states, phase, tolerance, reach):

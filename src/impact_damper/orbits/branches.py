@@ -214,7 +214,8 @@ def _ending(piece, first, span):
         return end, located[:met] + last, not last and not missed
     again = None if first is None else _passes(start, ahead, first)
     if again is not None:
-        return "closed", [each for each in located if _is_between(start, each.point, again)], 0
+        row = start.problem.metric * start.tangent
+        return "closed", [each for each in located if row @ (each.point.x - again.x) < 0], 0
     beyond = ahead.value in span or np.clip(ahead.value, *span) != ahead.value
     return "range_ends" if beyond else "", located, 0
 
@@ -263,9 +264,3 @@ def _passes(point, ahead, first):
         return None
     again = continuation.point_at_value(point, ahead, first.value)
     return again if again is not None and first.orbit.is_same(again.orbit, SAME) else None
-
-
-def _is_between(start, point, ahead):
-    """Return whether `point` lies before `ahead` on the step that begins at `start`."""
-    row = start.problem.metric * start.tangent
-    return bool(row @ (point.x - start.x) < row @ (ahead.x - start.x))

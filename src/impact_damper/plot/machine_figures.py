@@ -147,14 +147,17 @@ def draw_transients(data):
     if "sweep_envelope" not in data:
         return None
     drawn = style.figure("double", 2.8)
-    panels = drawn.subplots(1, 3)
+    panels, band = drawn.subplots(1, 3), parameters_of(data)["band"]
     looks = {"bare": BARE, "damped": NOMINAL | {"label": "with damper"}}
     for axes, direction in zip(panels, ("up", "down"), strict=False):
         swept = data.sel(direction=direction)
         for equipment, look in looks.items():
             size = finite(swept["sweep_envelope"].sel(equipment=equipment))
             axes.plot(swept["sweep_frequency"], size, **look | {"linewidth": 0.8})
-        _shade_outside_band(axes, data)
+        lowest, highest = swept["sweep_frequency"].min(), swept["sweep_frequency"].max()
+        for low, high in ((lowest, band[0]), (band[1], highest)):
+            if low < high:
+                axes.axvspan(low, high, facecolor=style.PALE, linewidth=0, zorder=0)
         axes.set(xlabel=f"Frequency, swept {direction} (Hz)")
         if direction == "down":
             axes.invert_xaxis()
@@ -168,13 +171,6 @@ def draw_transients(data):
         decades(axes)
     style.legend(drawn, 2)
     return drawn
-
-
-def _shade_outside_band(axes, data):
-    swept, band = data["sweep_frequency"].values, parameters_of(data)["band"]
-    for low, high in ((swept.min(), band[0]), (band[1], swept.max())):
-        if low < high:
-            axes.axvspan(low, high, facecolor=style.PALE, linewidth=0, zorder=0)
 
 
 @style.context({"axes.labelsize": 8.0, "lines.markersize": 2.6})

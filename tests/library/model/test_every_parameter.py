@@ -299,10 +299,6 @@ def test_equations_of_the_package_are_those_of_the_reference(name):
     )
     stored = [kernel.energy.py_func(p, [x, 0.0, 0.0, 0.0]) for x in Z1]
     same(stored, equation.potential(p, Z1), err_msg="kernel/equation.py: energy")
-    bent = equation.spring(p, Z1) - oscillator.linear_frequency**2 * Z1
-    same(oscillator.nonlinear_force(Z1), bent, err_msg="model/parameters.py: nonlinear_force")
-    slope = equation.slope(p, Z1) - oscillator.linear_frequency**2
-    same(oscillator.nonlinear_slope(Z1), slope, err_msg="model/parameters.py: nonlinear_slope")
     many = Balance(oscillator, None, W, 5)
     series = np.array([[0.4 - 0.2j, 0.1 + 0.05j, -0.03j]])
     angle = 2 * np.pi * np.arange(256) / 256

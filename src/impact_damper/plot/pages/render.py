@@ -64,8 +64,12 @@ def write_page(name, data, folder, file=None, date="", figures=FIGURES) -> None:
     `file` is the name of the file of `data`, by default `name`.nc. `figures` maps names to
     functions that return a figure of `data` or None.
     """
-    drawn = {each: draw(data) for each, draw in figures.items()}
-    pictures = {each: as_png(figure) for each, figure in drawn.items() if figure is not None}
+    drawn, pictures = {each: draw(data) for each, draw in figures.items()}, {}
+    for each, figure in drawn.items():
+        if figure is not None:
+            with style.context(), io.BytesIO() as png:
+                figure.savefig(png, format="png", dpi=DPI, metadata={"Software": None})
+                pictures[each] = png.getvalue()
     with whole(Path(folder) / "index.html") as part:
         part.write_bytes(page_of(name, data, pictures, file, date).encode())
 
@@ -85,13 +89,6 @@ def page_of(name, data, pictures, file=None, date="") -> str:
         "sources": [],
     }
     return _environment(True).get_template("design.jinja").render(numbers).lstrip()
-
-
-def as_png(figure) -> bytes:
-    """Return a figure as PNG, reproducible to the byte."""
-    with style.context(), io.BytesIO() as file:
-        figure.savefig(file, format="png", dpi=DPI, metadata={"Software": None})
-        return file.getvalue()
 
 
 def _conclusion(numbers):
