@@ -35,8 +35,8 @@ def draw_contact_model(*, contact_model):
         cells = mesh(axes, x, y, shown, norm, "the contact does not end")
         contours(axes, x, y, error, LEVELS)
         back = decode(cell["contact_verdict"]).values == "falls_back"
-        cells = {"cmap": ListedColormap([style.PALE_ORANGE]), "shading": "nearest"}
-        axes.pcolormesh(x, y, np.ma.masked_where(~back, back), rasterized=True, **cells)
+        colour = {"cmap": ListedColormap([style.PALE_ORANGE]), "shading": "nearest"}
+        axes.pcolormesh(x, y, np.ma.masked_where(~back, back), rasterized=True, **colour)
         look = {"facecolor": style.PALE_ORANGE, "edgecolor": style.GREY}
         axes.fill([], [], label="the loose mass falls back", **look)
         axes.set_yscale("symlog", linthresh=LINEAR)

@@ -143,7 +143,7 @@ SPRING_PLACES = {
             packed(oscillator), np.tile(STATE[:2], 2), 0.0, 1, False, 1e-13
         ),
     ],
-    "theory/slow_flow.py": [lambda oscillator: jacobian(STATE, oscillator, DAMPER, W)],
+    "theory/single_harmonic.py": [lambda oscillator: jacobian(STATE, oscillator, DAMPER, W)],
     "tests/references/extended/motion.c": [tangents_80_bit],
 }
 NONLINEAR_PLACES = {
