@@ -67,7 +67,7 @@ def test_an_interrupted_design_continues_after_its_kept_steps(finished, tmp_path
         patch.setitem(additions.ADDITIONS, "masses", interrupt)
         design(folder=tmp_path, workers=2)
     done = kept(tmp_path)
-    assert done == STEPS - {"masses", "transients", "competitors"}
+    assert done == STEPS - {"masses", "transients", "shocks", "competitors"}
     times = {name: (tmp_path / f"{name}.nc").stat().st_mtime_ns for name in done}
     assert design(folder=tmp_path, workers=2).identical(finished[0])
     assert times == {name: (tmp_path / f"{name}.nc").stat().st_mtime_ns for name in done}
