@@ -126,7 +126,7 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Copy chosen trajectories into the lanes, parameters only where they have changed."""
+    """Copy chosen trajectories into lanes; parameters only if the lane held another trajectory."""
     for lane in range(LANES):
         m = chosen[lane]
         numbers = pool.numbers[m]

@@ -1,7 +1,7 @@
 """Compile templates of a step, bypassing numba's front end, which takes most of a compilation.
 
 A template is a Python function of pointers to float64 and of numbers. It consists of assignments,
-calls, `if`, `while`, `return`, and `for i in range(count)` with a constant count. Numbers that are
+calls, `if`, `while`, `return`, and `for` loops over `range(count)` with a constant count. Numbers
 known at compilation are computed then, and branches that they exclude are left out.
 """
 
@@ -88,7 +88,7 @@ def _is_llvm(value):
 
 
 def _compiled(module, function, arguments):
-    """Return the LLVM function of a template for these arguments, of which the pointers vary."""
+    """Return the LLVM function of a template; only the pointers remain arguments."""
     name = f"{function.__module__}.{function.__name__}"
     name = ".".join([name, *(str(each) for each in arguments if not _is_llvm(each))])
     if name in module.globals:
@@ -112,11 +112,11 @@ class Body(ast.NodeVisitor):
     def __init__(self, builder, function):
         self.builder, self.function = builder, function
         self.tree = definition(function)
-        # Values of names that are assigned once; memory of other names, and of returned values.
+        # Values of names assigned once; memory of other names; memory of the returned values.
         self.values, self.memory, self.returned = {}, {}, []
 
     def expand(self, arguments):
-        """Write the body with these arguments, and return what it returns."""
+        """Write the body with these arguments, and return the values of its `return`."""
         self.end = self.builder.append_basic_block()
         names = [each.arg for each in self.tree.args.args]
         nodes = [each for each in ast.walk(self.tree) if isinstance(each, ast.Name)]
@@ -225,7 +225,7 @@ class Body(ast.NodeVisitor):
         self.builder.position_at_end(after)
 
     def visit_For(self, node):
-        """Write a loop whose counter is i as a loop over lanes, and other loops without a loop."""
+        """Write a loop of i over several lanes as a loop; write out the turns of other loops."""
         count, counter = self.visit(node.iter.args[0]), node.target.id
         if counter == "i" and count > 1:
             with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:
@@ -304,7 +304,7 @@ class Body(ast.NodeVisitor):
         return getattr(self.builder, whole)(*pair)
 
     def extreme(self, sign, found, other):
-        """Return the less or the larger one of two numbers, as Python does for NaN."""
+        """Return the smaller or the larger of two numbers, as Python does for NaN."""
         return self.builder.select(self.compared(sign, other, found), other, found)
 
     def visit_Call(self, node):

@@ -2,7 +2,7 @@
 
     kernel       The function is compiled on the first call, and cached.
     kernel_only  Only kernels can call the function; it is cached as part of these kernels.
-    inlined      The function is compiled only as part of its callers.
+    inlined      Kernels that call the function contain a copy of the function.
 
 numba compiles a cached function again after an edit of the file that defines it, but not after an
 edit of a function that it calls. Therefore each module has a folder of its own, whose name is the
@@ -55,7 +55,7 @@ def cache_directory(*paths) -> Path:
     return path
 
 
-# Folder of the generated modules and of their kernels, which depend on this subpackage alone.
+# Folder of the generated modules and their kernels. They depend on this subpackage and its imports.
 CACHE_DIRECTORY = cache_directory()
 
 
@@ -154,7 +154,7 @@ def call_at(typing, address, numbers):
 
 
 class Progress(event.Listener):
-    """Adds up the time spent on compiling this package; prints MESSAGE once after PATIENCE.
+    """Adds up the time of compiling this package's kernels; prints MESSAGE once after PATIENCE.
 
     The garbage collector is switched off during compilation, because it finds little garbage and
     would take a fifth of the time.

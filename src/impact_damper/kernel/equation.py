@@ -29,7 +29,7 @@ from impact_damper.model.packed import (
 def forcing_amplitude(p, lane=0, lanes=1):
     """Return the amplitude F + U W^2 of the forcing per unit of primary mass.
 
-    `p` has a row for each parameter with `lanes` numbers, one per trajectory; `lane` is its index.
+    `p` has a row of `lanes` numbers for each parameter. `lane` is the index of a trajectory.
     """
     frequency = p[FREQUENCY * lanes + lane]
     return p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
@@ -58,13 +58,13 @@ def spring_slope(p, x, lane=0, lanes=1):
 
 @kernel
 def acceleration(p, y, t):
-    """Return Z1'', which in flight is also Z2'', at the state y = (Z1, Z1', Z2, Z2') and time t."""
+    """Return Z1'' without wall and friction, at the state y = (Z1, Z1', Z2, Z2') and the time t."""
     return external_force(p, t) - p[DAMPING] * y[1] - spring(p, y[0])
 
 
 @kernel
 def no_return(p):
-    """Return the |Z1| beyond which a primary mass that moves outward never comes back.
+    """Return the |Z1| beyond which a primary mass that moves outward never comes back, or infinity.
 
     There a softening spring pushes outward with at least the amplitude A of the forcing. Above
     2 omega_l/sqrt(-k3) its force -k3 |Z1|^3 - omega_l^2 |Z1| is at least -3/4 k3 |Z1|^3, which is
@@ -78,13 +78,13 @@ def no_return(p):
 
 @kernel_only
 def has_escaped(p, x, v):
-    """Return whether a mass is beyond `no_return` and moves outward; True if x is NaN."""
+    """Return whether a mass is beyond `no_return` and moves outward, or is NaN (soft spring)."""
     return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 
 @kernel_only
 def energy(p, y):
-    """Return the energy of both masses and all springs; without forcing this sum never grows."""
+    """Return the energy of masses, springs and gravity; without forcing this sum never grows."""
     x, v = y[0], y[1]
     total = 0.5 * v * v + (0.5 * p[STIFFNESS] + 0.25 * p[CUBIC] * x * x) * x * x
     if p[INVERSE_MASS_RATIO] > 0.0:
@@ -120,7 +120,7 @@ def motion(order, phase, constants, across):
     acceleration `push`, `cosine` and `sine` of the forcing's phase, times the amplitude; in contact
     q0, q1, `r1` and `mobility` = 1 + 1/rm; with `across` also `draw`, `base_cosine`, `base_sine`.
     `constants(k)` returns the lines for the coefficients that are the same in all steps of a
-    trajectory: h/k, D/k, and e[k] without the factor cosine or sine.
+    trajectory: h/k and D/k (h and D for k = 0), and e[k] without the factor cosine or sine.
     """
     for k in range(order - 1):
         yield from constants(k)

@@ -1,4 +1,4 @@
-"""Integration of one trajectory in steps that end at events: contacts that begin or end.
+"""Integration of one trajectory in steps that end at events, such as the beginning of a contact.
 
 A state is (Z1, Z1', Z2, Z2') and `side`: -1 or 1 for the wall in contact, 0 in flight.
 """
@@ -75,7 +75,7 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel_only
 def load(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace, and fill its constant series if they have changed."""
+    """Write a trajectory into a workspace, and fill the constant series if W, h or D is new."""
     kept = True
     for i in (FREQUENCY, DAMPING, DASHPOT):
         kept = kept and a[PARAMETERS + i] == p[i]
@@ -98,7 +98,7 @@ def step_loaded(t, longest, a):
 
 @kernel_only
 def unload(y, a):
-    """Read the state from a workspace."""
+    """Copy the state from a workspace into y."""
     for i in range(4):
         y[i] = a[STATE + i]
 
@@ -107,9 +107,9 @@ def unload(y, a):
 def step(p, y, side, t, longest, tolerance, work):
     """Integrate one step of at most `longest` from the time t; the step ends at the first event.
 
-    `side` is the wall in contact. The state at the end of the step replaces y (4,). `work`, a
+    `side` is the wall in contact at t. The state at the end of the step replaces y (4,). `work`, a
     `workspace()`, receives the series of Z1 over the step from index X on, and in contact the
-    series of Z2 -+ d0 from index Q on. Return the length of the step and the wall in contact.
+    series of Z2 -+ d0 from index Q on. Return the step's length and the wall in contact at its end.
 
     For a motion that has escaped (`equation.no_return`) the length is `longest`, because steps on
     the way to infinity become ever shorter. y is then the state after the time `work[LENGTH]`.
@@ -142,7 +142,7 @@ def state_in_step(work, side, y, t):
 
 @kernel_only
 def series_of_loose_mass(work, side, y, c):
-    """Write the coefficients of Z2 over a step from the state y into c; return their order."""
+    """Write the coefficients of Z2 over a step from the state y into c; return the order."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     for k in range(order + 1):
@@ -164,7 +164,7 @@ def series_of_loose_mass(work, side, y, c):
 
 @kernel
 def side_of(p, y):
-    """Return the wall that the loose mass touches or moves into, -1 or 1, or 0 in flight."""
+    """Return the wall that the loose mass presses or moves into, -1 or 1, or 0 in flight."""
     wall = 1 if y[2] > 0.0 else -1
     depth = abs(y[2]) - p[CLEARANCE]
     if depth < 0.0 or (p[LAG] > 0.0 and depth + p[LAG] * wall * y[3] <= 0.0):

@@ -1,4 +1,4 @@
-"""Read and check the arguments of the public functions, which are in the user's units."""
+"""Read and check arguments of the public functions; the arguments are in the user's units."""
 
 import math
 from dataclasses import replace
@@ -20,11 +20,11 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, describe
 from impact_damper.model.units import UNITLESS, Scales
 
-# Kinds, units and largest values of the components of a state.
+# Kinds of a state's components, their units for a machine, and the largest modulus of each kind.
 STATE = ("displacement", "velocity", "displacement", "velocity")
 STATE_UNITS = "m, m/s, m, m/s"
 FARTHEST_STATE = dict(zip(STATE, (FARTHEST, FASTEST) * 2, strict=True))
-# Coordinates that hold forcing phases of states. A state taken from a dataset keeps its phase.
+# Coordinates of datasets that hold the forcing phase of a state taken from the dataset.
 PHASES = ("state_phase", "orbit_phase")
 
 
@@ -43,7 +43,7 @@ class Model(NamedTuple):
         return self.oscillator.scales
 
     def pack(self, frequency=None) -> np.ndarray:
-        """Return the array for kernels, at the model's frequency or another one."""
+        """Return the array for kernels at a frequency W, by default at the model's frequency."""
         return pack(self.oscillator, self.damper, frequency or self.frequency)
 
     def describe(self, *others) -> dict:
@@ -53,9 +53,9 @@ class Model(NamedTuple):
 
 
 def read_system(system, damper=None, *, needs_damper=False) -> Model:
-    """Return the model of the arguments `system` and `damper`; `needs_damper` refuses None.
+    """Return the model of `system` and `damper`; with `needs_damper` a damper of None is an error.
 
-    Raise TypeError if an argument has another type, ValueError if the damper does not fit.
+    Raise TypeError for a wrong type, ValueError if the damper does not fit the machine.
     """
     if isinstance(system, Machine):
         if damper is None and not needs_damper:
@@ -68,7 +68,7 @@ def read_system(system, damper=None, *, needs_damper=False) -> Model:
         raise TypeError(f"system = {shown(system)}: must be an Oscillator or a Machine")
     if not isinstance(damper, Damper) and (needs_damper or damper is not None):
         raise TypeError(f"damper = {shown(damper)}: must be a Damper")
-    # For an oscillator made by a machine, all other arguments are dimensionless.
+    # With any oscillator, even if a machine made it, all other arguments are dimensionless.
     return Model(replace(system, scales=UNITLESS), damper)
 
 
@@ -110,7 +110,7 @@ def _numbered(values):
 
 
 def read_increasing(scales, name, values, kind="number", count=1, **bounds) -> np.ndarray:
-    """Return at least `count` increasing numbers as an array, dimensionless."""
+    """Return increasing numbers as a dimensionless array; fewer than `count` are an error."""
     numbers = read_numbers(scales, name, values, kind, **bounds)
     if len(numbers) < count or np.any(np.diff(numbers) <= 0):
         given = shown(list(getattr(values, "values", values)))
@@ -152,7 +152,7 @@ def read_pair(scales, name, values) -> np.ndarray:
 
 
 def _components(scales, name, values, kinds, words):
-    """Return dimensionless displacements and velocities; `words` says which are needed."""
+    """Return dimensionless displacements and velocities; the error message needs `words`."""
     numbered = list(_numbered(values))
     if len(numbered) != len(kinds):
         raise ValueError(f"{name} = {shown(values)}: must be {words}")
@@ -168,8 +168,8 @@ def _components(scales, name, values, kinds, words):
 def read_state(model, state) -> np.ndarray:
     """Return the argument `state` of a public function as Z1, Z1', Z2, Z2', shape (4,).
 
-    Without a damper two numbers are enough, with Z2 = Z1 and Z2' = Z1'. Warn the user if the
-    penetration of a wall exceeds the clearance.
+    Without a damper the two numbers Z1 and Z1' are enough; then Z2 = Z1 and Z2' = Z1'. Warn the
+    user if the penetration of a wall exceeds the clearance.
     """
     scales, damper = model.scales, model.damper
     if hasattr(state, "coords"):
@@ -214,7 +214,7 @@ def read_start(model, state, start) -> float:
     """Return the time T of a state, from the argument `start` of a public function.
 
     If `start` is None, T follows from the phase of a dataset's state; without a phase, T is 0. A
-    `start` with another phase is an error.
+    `start` with another phase than the state's phase is an error.
     """
     phase, frequency = carried_phase(state), model.frequency
     if start is None:

@@ -24,7 +24,7 @@ AMPLITUDE_RANGE = {"least": 0.0, "most": 1e6}
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
 # Largest natural frequency of the contact divided by the forcing frequency.
 MOST_STIFF = 1e6
-# Radius of the ball of random initial states, and its largest ratio to the clearance.
+# Radius of the ball of random initial states. MOST_RADIUS bounds the ratio of radius to clearance.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 MOST_RADIUS = 1e3
 # Bounds of the fields of `settling.Settling`.
@@ -36,13 +36,13 @@ FURTHER_RANGE = {"least": 0, "most": 10**7}
 # Largest number of runs of one call. The results of all runs are in memory.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# Number of forcing cycles of a run, and of a run for the lifetime of a chaotic transient.
+# Numbers of forcing cycles: of a run, and of a run for the LIFETIME of a chaotic transient.
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest displacement and velocity of an initial state. Beyond them a cycle takes minutes.
+# Largest moduli of displacement and velocity in an initial state. Beyond, a cycle takes minutes.
 FARTHEST, FASTEST = 1e3, 1e6
-# Highest harmonic N of a harmonic balance, whose memory grows as N^2 and computing time as N^3.
+# Highest harmonic N of a harmonic balance. Memory grows as N^2, and computing time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
 PACKAGE = f"{__name__.partition('.')[0]}."
 # Number of points of a grid.
@@ -52,7 +52,7 @@ METHOD_TOLERANCE_RANGE = TOLERANCE_RANGE | {"most": 0.1}
 
 
 def warn(text) -> None:
-    """Issue a warning for the user's line that called this package."""
+    """Issue a warning that shows the user's line from which this package was called."""
     frame, level = sys._getframe(1), 2
     while frame and frame.f_globals.get("__name__", "").startswith(PACKAGE):
         frame, level = frame.f_back, level + 1
@@ -60,7 +60,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return the number in an array without dimensions and unit; return other values unchanged."""
+    """Return the number in an array without dimensions (with a unit an error), or another value."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")
@@ -77,10 +77,10 @@ def shown(value) -> str:
 def check_number(
     name, value, *, above=None, least=None, most=None, why="", unit="", given=""
 ) -> float:
-    """Return `value` as a float, or raise an error that names the allowed range.
+    """Return `value` as a float, or raise an error if it is not allowed.
 
-    `why` is the reason for the bounds, and `given` replaces the value in the message. Raise
-    TypeError for a value that is no real number, ValueError if it is not finite or out of bounds.
+    Raise TypeError for a value that is no real number, such as True, and ValueError if the value is
+    not finite or out of bounds; this message has the reason `why`, and `given` for the value.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -128,7 +128,7 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Raise an error if `points` grid points with `starts` each need more than MOST_RUNS runs."""
+    """Raise an error if `points` grid points need over MOST_RUNS runs and `starts` > `least`."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 
@@ -140,9 +140,9 @@ def nearest(name, known) -> str:
 
 
 def names_arguments(function):
-    """Decorate a public function or class; errors for wrong arguments list the known arguments.
+    """Decorate a public function or class; errors for unknown or missing arguments list all.
 
-    The docstring of a dataclass gets a description of its fields from their metadata.
+    The docstring of a dataclass gets a list of the fields with a `meaning`.
     """
     call = function.__init__ if inspect.isclass(function) else function
     signature = inspect.signature(call)

@@ -1,10 +1,10 @@
-"""The two rules for the end of a contact, and the damping that gives a restitution under each.
+"""The two rules for the end of a contact, and the damping for a restitution under each rule.
 
 The penetration of a free contact obeys u'' + 2 z u' + u = 0 in natural units of time, with the
 damping ratio z, and the wall pushes with u + 2 z u'. Under `zero_penetration`, the paper's rule
-(25), a contact ends when u = 0; before its end the wall pulls. Under `no_tension` a contact ends
-when the force is 0, and the restitution is exp(-(pi - 2 A) tan A) with z = sin(A) (Schwager and
-Poeschel, Physical Review E 78, 2008, 051304), or exp(-2 B coth B) with z = cosh B > 1.
+(25), a contact ends when u = 0; before, a wall with damping pulls. Under `no_tension` a contact
+ends when the force falls to 0, and the restitution is exp(-(pi - 2 A) tan A) with z = sin(A)
+(Schwager and Poeschel, Physical Review E 78, 2008, 051304), or exp(-2 B coth B) if z = cosh(B) > 1.
 """
 
 import math

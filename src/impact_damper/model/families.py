@@ -9,8 +9,8 @@ from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
-# Parameters that can vary along a branch, each with the dataclass that holds the parameter, or
-# None. The coordinate of a branch is the parameter if LINEAR names it, otherwise its logarithm.
+# Parameters that can vary along a branch, each with its dataclass (None for the frequency). The
+# coordinate of a branch is the parameter if LINEAR names it, otherwise its logarithm.
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)

@@ -15,7 +15,7 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# Lower bound on the derivative of the balance, which is 0 at a fold; number of repeated fits.
+# FOLD: lower bound on the derivative of the balance, which is 0 at a fold. PASSES: number of fits.
 FOLD, PASSES = 0.1, 6
 
 
@@ -23,8 +23,9 @@ class Identified(NamedTuple):
     """A machine found by a fit, and the uncertainties of its values.
 
     `uncertainties`, keyed by field of the machine, are standard uncertainties in SI units; they
-    assume independent errors of equal size. `noise` is the r.m.s. residual, in m for a free decay,
-    and as a fraction of the amplitude for a response. `ended` says how the fit ended.
+    assume independent errors of equal size. `noise` is the standard deviation of the residuals, in
+    m for a free decay, and as a fraction of the amplitude for a response. `ended` says how the fit
+    ended.
     """
 
     machine: object
@@ -51,7 +52,7 @@ def from_ring_down(cls, data, *, mass, **excitation) -> Identified:
     Raises
     ------
     TypeError, ValueError
-        If the data are not such a record. The message names file, line and column.
+        If the data are not such a record; a wrong cell of a file is named.
 
     Examples
     --------
@@ -81,9 +82,9 @@ def from_response(cls, data, *, force) -> Identified:
     """Return the machine whose response to a known force is nearest to a measured curve.
 
     All branches obey the balance of the first harmonic, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2
-    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). The residual of the balance
-    divided by its derivative is the relative error of an amplitude. If 3/4 k3 a^2 exceeds a tenth
-    of k, the neglected harmonics bias stiffness by about 1 %, and damping near a jump by 10 %.
+    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). The residual divided by
+    the balance's derivative is nearly the relative error of an amplitude. If 3/4 k3 a^2 exceeds
+    k/10, the neglected harmonics bias stiffness by about 1 %, and damping near a jump by 10 %.
 
     Parameters
     ----------
@@ -97,7 +98,7 @@ def from_response(cls, data, *, force) -> Identified:
     Raises
     ------
     TypeError, ValueError
-        If the data are not such a curve. The message names file, line and column.
+        If the data are not such a curve; a wrong cell of a file is named.
 
     Examples
     --------
@@ -132,7 +133,7 @@ def from_response(cls, data, *, force) -> Identified:
 
 
 def _fit(residuals, guess, scale):
-    """Return the fitted parameters, their errors, the r.m.s. residual and the solver's message.
+    """Return the fitted parameters, their standard errors, `noise` and the solver's message.
 
     `residuals` takes n columns of parameters, and returns residuals of shape (samples, n).
     """
@@ -156,7 +157,7 @@ def _fit(residuals, guess, scale):
 
 
 def _free(time, parameters):
-    """Return free decays of unit mass at the times, one for each column of parameters."""
+    """Return displacements of free decays of unit mass, shape (times, columns of parameters)."""
     import numpy as np
     from scipy.integrate import solve_ivp
 
@@ -201,7 +202,7 @@ def _decay(time, measured):
 
 
 def _resonance(w, amplitude, force):
-    """Return a guess of k, c, k3 and m from the balance, which is linear in k, k3 and m."""
+    """Return a guess of k, c, k3, m and their scales; given c the balance is linear in the rest."""
     import numpy as np
 
     top = np.argmax(amplitude)
@@ -234,7 +235,7 @@ def _read(data, kinds):
 
 
 def _columns(path, kinds):
-    """Return a list of numbers in SI units for each kind of column of a CSV file."""
+    """Return the columns of a CSV file that `kinds` name, as tuples of numbers in SI units."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         reader = csv.DictReader(file)
         matches = filter(None, map(COLUMN.fullmatch, reader.fieldnames or ()))

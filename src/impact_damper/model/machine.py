@@ -12,11 +12,11 @@ from impact_damper.model.text import with_unit
 from impact_damper.model.units import Scales, check_si, convert, optional, physical
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
-# Acceleration of gravity, m/s^2, and allowed angles (radian) and friction coefficients.
+# Acceleration of gravity, m/s^2. Ranges of the angle (radian) and of the friction coefficient.
 GRAVITY = 9.81
 ANGLES = {"least": 0, "most": 1.5708}
 FRICTIONS = {"least": 0, "most": 10}
-# Keys of a damper in a machine's file that are arguments of `mounting`.
+# Keys of a damper in a machine's file that `mounting` takes and `MachineDamper` does not.
 MOUNT = ("inclination", "friction_coefficient", "normal_force")
 GRAVITIES = {"least": -1e3, "most": 1e3}
 # Largest damping ratio. At 1, critical damping, the machine no longer vibrates.
@@ -24,7 +24,7 @@ MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """A value that a machine computed from other values; a copy of the machine computes anew."""
+    """A value that a machine computed from other values; each copy of the machine computes anew."""
 
 
 @bounds.names_arguments
@@ -53,7 +53,7 @@ class MachineDamper:
         """Raise ValueError, with the range allowed, if the damper does not fit a machine.
 
         The gap must exceed the static play, the compression of both contacts under the force on the
-        loose mass m2. This force is the fraction m2/(m1 + m2) of the machine's static force.
+        loose mass m2. This force is m2/(m1 + m2) times the static force on the machine's mass m1.
         """
         scales = machine.scales
         gaps = scales.range_to_si(bounds.CLEARANCE_RANGE, "gap")
@@ -96,7 +96,7 @@ class Machine:
     linear_stiffness x + cubic_stiffness x^3. The natural frequency may be given in place of the
     linear stiffness. Give one of damping_ratio, quality_factor and damping, and one excitation.
     Functions that take a machine take frequencies in Hz and states in m and m/s, and return
-    datasets in mm, Hz, N, m/s and s. The force of an unbalance is unbalance w^2. On a moving base
+    datasets in mm, Hz, N, m/s and s. An unbalance has the force unbalance w^2. On a moving base all
     displacements of the machine are relative to the base, whose acceleration acts on both masses.
     The deflection is measured from rest under the weight of the machine.
 
@@ -177,7 +177,7 @@ class Machine:
             )
 
     def _derive(self):
-        """Compute stiffness, natural frequency and damping ratio from values in their place."""
+        """Compute stiffness or natural frequency, and the damping ratio from the quality factor."""
         if self.natural_frequency is None:
             found = math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
             object.__setattr__(self, "natural_frequency", Derived(found))
@@ -245,9 +245,10 @@ class Machine:
         return Scales(length, time, self.mass, si=True)
 
     def _static_deflection(self):
-        """Return the deflection under the excitation, m.
+        """Return the deflection under the force or under the base's acceleration, m.
 
-        Without excitation: the deflection of equal linear and cubic forces, or 1 mm if one is 0.
+        For an unbalance: unbalance/mass. For a base's displacement: its amplitude. Without these
+        excitations: the deflection of equal linear and cubic forces, or 1 mm if one is 0.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
@@ -264,7 +265,7 @@ class Machine:
     def resonant_displacement(self) -> float:
         """Displacement of a linear machine at resonance, m: static deflection times max(1, m w/c).
 
-        w^2 is the stiffness at the static deflection divided by the mass.
+        w^2 is the secant stiffness, at the static deflection, divided by the mass.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -306,7 +307,7 @@ class Machine:
         return self.force or 0.0, self.unbalance or 0.0
 
     def check_frequency(self, name, value) -> float:
-        """Return a forcing frequency in Hz, or raise an error that names the allowed range."""
+        """Return a forcing frequency in Hz, or raise an error if it is out of range."""
         limits = self.scales.range_to_si(bounds.FREQUENCY_RANGE, "frequency")
         return check_si(name, value, "frequency", **limits)
 

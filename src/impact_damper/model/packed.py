@@ -36,7 +36,7 @@ LAG, GRAVITY, FRICTION = range(COUNT - 3, COUNT)
 def pack(oscillator, damper, frequency) -> np.ndarray:
     """Return the parameters as the array that kernels read, shape (COUNT,).
 
-    Without a damper (None) the clearance is infinite and the contact's parameters are 0. Raise
+    Without a damper (None) the clearance is infinite and the damper's other parameters are 0. Raise
     TypeError if an argument has the wrong type. Raise ValueError if W is out of range, or if the
     natural frequency of the contact exceeds MOST_STIFF W.
     """
@@ -70,7 +70,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
 
 def cubic_spring(p) -> tuple:
-    """Return omega_l^2 and k3 for closed forms, which refuse other terms of the spring."""
+    """Return omega_l^2 and k3 for closed forms; other terms of the spring raise ValueError."""
     for name in NONLINEAR:
         value = p[NAMES.index(name.upper())]
         if value and name != "cubic":

@@ -16,8 +16,8 @@ from impact_damper.model.units import UNITLESS, Scales
 def parameter(limits, kind, symbol, meaning, *, machine=None, power=None, **default):
     """Return a dataclass field for a dimensionless number, with all facts about it.
 
-    `kind` is a key of `units.QUANTITIES`. `machine` is the parameter's name in machines, if
-    another. `power` is the power of Z1 in the nonlinear term of the spring with this coefficient.
+    `kind` is a key of `units.QUANTITIES`. `machine` is the parameter's name in machines, if it
+    differs. `power` is the power of Z1 in the term of the spring's force with this coefficient.
     """
     facts = {"bounds": limits, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
     return field(metadata=facts | {"meaning": f"{symbol}, {meaning}"}, **default)
@@ -196,7 +196,7 @@ class Damper:
 
     @property
     def contact_damping(self) -> float:
-        """Damping ratio zeta_c of the contact for this restitution, equation (25)."""
+        """Damping ratio zeta_c of the contact; for "zero_penetration" by equation (25)."""
         return damping_ratio(self.restitution, self.exit_rule) / math.sqrt(1 + self.mass_ratio)
 
     @property
@@ -217,7 +217,7 @@ def beyond_closed_forms(oscillator, damper) -> list:
 
 
 def check_closed_form(oscillator, damper):
-    """Raise TypeError or ValueError if closed forms do not hold for the oscillator and damper."""
+    """Raise TypeError for a wrong damper, ValueError if `beyond_closed_forms` finds a parameter."""
     check_damper(damper)
     why = "must be 0 in closed forms and harmonic balance with a damper; simulate it instead"
     for part, name in beyond_closed_forms(oscillator, damper):
@@ -230,7 +230,7 @@ def parameters_in(part) -> list:
     return [each for each in fields(part) if each.type in (int, float)]
 
 
-# Powers of Z1 in the nonlinear terms of the spring's force, keyed by name; the highest power.
+# Powers of Z1 in the nonlinear terms of the spring's force, keyed by name. SPRING_POWER: highest.
 NONLINEAR = {
     each.name: each.metadata["power"]
     for each in parameters_in(Oscillator)

@@ -1,16 +1,16 @@
-"""Numbers as text for people; only this module rounds numbers and names missing numbers.
+"""Numbers as text for people: rounded, with units, and "none" for a missing number.
 
 This module imports no NumPy, because Snakemake reads it at every dry run.
 """
 
 import math
 
-# Numbers from 1 to 10**POSITIONAL are written without an exponent.
+# Rounded numbers from 1 to below 10**POSITIONAL are written without an exponent.
 POSITIONAL = 5
 
 
 def number(value, digits=3) -> str:
-    """Return a number with at most `digits` digits, such as "0.215" or "2e7"; NaN is "none"."""
+    """Return a number with `digits` significant digits, such as "0.215", "2e7"; NaN is "none"."""
     value = float(value) + 0.0  # -0.0 becomes 0.0
     if not math.isfinite(value):
         return "none" if math.isnan(value) else "∞" if value > 0 else "-∞"
@@ -24,7 +24,7 @@ def number(value, digits=3) -> str:
 
 
 def percent(share, digits=3) -> str:
-    """Return a share in per cent; only a share of exactly 1 becomes "100 %"."""
+    """Return a share in per cent; a share below 1 never becomes "100 %"."""
     if 0.9 < share < 1:  # rounding must not make it 1
         digits = max(digits, 1 - math.floor(math.log10(1 - share)))
     text = number(100 * share, digits)
@@ -32,7 +32,7 @@ def percent(share, digits=3) -> str:
 
 
 def with_unit(value, unit, digits=6) -> str:
-    """Return a number with its unit; the unit "1" of a pure number is left out."""
+    """Return a number with its unit; the unit "1" and the unit of "none" are left out."""
     text = number(value, digits)
     return text if text == "none" or unit in ("", "1") else f"{text} {unit}"
 

@@ -1,6 +1,6 @@
 """Physical quantities in SI units, and the scales that make the equations dimensionless.
 
-The import of pint takes a third of a second. So only a value with a unit causes the import.
+The import of pint takes a third of a second. A plain number does not cause this import.
 """
 
 import math
@@ -137,7 +137,7 @@ def check_si(name, value, quantity, **bounds) -> float:
 
 
 def absolute_value(value, quantity) -> float | None:
-    """Return a deviation in the SI unit of a quantity; None if the deviation is a fraction."""
+    """Return a deviation with a unit of the quantity in SI units; None otherwise (a fraction)."""
     if quantity is None or not (isinstance(value, str) or hasattr(value, "units")):
         return None
     try:
@@ -167,7 +167,7 @@ def convert(part) -> None:
 
 
 class Scales(NamedTuple):
-    """Scales of a machine in SI units: length x0, time 1/w0, mass m1; all 1 for an `Oscillator`.
+    """Scales of a machine in SI units: length x0, time 1/w0, mass m1; all 1 without units.
 
     If `si` is true, users give values in SI units, and messages and results are in SI units.
     """
@@ -180,7 +180,7 @@ class Scales(NamedTuple):
     def unit(self, kind) -> float:
         """Return the SI value of the dimensionless number 1 of a kind, a key of QUANTITIES.
 
-        A frequency in Hz is W/(2 pi), and a gap is twice the clearance.
+        A frequency in Hz is W w0/(2 pi), and a gap is twice the clearance. Without units all are 1.
         """
         if not self.si:
             return 1.0
@@ -205,13 +205,13 @@ class Scales(NamedTuple):
         }
 
     def read(self, name, value, kind, **bounds) -> float:
-        """Return an argument in the unit of the user as a dimensionless number."""
+        """Return an argument, given in the user's unit, as a dimensionless number."""
         if not self.si:
             return check_number(name, value, **bounds)
         return self.from_si(check_si(name, value, kind, **self.range_to_si(bounds, kind)), kind)
 
     def told(self, name, value, kind) -> str:
-        """Return "name = value" with a dimensionless value in the unit of the user."""
+        """Return "name = value" for a dimensionless value, shown in the user's unit."""
         if not self.si:
             return f"{name} = {number(value, 6)}"
         return f"{name} = {with_unit(self.to_si(value, kind), QUANTITIES[kind].unit, 5)}"

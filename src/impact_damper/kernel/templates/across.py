@@ -1,7 +1,7 @@
 """Template (see `step`): acceleration across, which is Z2'' - Z1'' without the force of a wall.
 
-The acceleration across is DRAW - BASE A cos(W T). DRAW is the sum of friction and of gravity along
-the gap. The other term is the acceleration of a moving base from which Z1 is measured. SWAY is the
+The acceleration across is DRAW - BASE A cos(W T). DRAW is gravity along the gap plus the friction
+of a sliding mass. The other term is due to a moving base, from which Z1 is measured. SWAY is the
 double integral of the acceleration across, from the beginning of the step.
 """
 
@@ -10,18 +10,18 @@ SMALL = 0.5
 
 
 def is_outside(a, i):
-    """Return whether the loose mass of a flight begins behind the surface of the unloaded wall."""
+    """Return whether a loose mass that does not stick begins a flight behind an unloaded wall."""
     return abs(a[Y2 + i]) > a[CLEARANCE + i] and a[STUCK + i] == 0.0
 
 
 def load_across(a):
-    """Compute ACROSS at the beginning of the step, its bound MOST, and SWAYS, 0 if nothing acts."""
+    """Compute ACROSS as the step begins, its bound MOST, and SWAYS, which is 0 if nothing acts."""
     acting = 0
     rough = 0
     for i in range(LANES):
         acting += 1 if abs(a[GRAVITY + i]) + a[BASE + i] + a[FRICTION + i] > 0.0 else 0
         rough += 1 if a[FRICTION + i] > 0.0 else 0
-    # All rows are 0 in steps in which nothing acts.
+    # If nothing acts now or acted in the last step, the rows are already 0.
     if acting > 0 or a[SWAYS] > 0.0:
         for i in range(LANES):
             a[DRAW + i] = a[GRAVITY + i]
@@ -52,7 +52,7 @@ def find_sway(a):
             half = math.sin(0.5 * angle)
             series = (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0))) / 6.0
             series += (square * square) * (square * square) / 39916800.0
-            # (1 - cos x) / x^2 and (x - sin x) / x^3.
+            # `first` is (1 - cos x) / x^2, and `second` is (x - sin x) / x^3, for x = `angle`.
             first = 2.0 * half * half / square if square > 1e-16 else 0.5
             second = series if square < SMALL * SMALL else (angle - sine) / (angle * square)
             c = a[BASE_COSINE + i]
@@ -82,8 +82,8 @@ def find_return(a):
 
     The wall pushes again once f = q + LAG q' rises to zero at a depth q > 0. Without such a time a
     contact begins at q = 0 as usual. MODE, WALL, T and the rows END_ are set as by `find_contact`,
-    except that MODE becomes MET_DEEP for a contact at a depth. f falls, and no search is needed, if
-    the speed -q' out of the wall certainly exceeds LAG times a bound on |q''|.
+    except that MODE becomes MET_DEEP for a contact at a depth. No search is needed if f certainly
+    falls, as -q' exceeds LAG times a bound on |q''|, and if the other wall is out of reach.
     """
     flight_bound(a)
     flight_jerk(a)
@@ -125,11 +125,11 @@ def step_outside(a, i, t):
     slope = wall * w
     f = q + lag * slope
     rise = slope + lag * wall * (a[Z1_CURVE + i] + a[SWAY_CURVE + i])
-    # Z2 and Z2' are computed from Z1 and Z1', whose rounding errors may exceed that of d0.
+    # Z2 and Z2' are computed from Z1 and Z1'. The rounding errors of these may exceed d0's error.
     fine = abs(a[Y0 + i]) + clearance + lag * (abs(a[Y1 + i]) + abs(slope))
     fine *= ROUNDING
     bent = bound + lag * a[JERK_BOUND + i]
-    # Both q and f must be positive for a contact with this wall.
+    # A contact with this wall needs both q and f to reach 0.
     deep = safe_advance(-q, slope, bound) if q <= fine else 0.0
     pressed = safe_advance(-f, rise, bent) if f <= fine else 0.0
     across = safe_advance(2.0 * clearance + q, -slope, bound)

@@ -22,7 +22,7 @@ def first_guess(a, i):
 def distance_ahead(a, i, t):
     """Return the distance f to the WALL at t, the Newton step -f/f' to its root, and f''/f'.
 
-    Before the call Z1, Z1_SLOPE and Z1_CURVE must hold Z1 and its first two derivatives at t.
+    Before the call the rows of Z1 and of SWAY, up to CURVE, must hold their values at t.
     """
     z, w = loose_mass(a, i, t)
     closing = a[WALL + i] * w
@@ -51,7 +51,7 @@ def expect_contact(a):
 
 
 def guess_contact(a):
-    """Move T to the expected contact in lanes whose MODE is BRACKET, otherwise to LENGTH."""
+    """Move T to a contact expected before LENGTH, in mode BRACKET only; otherwise to LENGTH."""
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
     flight_early(a)
@@ -67,15 +67,15 @@ def find_contact(a):
     """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
 
     If there is such a time, MODE becomes MET, and WALL is the wall that is met. If there is
-    certainly none, MODE becomes MISSED, and T keeps its value. END_Z1 and END_Z1_SLOPE must hold Z1
-    and Z1' at T before the call; they are updated with T. A T below LENGTH means that
-    `expect_contact` expects a contact at T; the contact may lie slightly later.
+    certainly none, or if APART > 0, MODE becomes MISSED, and T keeps its value. END_Z1 and
+    END_Z1_SLOPE must hold Z1 and Z1' at T before the call; they are updated with T. If T is below
+    LENGTH, `expect_contact` expects a contact at T; the contact may lie slightly later.
 
-    Bounds decide most flights without a search, for any spring. `change` is the sum of the moduli
-    of all terms of Z2' at T after the first term. The loose mass first moves to the wall ahead.
+    Bounds decide most flights without a search, for any spring. `change` bounds the change
+    of Z2' by the moduli of terms of Z1' and by MOST. First Z2' points to the wall ahead.
 
     - `clear`: Z2 deviates from its chord, the straight line between the ends of the flight, by at
-      most SAG `change` T. The wall ahead is not met if it is further away at both ends.
+      most SAG `change` T. The wall ahead is not met if both ends are further from this wall.
     - `left`: the chord gives a lower bound on the distance to the wall behind, and the first speed
       minus `change` gives another. If the mean of both bounds is positive, this wall is not met.
     - `certain`: the speed at each end gives a lower bound on the speed. If the mean of both bounds

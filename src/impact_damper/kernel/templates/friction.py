@@ -6,7 +6,7 @@ masses move together,
 
     (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T)),
 
-while the friction that holds them together, per unit of loose mass, stays below FRICTION.
+while the friction that holds them together, per unit of loose mass, has a modulus below FRICTION.
 """
 
 
@@ -177,9 +177,9 @@ def wall_force_held(a, i):
 
 
 def end_turn(a):
-    """After a turn set Z2' to 0; after a slip set Z2' to a tiny number with the sign of SLIDE.
+    """Set Z2' to 0 after a turn and while a mass sticks, to a tiny SLIDE number after a slip.
 
-    A loose mass that sticks keeps its Z2.
+    A loose mass that has stuck during the step keeps its Z2.
     """
     for i in range(LANES):
         slipped = a[STUCK + i] > 0.0 and a[MODE + i] == TURNED
@@ -201,7 +201,7 @@ def friction_jump(a, d):
     """Multiply tangents by the saltation matrix of a turn, and undo `keep_tangents`.
 
     At a turn friction jumps by J, and Z2'' before the turn is b. With w for Z2' of the tangent, the
-    tangent's Z1' and Z2' jump by -rm w J/b and -(1 + rm) w J/b. If the mass sticks, w becomes 0.
+    tangent's Z1' jumps by -rm w J/b, and w by -(1 + rm) w J/b. If the mass sticks, w becomes 0.
     """
     for i in range(TANGENTS):
         j = i % LANES

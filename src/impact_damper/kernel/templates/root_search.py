@@ -1,12 +1,12 @@
 """Template (see `step`): search for the first root of an event function f(t) within a step.
 
 In flight f is the distance of the loose mass to a wall, and its root is the beginning of a contact.
-In contact f is the penetration, and its root is the separation. The row MODE has one of the modes:
+In contact f is q + LAG q' (`separation`), and its root is the separation. The row MODE has a mode:
 
     MARCH     several roots are possible. A bound on |f''| gives a time within which f cannot
               vanish. The search advances by such times, so that it never passes the first root.
     BRACKET   at most one root is possible. A safeguarded iteration of third order finds it.
-    ENDING    the search has reached the end of the step in mode MARCH without a root.
+    ENDING    the search is at the end of the step, and there is no root before.
     MET       the root has been found.
     MISSED    the step certainly contains no root.
     MET_DEEP  a contact begins at a depth behind the wall's surface (`across.find_return`).
@@ -16,7 +16,7 @@ In contact f is the penetration, and its root is the separation. The row MODE ha
 # Relative rounding error of an event function, 4 units in the last place.
 ROUNDING = 2.0**-50
 # Largest ratio of the first neglected term to the tolerance at which the iteration for a root ends.
-# The size of this term is (move / bending time)^3, where the bending time is |f'/f''|.
+# The size of this term is (move / bending time)^3. The bending time is at most |f'/f''|.
 LAST_MOVE = 0.01
 MARCH, BRACKET, ENDING, MET, MISSED, MET_DEEP, TURNED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0
 # TINY prevents divisions by zero. FAR replaces infinity, because 0 times infinity is NaN.
@@ -54,7 +54,7 @@ def chebyshev(first, bend):
 
 
 def is_last_move(a, i, move, rate):
-    """Return whether the terms neglected in a move are far below the tolerance (LAST_MOVE)."""
+    """Return whether terms neglected in a move are below LAST_MOVE x tolerance or ROUNDING."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -89,7 +89,7 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
 
 def store_end(a, i, row, end, move, going):
-    """Store value and slope after a move in the row `end` and the next one, if `going` is true.
+    """If `going`, store the value after a move in the row `end`, and the slope in the next row.
 
     The four rows from `row` on hold the value and three derivatives before the move.
     """
@@ -102,7 +102,7 @@ def store_end(a, i, row, end, move, going):
 
 
 def store_search(a, i, mode, t, move):
-    """Store time, mode and Z1 of a search after a move; return 1 if the search goes on, else 0."""
+    """Store T, MODE, END_Z1 and its slope after a move; return 1 if the search goes on, else 0."""
     going = a[MODE + i] <= ENDING
     a[T + i] = t
     a[MODE + i] = mode

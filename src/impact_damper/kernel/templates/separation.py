@@ -4,11 +4,11 @@ A contact ends when q + LAG q' falls to zero, where q is the penetration. With L
 paper's rule: the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the wall's force is then 0.
 """
 
-# Longest step while the penetration grows, and while it shrinks, in natural periods of the contact.
+# Longest step, in natural periods of the contact: DEEPENING while q grows, RETURNING while q falls.
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
-# Largest relative increase of the rate at which the phase of the contact turns (`find_separation`).
+# Largest relative deviation of the rate at which a contact's phase turns (`find_separation`).
 # With this margin the phase turns by less than 0.55 * 1.25 < 3/4 of a turn while the penetration
-# grows, and by 0.4 * 1.25 = 1/2 while it shrinks. A step thus contains at most one separation.
+# grows, and by less than 0.4 * 1.25 = 1/2 while it shrinks. So a step has at most one separation.
 PHASE_MARGIN = 0.25
 
 
@@ -45,7 +45,7 @@ def predict_separation(a):
         longest = (LONGEST_DEEPENING if w >= 0.0 else LONGEST_RETURNING) * 2.0 * math.pi / natural
         length = min(a[LONGEST + i], longest)
         # A contact that has just begun (q = 0) lasts half a damped natural period plus a correction
-        # by the mean of the acceleration g without the wall. With q > 0, g is neglected.
+        # by the mean of the acceleration g without the wall. Otherwise g is neglected.
         g = a[COSINE + i] - spring(a, x, i, LANES) - h * v
         slope = spring_slope(a, x, i, LANES)
         drift = -a[FREQUENCY + i] * a[SINE + i] - slope * v - h * g
@@ -66,7 +66,7 @@ def find_separation(a):
 
     Before the call T is a guess. If there is a separation, MODE becomes MET. If there is certainly
     none, T becomes LENGTH and MODE becomes MISSED. END_Z1, END_DEPTH and the rows of their slopes
-    receive the values of Z1, of the penetration q and of both slopes at T.
+    receive Z1, the depth Z2 -+ d0 (q with the sign of the wall) and both slopes at T.
 
     The penetration obeys q'' = g - w^2 q - D q' with the natural frequency w of the contact and
     D = DASHPOT (1 + 1/rm). |g| is at most G, the sum of the moduli of the terms of g. The radius

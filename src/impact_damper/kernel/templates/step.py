@@ -1,7 +1,7 @@
 """One Taylor step of the integration, for one trajectory or several side by side.
 
-The trajectories of a step are all in flight or all in contact. The step integrates each of them to
-its next event, the beginning or end of a contact, or over the longest admitted time.
+The trajectories of a step are all in flight or all in contact. The step integrates each to its next
+event (a contact begins or ends, the mass turns or slips), or over the longest admitted time.
 
 The files in this folder are templates. `instances.instance` joins them into one module for a number
 of lanes (trajectories side by side) and orders of the Taylor series in flight and in contact. The
@@ -15,18 +15,18 @@ ONE = 1023 << 52
 # Largest ratio of the last terms of a series to the tolerance. Contacts amplify local errors; with
 # this ratio the error of settled motions stays below 10 times the tolerance.
 SAFETY = 0.05
-# Ratio of the last terms to `largest_tail` above which a flight is shortened. The length of a
-# flight is predicted. With a ratio of 1 many flights would be computed twice.
+# Ratio of the last terms to `largest_tail` above which a flight is shortened. Lengths are
+# predicted, so with a ratio of 1 many flights would be computed twice.
 EXCESS = 4.0
 # Longest flight that begins behind the surface of the unloaded wall (`across.is_outside`), in units
-# of LAG, the time in which a free wall returns to 1/e of its penetration.
+# of LAG, the time in which an unloaded wall returns to 1/e of its penetration.
 OUTSIDE = 2.0
 # Largest distance from the wall, over the clearance, at which a flight of length 0 ends in contact.
 NEAREST = 1e-9
 
 
 def largest_tail(a, i):
-    """Return the largest allowed modulus of the last terms of the series of Z1'."""
+    """Return the largest allowed modulus of the last terms of the velocities' series."""
     return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
 
 
@@ -34,8 +34,8 @@ def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a series' derivative stay below `largest_tail`.
 
     Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. The new LENGTH is an
-    n-th root of `largest_tail` divided by a coefficient. It is computed from the bits of both
-    numbers, which are nearly proportional to logarithms. Its error is a few per cent.
+    n-th root of the ratio of `largest_tail` to a coefficient. The root is computed from the bits of
+    both numbers, nearly linear functions of their logarithms. Its error is a few per cent.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
@@ -142,7 +142,7 @@ def flight_step(a):
 
 
 def shorten_outside(a):
-    """Shorten LENGTH in lanes whose loose mass begins behind the surface of the unloaded wall."""
+    """Shorten LENGTH and T in lanes whose loose mass begins behind an unloaded wall."""
     for i in range(LANES):
         shorter = min(a[LENGTH + i], OUTSIDE * a[LAG + i])
         a[LENGTH + i] = shorter if is_outside(a, i) else a[LENGTH + i]
@@ -183,7 +183,7 @@ def dashpot_jump(a, d, direction):
     """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
 
     The dashpot's force begins (direction -1) or ends (direction +1). Only this force jumps.
-    Therefore the tangent jumps in proportion to its Z2, and the matrix has determinant 1. A wall's
+    Therefore the tangent's velocities jump in proportion to its Z2; the determinant is 1. A wall's
     force that begins or ends at a depth is 0 there and does not jump.
     """
     for i in range(TANGENTS):
