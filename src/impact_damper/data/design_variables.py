@@ -70,7 +70,8 @@ unsettled_share | promise_frequency | | | share of motions at nominal values tha
 settling_late | promise_frequency | | | cycles in which 95 % of the motions that settle have settled
 # search
 searched_gap | searched | displacement | | gap of the search
-searched_displacement | searched | displacement | | largest displacement of the starts
+searched_displacement | searched | displacement | | displacement that about (1 - share)/2 of the
+  starts exceed; for gaps that were tried the promised displacement
 searched_tolerated | searched | displacement | | largest displacement within the gap tolerance
 # additions
 addition | addition | | | result that was computed in addition to the decision

@@ -59,7 +59,7 @@ def register(table) -> None:
 
 
 def _named_values(text):
-    """Return the flags that a text such as "absent 0, found 1" or "outcome" describes, or None."""
+    """Return the flags that a text lists, or the flags of a variable it names; None if empty."""
     text = text.strip()
     if not text or text in VARIABLES:
         return VARIABLES[text].flags if text else None

@@ -178,7 +178,7 @@ class Motions:
         self.peaks[k, loud] = np.maximum(before, peaks[loud].max(axis=1))
 
     def _settle(self, k, places):
-        """Mark the motions of cell k that have settled meanwhile, and return their mask."""
+        """Run motions of cell k on, mark those that settle, and return their mask."""
         effort = self.task.effort
         found = ensemble.settle(
             np.repeat(self.parameters[k : k + 1], len(places), axis=0),

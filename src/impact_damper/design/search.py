@@ -175,9 +175,9 @@ def middle_gap(first, last) -> float:
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
     """Return displacements (mm) at gaps (mm), and the worst frequency and set of factors of each.
 
-    Displacements are the largest over frequencies and sets. In each cell the largest motions are
-    left out, the fraction (1 - share)/2. The displacement of a motion that has not settled is
-    RECORD times its largest displacement so far.
+    Displacements are the largest over frequencies and sets. In each cell the fraction (1 - share)/2
+    of the motions, rounded to a whole number of the largest, is left out. The displacement of a
+    motion that has not settled is RECORD times its largest displacement so far.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
@@ -190,7 +190,7 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
 
 
 def search(task, progress=None, rounds=ROUNDS) -> Curve:
-    """Return the curve over all gaps, refined at its jumps and where it is small."""
+    """Return the curve over all gaps, refined where it is small, and there finest at jumps."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = np.geomspace(*task.gap_span, min(GAPS, 3 * task.effort.candidates + 4))
     first = score(task, gaps, few, STARTS, ("search",), progress)

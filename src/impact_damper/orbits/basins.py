@@ -1,8 +1,8 @@
 """Basins of attraction in a plane of states, without or with a damper; robustness of attractors.
 
 Without a damper the boundaries of basins are stable manifolds of unstable orbits. A manifold is
-computed backwards in time, in which nearby curves approach it: errors decrease. It is followed
-within the half widths `reach` of Z1 and Z1', and kept within the half widths `window`.
+computed backwards in time, so that nearby curves approach it: errors decrease. It is followed
+within the half widths `reach` of Z1 and Z1'. The parts within the half widths `window` are stored.
 The names *convergence time*, *finite-time basin stability* and *minimal critical shock* come from
 Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
@@ -39,9 +39,9 @@ from impact_damper.orbits.shooting import find_orbit
 WIDTH = 1.5
 # Number of states on each axis of the grid of first guesses for unstable orbits.
 NEWTON = 16
-# Number of unresolved states from which further attractors are searched for.
+# From TRIED to 2 TRIED unresolved states, or all if fewer, further attractors are searched for.
 TRIED = 64
-# Z2 of the loose mass, divided by the clearance. Every state of the plane is run with each value.
+# Z2, divided by the clearance. By default every state of the plane is run with each value.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
 CELLS_RANGE = {"least": 2, "most": 10**4}
 
@@ -49,7 +49,7 @@ CELLS_RANGE = {"least": 2, "most": 10**4}
 class Labelled(NamedTuple):
     """Labels (m, n) of n plane states with m states of the loose mass, and attractors' `records`.
 
-    `periods` (m, n): cycles until a label is known. `label` returns both for more states (k, 4).
+    `periods` (m, n): cycles until a label is known. `label` finds both for states (k, 4).
     """
 
     labels: np.ndarray
@@ -95,11 +95,11 @@ def basins(
         Phase W T of the forcing at which the states are given, radian.
     loose : sequence of float, optional
         With a damper: Z2 and Z2' of all states. By default each state is run five times, with the
-        loose mass at relative rest at five places in the gap. The result is the share of places
-        that lead to each attractor.
+        loose mass at relative rest at five places in the gap. The result then includes the share
+        of places that lead to each attractor.
     shock : float, optional
         Impulse on the primary mass, N s for a machine, otherwise divided by the primary mass. The
-        result is the time after which a motion on an attractor has returned to the attractor.
+        result then includes the time after which motions have returned to their attractor.
     within : int
         Time limit of the finite-time basin stability, in forcing cycles.
     settling : Settling, optional
@@ -112,12 +112,12 @@ def basins(
     -------
     xarray.Dataset
         For each state of the grid: the number of its attractor, or a negative flag with the reason
-        why there is none; and the convergence time, the forcing cycles until this is known. For
-        each attractor: period, size, points at the phase of the plane, share of the states, and
-        (in the terms of Attractors.jl)
+        why there is none; and the convergence time: forcing cycles until the attractor is known, or
+        -1. For each attractor: period, size, points at the phase of the plane, share of the states,
+        and (in the terms of Attractors.jl)
 
         - the median convergence time, and the longest after `shock`, infinite without a return;
-        - the finite-time basin stability: the share of states that converge `within` the limit;
+        - the finite-time basin stability: the share of states that reach it in `within` cycles;
         - the minimal critical shock: the smallest impulse at the phase of the plane after which the
           motion does not return. The search begins with 256 steps to the plane's largest speed.
 
@@ -418,7 +418,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return which shocks to an attractor's states lead away, and cycles until this is known."""
+    """Return for each shock if it leads away from an attractor, and cycles until this is known."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))

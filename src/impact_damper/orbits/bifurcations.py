@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.orbits.continuation import Point, point_at_distance
 
-# The place of an event is its distance from the beginning of a step, along the branch.
+# The place of an event is its distance along the tangent at a step's beginning, or a height.
 # Largest tolerance of the place of a bifurcation, divided by the length of the step.
 FINE = 1e-3
 # Tolerance of the place of a change of contact, divided by the larger of 1 and the step's length.
@@ -40,30 +40,30 @@ class Event(NamedTuple):
 
 
 def _reversal(point, symmetric):
-    """Return the product of mu + 1 over the multipliers mu of a cycle.
+    """Return the `_product` of mu + 1 over the multipliers mu of a cycle.
 
-    The cycle of a symmetric orbit is half its period. The orbit loses its symmetry where mu = -1.
-    An asymmetric orbit doubles its period there. Return 1 if `symmetric` does not fit the orbit.
+    The cycle of a symmetric orbit is half its period. At mu = -1 a symmetric orbit loses its
+    symmetry, and an asymmetric one doubles its period. Return 1 if `symmetric` does not fit.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0
 
 
 def _pairs(point):
-    """Return the product of mu_i mu_j - 1 over all pairs, 0 if a conjugate pair has modulus 1."""
+    """Return the `_product` of mu_i mu_j - 1 over pairs, 0 if a conjugate pair has modulus 1."""
     values = point.orbit.multipliers[: point.orbit.active]
     first, second = PAIRS[len(values)]
     return _product(values[first] * values[second] - 1)
 
 
 def _product(values):
-    """Return a number with the sign of a product of complex numbers, and no overflow."""
+    """Return the real product of complex numbers, each divided by its modulus if that exceeds 1."""
     return float((values / np.maximum(1, np.abs(values))).prod().real)
 
 
-# For each kind of bifurcation: the function of a point whose zero is the bifurcation, and the
-# tolerance of the place of the zero. The tolerance is larger at a fold: Newton's method is nearly
-# singular there, and the parameter changes with the square of the distance.
+# For each kind of bifurcation: a function of points, which is zero at the bifurcation, and the
+# largest tolerance of the place of the zero. The tolerance is larger at a fold: Newton's method is
+# nearly singular there, and the parameter changes with the square of the distance.
 TESTS = {
     "fold": (lambda point: point.tangent[-1], 1e-7),
     "symmetry_breaking": (partial(_reversal, symmetric=True), 1e-11),
@@ -73,7 +73,7 @@ TESTS = {
 
 
 def bifurcations_between(point_at, start, end, first, last):
-    """Locate bifurcations between two points; return pairs (place, event) and the number lost."""
+    """Locate bifurcations between two points; return pairs (place, event) and how many are lost."""
     located, lost = [], 0
     for kind, (test, precision) in TESTS.items():
         if test(start) * test(end) >= 0:
@@ -90,7 +90,7 @@ def bifurcations_between(point_at, start, end, first, last):
             place = brentq(value, first, last, xtol=tolerance)
             point = known[place]
             if not point.orbit.stable and abs(point.orbit.multipliers[0]) < 1 + NEAR_CIRCLE:
-                # Move the point to the stable side of the bifurcation, if there is one.
+                # Move the point to the stable side of the bifurcation, if one side is stable.
                 sides = (place - 2 * tolerance, place + 2 * tolerance)
                 beside = [point_at(side) for side in sides if (side - first) * (side - last) < 0]
                 point = next((each for each in beside if each.orbit.stable), point)

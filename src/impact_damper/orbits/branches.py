@@ -15,7 +15,7 @@ from impact_damper.orbits.segments import NUDGE
 MOST_POINTS = 10_000
 # Largest difference at W T = pi/2 between states of equal orbits.
 SAME = 1e-5
-# Largest difference of max |Z1| between an orbit and a step of a branch that may hold the orbit.
+# A step may hold an orbit if max |Z1| differs by at most NEARBY plus its change on the step.
 NEARBY = 0.02
 # Largest distance beyond the range of the parameter to which packed parameters are extrapolated.
 EXTENDED = 1e-3
@@ -24,10 +24,11 @@ WEAK = 0.02
 # Largest ratio of `Orbit.deviation` at a fold to the deviation at the point before, if the branch
 # meets a branch of more symmetry (symmetric orbits, or half the period) at the fold.
 VANISHED = 0.5
-# Longest failed step after which a grazing is searched for; reach of the search, in step lengths.
+# CLOSE_STEP: longest failed step after which a grazing is searched for, and longest accepted step
+# that changes contacts. REACH: reach of the search, divided by the length of the step.
 CLOSE_STEP, REACH = 2e-3, 8.0
-# Shortest step that is halved, because an event was not located, or because the step may contain
-# two folds or cross another branch.
+# Longest step that is accepted although an event was not located, or although the step may contain
+# two folds or cross another branch. A longer step of this kind is halved.
 CLEAR_STEP = 1e-4
 
 
@@ -36,10 +37,10 @@ class Branch:
     """A branch of orbits. The function `family` maps the parameter to packed parameters.
 
     `events` are pairs of the index of a point and an event. `ends` are the reasons why the branch
-    ends at its first and last point: at an end of the range, as a closed curve, at a branch of more
-    symmetry (symmetry_breaking, period_doubling), at a motion without contacts (contact_lost),
-    where Newton's method fails (lost), or after MOST_POINTS or too many unstable orbits. `lost` is
-    the number of events that could not be located.
+    ends at its first and at its last point: range_ends; closed (curve); symmetry_breaking or
+    period_doubling, where it meets a branch of more symmetry; contact_lost; lost, where Newton's
+    method fails; point_limit (MOST_POINTS); or unstable, after too many unstable orbits in a row.
+    The number `lost` counts the events that could not be located.
     """
 
     family: Callable[[float], np.ndarray]
@@ -83,7 +84,7 @@ def between(point, ahead, value):
 
 
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
-    """Follow a branch from an orbit both ways, each way up to `beyond` unstable points in a row."""
+    """Follow a branch both ways from an orbit, to at most `beyond` + 1 unstable points in a row."""
     family = _extended(family, span)
     problem = continuation.Problem.of(family, orbit)
     x, walks = problem.unknowns(orbit, value), []
@@ -172,8 +173,8 @@ def _walk(problem, first, span, beyond) -> Branch:
 def _next_pieces(point, span, length, search):
     """Return the pieces (`_through_grazing`) of the next step, [] if the step must be shorter.
 
-    Also return the factor for the length of the following step, and whether a grazing was searched
-    for. `search` allows this search.
+    Also return the factor from the length of this step to the next attempt, and whether a grazing
+    was searched for. `search` allows this search.
     """
     ahead, factor = continuation.next_point(point, span, length)
     changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
@@ -191,7 +192,7 @@ def _next_pieces(point, span, length, search):
         return [], 0.5, search
     along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
     located, missed = events_between(point, ahead, along)
-    # Where a step crosses a branch of more symmetry, its branch has a fold.
+    # A branch that meets a branch of more symmetry has a fold there.
     crosses = point.orbit.deviation @ ahead.orbit.deviation < 0
     unseen = crosses and not any(event.kind == "fold" for event in located)
     if length > CLEAR_STEP and (missed or unseen):
@@ -200,7 +201,7 @@ def _next_pieces(point, span, length, search):
 
 
 def _ending(piece, first, span):
-    """Return why a branch ends on a piece, or ""; the piece's events; the number of lost events.
+    """Return why a branch ends on a piece, or ""; the events before; whether its meeting is lost.
 
     `first` is the first point of a branch that may be closed, otherwise None.
     """
@@ -243,8 +244,8 @@ def _through_grazing(point, reach):
 def _meeting(events, orbit):
     """Return the index of the event at which a branch meets a branch of more symmetry, or None.
 
-    The meeting is a fold of the branch at which the deviation vanishes. The vector can also reverse
-    without a meeting. If there is no fold, the meeting is lost: return len(events).
+    The meeting is a fold of the branch at which the deviation vanishes. The deviation can also
+    reverse without a meeting. If there is no fold, the meeting is lost: return len(events).
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))

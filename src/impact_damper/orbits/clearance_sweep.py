@@ -55,8 +55,8 @@ def clearance_sweep(
         Increasing clearances d0 on each side of the loose mass. For a machine full play in m, as in
         `Machine.damper`; the clearances of the result are then full play, too.
     method : str
-        "simulated" finds the motions. "harmonic_balance" returns only the amplitude by (7) and the
-        rules.
+        "simulated" finds the motions. "harmonic_balance" returns only the amplitude and the optimum
+        by (7), and the clearances by the rules.
     starts, radius, whole_gap, seed, settling, workers, progress
         As in `frequency_response`, for each clearance.
 
@@ -68,7 +68,7 @@ def clearance_sweep(
         smallest stable solution of (7). Scalars: the optimum of the quiet motion, its kind, and the
         optimum of (7); the clearances by rules (18) and (19), NaN for (19) if the response without
         damper has no peak; rm W^2 d0/f at the optimum, and for straight flight. For each `edge`: an
-        end of the range of clearances in which max |Z1| is within 10 % of its minimum.
+        end of the clearances at which max |Z1| of the quiet motion is within 10 % of its minimum.
 
     Raises
     ------
@@ -157,10 +157,10 @@ def _peak_rule(oscillator, mass_ratio):
 
 
 def _quiet_motions(data, clearances, rule):
-    """Return states and max |Z1| (NaN if absent) of quiet motions by clearance, and a row or None.
+    """Return states and max |Z1| (NaN if absent) of quiet motions by clearance; an index or None.
 
-    A quiet motion has period 1, is symmetric and has two contacts in a cycle. The row has the quiet
-    motion whose clearance is nearest to `rule`. All states lie on the branch of this motion.
+    A quiet motion has period 1, is symmetric and has two contacts in a cycle. The index is of the
+    clearance nearest to `rule` with a quiet motion. The other quiet motions lie on its branch.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -200,8 +200,8 @@ def _stable_part(p, state, span):
 
 # Ratio of max |Z1| to its minimum at the ends of the range of clearances near the minimum.
 NEAR_MINIMUM = 1.1
-# Step of the difference quotient, and largest distance of its zero from the numerical minimum, both
-# divided by the clearance.
+# DIFFERENCE: step of the difference quotient. WIDE: largest distance of its zero from the numerical
+# minimum. Both are divided by the clearance.
 DIFFERENCE, WIDE = 3e-5, 1e-4
 
 

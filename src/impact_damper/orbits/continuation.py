@@ -23,10 +23,10 @@ from impact_damper.orbits.shooting import AMPLIFYING
 # Newton's method: largest number of corrections, and largest change of an unknown by a correction.
 NEWTON, LARGEST = 10, 0.5
 # Newton's method has converged if the residual is a rounding error and in addition
-# - the last correction is below CLOSE, or
-# - the last correction is below ROUNDING and more than half as large as the one before, or
+# - the last correction, by an updated derivative, is below CLOSE, or it is below ROUNDING and more
+#   than half as large as the one before, or
 # - the correction before the last one is below SURE.
-# The method has failed if a correction above SURE exceeds SHRINKING times the one before.
+# With a larger residual it fails if a correction above SURE exceeds SHRINKING times the one before.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative by the parameter is expensive. It is updated only after a correction below REFINED,
 # if the corrections since the last update add up to more than UNMOVED.
@@ -36,8 +36,8 @@ REFINED, UNMOVED = 1e-4, 5e-6
 SINGULAR = 1e-8
 # First and shortest step along a branch, as a distance in the metric of `Problem`.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# Longest step, divided by the length of the vector of unknowns: for symmetric or stable orbits, and
-# for other orbits. Smallest length that is used for the vector of unknowns.
+# LONGEST (for symmetric or stable orbits), LONGEST_UNSTABLE (for others): longest step, divided by
+# the length of the vector of unknowns or, if this is larger, by SMALLEST.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
 # Largest distance of the first guess of `Problem.at_value` from the given point.
 FARTHEST_GUESS = 0.08
@@ -51,7 +51,7 @@ class Point(NamedTuple):
 
     The unknowns `x` are the n = 4 components of the state at the beginning of each segment (without
     a damper n = 2: Z1, Z1'), and the parameter. The `tangent` has the length 1 in the metric of the
-    problem. `bend` and `twist` are its first and second derivative by the length of the branch.
+    problem. `bend` and `twist` are the tangent's first and second derivative by the length.
     """
 
     value: float
@@ -73,7 +73,7 @@ class Problem:
     The function `family` maps the parameter to packed parameters. `loose` is Z2 - Z1 and Z2' - Z1',
     constant without a damper. If `symmetric`, the segments cover half the period and all orbits are
     symmetric. Such equations are regular where an orbit loses its symmetry. `rough` is the
-    largest norm of the derivative of a segment when the orbit was divided, 0 for one segment.
+    largest norm of a segment's derivative after the last `recut`; 0 before, and for one segment.
     """
 
     family: Callable[[float], np.ndarray]
@@ -167,7 +167,7 @@ class Problem:
     def correct(self, x, border, most=np.inf):
         """Return the point that Newton's method reaches from the unknowns x, or None if it fails.
 
-        Corrections are orthogonal to the vector `border`. The first correction is at most `most`.
+        Corrections are orthogonal to `border`. A first correction longer than `most` is a failure.
         """
         x, size, moved, row = x.copy(), np.inf, 0.0, self.metric * border
         rate, slopes = None, None
@@ -321,7 +321,7 @@ def folds_twice(point, ahead):
     return first * (first - middle**2 / (4 * bend)) < 0
 
 
-# Bounds of an orbit that keeps its segments: smallest distance of an edge of a segment from a
+# Bounds of an orbit that keeps its several segments: smallest distance of a segment's edge from a
 # contact, radian; largest norm of a segment's derivative, divided by `Problem.rough`; smallest
 # `Orbit.amplification`, divided by AMPLIFYING.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
@@ -340,7 +340,7 @@ def holds_still(point):
 
 
 def recut(point, between=()):
-    """Return the point with new segments (`segments.cut`), unchanged if Newton's method fails."""
+    """Return the point with one segment or new ones (`segments.cut`), unchanged if this fails."""
     before, orbit = point.problem, point.orbit
     phases, rough = segments.cut(orbit, before.cycle, between), 1.0
     if not between and orbit.amplification <= AMPLIFYING:

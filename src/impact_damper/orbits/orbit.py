@@ -22,18 +22,18 @@ from impact_damper.orbits.segments import flow_all
 
 # Length of a forcing cycle as a phase, radian.
 TURN = 2 * math.pi
-# Largest residual of a converged orbit, divided by its largest state. With contacts the residual is
-# also divided by the natural frequency of contacts, which multiplies rounding errors.
+# Largest residual of a converged orbit, divided by its largest state or 1. With contacts it is, if
+# larger, STIFF_RESIDUAL times their natural frequency, which multiplies rounding errors.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # Smallest distance of the first phase of an orbit from a contact, radian.
 MARGIN = 0.15
-# First size of the log of contacts, divided by the number of forcing cycles.
+# Half the first size of the log of contacts, divided by the sum of forcing cycles and segments.
 CONTACTS = 64
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """A periodic orbit, or an approximation of one, in m segments that begin and end in flight.
+    """A periodic orbit, or an approximation of one, in m segments, best with ends in flight.
 
     p, periods: Packed parameters, and period n in forcing cycles.
     phases: Phases W T at the beginnings of segments and at the last end, shape (m + 1,).
@@ -204,7 +204,7 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """State minus the state half a period later, or minus its mirror image for odd n; (4,).
+        """State minus (for odd n: plus) the state half a period later, shape (4,).
 
         The deviation changes its sign where a branch meets a branch of symmetric orbits or of half
         the period. If `sign` is -1, ones replace the deviation.

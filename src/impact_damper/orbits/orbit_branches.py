@@ -47,7 +47,7 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     Returns
     -------
     xarray.Dataset
-        The variables of `orbit_branches`, with the orbit as the only point. The phase of the state
+        The variables of a point of `orbit_branches`, for the only point. The phase of the state
         lies in a flight. For each `contact`: the wall, and the times and the relative velocities
         Z2' at the beginning and the end.
 
@@ -101,9 +101,11 @@ def orbit_branches(
 
     With a frequency and a state, the function follows the branch of the orbit near the state. With
     datasets of motions, it follows every branch over frequency through a settled motion. It also
-    follows branches that leave such a branch next to stable orbits, if they begin stable or if the
-    first branch has the period 1 or 3. A branch of a period above 1 ends when the periods of
-    unstable orbits in a row exceed 300 forcing cycles together.
+    follows the branches that leave a branch of period 1 or 3, at a period doubling only next to
+    stable orbits. From other branches it follows those of a period up to 9 that begin stable, next
+    to stable orbits. It follows the branch of more symmetry at which a branch of a period up to 4
+    ends. A branch of a period above 1 then ends when the periods of unstable orbits in a row exceed
+    300 forcing cycles together.
 
     Parameters
     ----------
@@ -229,7 +231,7 @@ def _checked_orbit(model, state, period, phase):
 
 
 def _seeds(motions, damper):
-    """Yield period, frequency, max |Z1| and state of each settled motion in the datasets."""
+    """Yield period, frequency, max |Z1| and state of settled motions, if damped with contacts."""
     for data in motions:
         chosen = data["outcome"].values == flag("outcome", "settled")
         if damper is not None:
@@ -245,7 +247,7 @@ def _seeds(motions, damper):
 
 
 # Largest |Z2'| at the beginning of a contact near grazing. Multipliers are valid there only for
-# very small disturbances d, because a term d^(3/2) grows near grazing.
+# very small disturbances d, because the coefficient of a term d^(3/2) grows near grazing.
 SLOW = 0.01
 
 

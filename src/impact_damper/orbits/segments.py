@@ -112,8 +112,9 @@ def sweep(factors, basis, triangles):
 def cut(orbit, cycle, between=()):
     """Return the phases at which an orbit is cut into segments, shape (m + 1,).
 
-    The phases lie in the middle of flights. The norm of a segment's derivative is below AMPLIFIED
-    if possible. The phases `between` divide flights into parts, and each part is always cut.
+    An orbit without contacts is one segment. Otherwise the phases lie in the middle of flights, and
+    the norm of a segment's derivative is below AMPLIFIED if possible. The phases `between` divide
+    flights into parts; each part longer than 2 CLEAR is cut.
     """
     if not orbit.touching:
         return np.array([orbit.phase, orbit.phase + cycle])
@@ -155,14 +156,14 @@ def _sections(orbit, cycle, between):
     return places, [place for place in places if np.min(np.abs(forced - place), initial=1) < 1e-6]
 
 
-# Central difference: change of the parameter; finer change where a contact appears or vanishes;
-# ratio of the difference of the one-sided differences to their sum that shows such a contact.
+# Change of the parameter in central differences: NUDGE, or FINE_NUDGE where a contact appears or
+# vanishes. There the difference of the one-sided differences exceeds BENT times their sum.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 
 @kernel
 def list_turns(p, states, phases, tolerance, turns):
-    """List the extrema of Z2 of a motion in segments (see `survey`); return their number.
+    """List the first n extrema of Z2 of a motion in segments (see `survey`); return how many exist.
 
     The columns of `turns` (n, 4) are the segment; the phase W T; 1 at a maximum of |Z2|, 0 at a
     minimum; and |Z2| minus the clearance.

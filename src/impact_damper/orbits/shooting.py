@@ -31,8 +31,8 @@ def shoot(p, state, periods, phase, *, symmetric=False) -> Orbit:
 def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
     """Find the orbit near a state at a phase W T by Newton's method; see `Orbit.converged`.
 
-    Without contacts only Z1 and Z1' are unknown, and the loose mass rests. The phase of an orbit
-    that is found lies in a flight.
+    Without contacts only Z1 and Z1' are unknown, and the loose mass keeps its state. The phase of
+    an orbit that is found lies in a flight.
     """
     orbit = newton(shoot(p, state, periods, phase))
     if orbit.amplification > AMPLIFYING:

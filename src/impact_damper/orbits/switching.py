@@ -105,8 +105,9 @@ def _at_heights(leaving):
             yield found[0]
 
 
-# Periods of branches from which also unstable new branches are followed; longest period of a new
-# branch from other branches; longest period of a branch that leads to a branch of more symmetry.
+# WHOLE: periods of branches from which new branches are followed that begin unstable, too. STABLE:
+# longest period of a new branch from any other branch. MET: longest period of a branch at whose end
+# a branch of more symmetry is followed.
 WHOLE, STABLE, MET = (1, 3), 9, 4
 # Largest differences of the parameter and of max |Z1| between an event and the end of the branch
 # that leaves there. The end is a fold, whose error is 1e-7 in branch length.
@@ -116,7 +117,7 @@ NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Append to `branches` all branches that leave at an event or that are met at an end.
+    """Append the branches that leave at events (`_new_branch`) or are met at ends, up to MET.
 
     The function `follow` returns the `Branch` of an orbit at a value of the parameter.
     """

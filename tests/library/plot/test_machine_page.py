@@ -177,7 +177,7 @@ def test_motions_that_escape_have_no_size():
 
 def test_what_is_less_sure_is_said_in_the_third_line():
     doubts = said(confirmation="rounds_ended", peak_status="not_known", record_status="still_grows")
-    for words in ("search ended before", "not known to 1 %", "still grew by more than 1 %"):
+    for words in ("search ended before", "not known to 1 %", "extrapolated from the first"):
         assert words in doubts[2] and words not in said()[2]
 
 
