@@ -78,7 +78,7 @@ def no_return(p):
 
 @kernel_only
 def has_escaped(p, x, v):
-    """Return whether a mass is beyond `no_return` and moves outward, or is NaN (soft spring)."""
+    """Return whether Z1 = x moves outward beyond `no_return`, or is NaN with a softening spring."""
     return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 

@@ -24,8 +24,7 @@ class Identified(NamedTuple):
 
     `uncertainties`, keyed by field of the machine, are standard uncertainties in SI units; they
     assume independent errors of equal size. `noise` is the standard deviation of the residuals, in
-    m for a free decay, and as a fraction of the amplitude for a response. `ended` says how the fit
-    ended.
+    m for a free decay, as a fraction of the amplitude for a response. `ended`: how the fit ended.
     """
 
     machine: object

@@ -19,11 +19,11 @@ class Settling:
     tolerance : float
         Largest local error in a step of the integrator, dimensionless.
     patience : int
-        Number of forcing cycles after which a motion is stopped if it is certainly chaotic, or if
+        Number of forcing cycles after which a motion is stopped if it is strongly chaotic, or if
         the loose mass hardly moves and has touched no wall during these cycles.
     limit : int
         Number of forcing cycles after which every motion is stopped: as chaotic if this is certain,
-        as drifting if the mass touched no wall for `patience` cycles, otherwise as undecided.
+        as drifting if on an orbit without contacts for `patience` cycles, otherwise as undecided.
     watched : int
         Number of further forcing cycles in which an unsettled motion is measured.
     further : int

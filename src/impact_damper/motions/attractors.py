@@ -25,7 +25,7 @@ STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # Largest difference of the strobe states of equal free orbits; largest relative difference of max
 # |Z1| of equal damped motions.
 ALIKE, SAME = 1e-6, 1e-5
-# Search for orbits: half width of the region, divided by the largest displacement and speed of the
+# Search for orbits: width of the region, divided by the largest displacement and speed of the
 # free motions; number of grid points on each axis.
 REACH, SEARCHED = 3.0, 24
 # Labels of motions by outcome. A settled motion has the index of its attractor as its label.
@@ -64,7 +64,7 @@ def find_attractors(p, states, settling) -> Attractors:
 
 
 def free_attractors(p, window, settling) -> Attractors:
-    """Return the attractors to which a grid of states leads; `window` holds its half widths."""
+    """Return the attractors to which a grid of states leads; `window`: the grid's half widths."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return find_attractors(p, states, settling)
@@ -140,8 +140,8 @@ def neighbourhood(p, state, periods):
 def _radius(coefficients, step, contraction):
     """Return the largest radius r0 for which `contraction` r(P) < FACTOR r0 after the period P.
 
-    The radius follows r' = a r^2 + b r^3 and grows, so r' is largest at the end of a step. There
-    `ahead` is a bound on r. With r = `ahead`, r(begin) + step (a r^2 + b r^3) is a closer bound.
+    The radius follows r' = a r^2 + b r^3 and grows, so r' is largest at the end of a step. If
+    r(begin) + step (a ahead^2 + b ahead^3) is at most `ahead`, this sum bounds r there.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -255,7 +255,7 @@ def _centres(half, cells):
 
 
 def signed_distance(inside):
-    """Return the distance of each cell from a set's boundary, in cell widths, negative outside."""
+    """Return the distance of cells from a set's boundary, in cell widths, negative outside."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
     # The boundary lies midway between the centres of two cells.

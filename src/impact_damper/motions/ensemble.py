@@ -40,7 +40,7 @@ def settle(
     progress=None,
     stop=None,
 ):
-    """Run motions from states (m, 4) until each has settled; return an array of `records.MOTION`.
+    """Run motions from states (m, 4) until `watch` ends each; return an array of `records.MOTION`.
 
     `parameters` has a row of packed parameters for each motion. `start` is the time T of all
     states, in the forcing cycle before the first strobe. With `from_strobe` the states are at the
@@ -107,7 +107,7 @@ def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes
 
 
 def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
-    """Return the label of each free state, and the number of forcing cycles until it is known.
+    """Return the label of each free state, and the number of forcing cycles that decide the label.
 
     `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`. A label is the index of an orbit in
     `attractors.records`, GONE after an escape, or UNKNOWN after `limit` cycles.

@@ -55,7 +55,7 @@ def follow(
 ) -> Followed:
     """Follow an orbit from one value of a parameter to another, or as far as possible.
 
-    `correct` takes a value and a predicted state (4,). It returns an orbit, None on failure, and a
+    `correct` takes a value and a predicted state (4,). It returns an orbit (None on failure) and a
     status. The first step leads to `target`. After success a step is multiplied by `growth`. A step
     is halved if the correction fails, or if Z1, Z1' or Z2 changes by `reach` or more: the new orbit
     may lie on another branch. `behind` is the orbit at the value 2 start - target, or None.

@@ -22,7 +22,7 @@ MARGIN, SAMPLES = 10, 40
 # Largest difference between max |Z1| of equal free motions.
 ALIKE = 1e-6
 # Log entry of one switching, on and off. Times are in forcing cycles from the first strobe. The
-# free motion has settled at `end_time`. released_*: period and max |Z1| of the damped motion.
+# run of the free motion ends at `end_time`. released_*: period and max |Z1| of the damped motion.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
     + [("released_period", "i2"), ("released_displacement", "f8"), ("destination", "i1")]
@@ -75,7 +75,7 @@ def migrate(
     switchings : int
         Largest number of switchings, on and off counted as one.
     settling : Settling, optional
-        The `tolerance` is used, and the `limit` for motions without the damper.
+        Used for motions without the damper; with the damper only the `tolerance` is used.
 
     Returns
     -------

@@ -135,7 +135,7 @@ def largest(values) -> float:
 
 
 def base_displacement(p, times):
-    """Return the displacement A/W^2 cos(W T) of a base with the force of inertia A cos(W T)."""
+    """Return the displacement A/W^2 cos(W T) of a base whose force of inertia is A cos(W T)."""
     amplitude = forcing_amplitude.py_func(p) / p[FREQUENCY] ** 2
     return p[BASE] * amplitude * np.cos(p[FREQUENCY] * times)
 

@@ -244,7 +244,7 @@ def is_symmetric_pair(motions):
 
 
 def phase_of(harmonic, reference):
-    """Return phases of harmonics relative to `reference`, NaN if it is only a rounding error."""
+    """Return phases of harmonics relative to `reference`, NaN if `reference` is negligible."""
     phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
     return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
 
@@ -264,9 +264,9 @@ def tabulate(records):
 def envelope(parameters, lengths, y, tolerance):
     """Run a motion through n windows of time, with packed parameters (n, COUNT) and `lengths` (n,).
 
-    Return the largest |Z1| and the number of contacts begun in each window. They are infinity and
-    NaN in the window of an escape, NaN later. The last state replaces y. A window begins at the
-    strobe, where no force acts, so the frequency can change. With forcing a window is one cycle.
+    Return the largest |Z1| and the number of contacts begun in each window; in the window of an
+    escape |Z1| is infinite and the number NaN, later both NaN. The last state replaces y. Windows
+    begin at the strobe, where no force acts, so W can change. With forcing a window is one cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)

@@ -1,4 +1,4 @@
-"""Steady motion from a state, all motions at each frequency, and lives of chaotic transients.
+"""All motions at each frequency, and lives of chaotic transients.
 
 The life of a chaotic transient is its length. Lives are distributed exponentially, so the number of
 transients that end, divided by the sum of all lives, estimates the rate of ending.
@@ -175,7 +175,7 @@ def _lives(parameters, states, periods, settling, **running):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]
         approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
     lives = np.maximum(lives - approach, 1)
-    # A lasting run that is not chaotic when continued has the life `periods`.
+    # A lasting run that settles or ends when continued has the life `periods`.
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives

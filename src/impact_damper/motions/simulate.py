@@ -69,8 +69,8 @@ def simulate(
     samples : int
         Samples in a forcing cycle.
     start : float, optional
-        Time of the first state, dimensionless; the forcing is cos(W T). The default is the time of
-        the phase of the state, or 0 if the state has no phase.
+        Time T of the first state, in s for a machine; the forcing is cos(W T). The default is the
+        time of the phase of the state, or 0 if the state has no phase.
     tolerance : float
         Largest local error of a step of the integrator, dimensionless.
 

@@ -129,7 +129,7 @@ def warn_if_narrow(oscillator, frequencies, radius) -> None:
 
 
 def gap_states(count, radius, damper, seed):
-    """Return random states (count, 4): Z1, Z1' in a disk, Z2 anywhere in the gap, and Z2' = 0."""
+    """Return random states (count, 4): Z1, Z1' in a disk; with a damper Z2 in the gap, Z2' = 0."""
     states = radius * random_states(count, 1.0, None, seed)
     if damper is not None:
         generator = np.random.default_rng(np.append(seed, count))

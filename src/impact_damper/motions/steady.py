@@ -23,7 +23,7 @@ from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
 # Number of motions in one call of a kernel. Ctrl-C waits for its end.
 CHUNK = 128
-# Largest number of such slices that are settled together; least number of calls for each thread.
+# Largest number of CHUNKs that are settled in one call; least number of calls for each thread.
 MOST_CHUNKS, SLICES = 8, 3
 
 

@@ -77,7 +77,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state `periods` cycles after y, its derivative by y, and contacts begun."""
+    """Return the state `periods` cycles after y, the matrix d(state)/dy, and contacts begun."""
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents, matrix = y.copy(), np.empty((4, 4)), np.empty((4, 4))
     for i in range(16):

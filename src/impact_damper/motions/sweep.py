@@ -24,7 +24,7 @@ from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, str
 # Limits for records of one motion: relative difference of max |Z1| (and asymmetry of a symmetric
 # motion); difference of max |Z1| near rest; ratio of the sizes of motions that have not settled.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
-# Outcomes with infinite or no displacement. All records with one of these outcomes are one motion.
+# Outcomes with infinite or no displacement. Records that share one of them are one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # Newton's method for further orbits: longest period in forcing cycles; largest distance from the
 # start, divided by the largest known motion or the clearance; largest difference of equal orbits.
@@ -210,7 +210,7 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Add the record of a motion if it is new or has become larger; return its index."""
+        """Add the record of a new motion, or replace a smaller record; return the index."""
         i = self.find(record)
         if i is None:
             i = len(self.records)

@@ -71,7 +71,7 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
 
 @kernel_only
 def record_beginning(log, contacts, side, t, speed):
-    """Begin a row of the contact log; return the number of contacts."""
+    """Begin a row of the contact log, if it has room; return the number of contacts begun."""
     if contacts < len(log):
         log[contacts, 0], log[contacts, 1], log[contacts, 2] = side, t, np.nan
         log[contacts, 3], log[contacts, 4] = speed, np.nan

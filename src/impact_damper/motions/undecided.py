@@ -65,7 +65,7 @@ def run_block(p, y, tangent, states, growth, stop):
 
 
 def name_undecided(parameters, motions, limit, further, stop):
-    """Continue the motions that `settle_many` left unresolved, and complete their records.
+    """Continue the forced motions that `settle_many` left unresolved; complete their records.
 
     A motion runs on in blocks, each twice as long as the last, for at most `further` cycles in all.
     """
@@ -135,7 +135,7 @@ def _is_known(record, known, states):
 
 
 def _exponent(growth):
-    """Return the mean growth of the tangent in a cycle, and its standard error from batches."""
+    """Return the mean logarithmic growth in a cycle, and its standard error from batches."""
     length = len(growth) // BATCHES
     batches = growth[-BATCHES * length :].reshape(BATCHES, length).mean(axis=1)
     return np.mean(batches), np.std(batches, ddof=1) / math.sqrt(BATCHES)

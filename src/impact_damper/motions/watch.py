@@ -41,8 +41,8 @@ EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 REST = 1e-9
 # Data of one motion while it runs. untouched: number of last forcing cycles without contact. near,
 # early: distances at which Newton's method is tried next. periods: cycles with a tangent. batch:
-# growth of the tangent in this batch. mean, squares, recent: growth in full batches, its mean, sum
-# of squared deviations and last values.
+# growth of the tangent in this batch. mean, squares, recent: mean, sum of squared deviations and
+# last values of the growth in full batches.
 SEEN = np.dtype(
     [(name, "i8") for name in ("index", "strobes", "untouched", "periods")]
     + [(name, "f8") for name in ("near", "early", "energy", "batch", "mean", "squares")]
@@ -81,7 +81,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return mean growth in a batch, its error, and whether recent batches exceed half the mean."""
+    """Return the mean growth in a batch, its error, and if recent batches exceed half the mean."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):

@@ -1,10 +1,10 @@
-"""Design rule (19) of the paper for the clearance, without NumPy for Snakemake's dry runs."""
+"""Design rule (19) of the paper for the clearance. Dry runs of Snakemake need it without NumPy."""
 
 import math
 
 
 def peak_frequency(oscillator) -> float:
-    """Return the peak frequency Wp of rule (19), dimensionless.
+    """Return the peak frequency Wp of rule (19), dimensionless; raise ValueError without a peak.
 
     At Wp the displacement Z1 without the damper lags the forcing by a quarter of a cycle. By
     section 2.1, s = Wp^2 solves, with g = (3/4) k3,

@@ -12,12 +12,12 @@ from numpy.polynomial import Polynomial
 from impact_damper.model.bounds import check_frequency
 from impact_damper.theory.roots import polynomial_roots
 
-# Largest excess of an amplitude over a bound, relative to the bound, that rounding may cause.
+# Largest relative excess over a bound, of an amplitude or its square, that rounding may cause.
 ROUNDING = 1e-9
 
 
 class FreeSolutions(NamedTuple):
-    """Ascending amplitudes a and phases t1 at one frequency, shape (count,); 0 without forcing."""
+    """Ascending amplitudes a, phases t1 at one frequency, shape (count,); zeros without forcing."""
 
     amplitude: np.ndarray
     phase: np.ndarray
@@ -31,7 +31,7 @@ class Point(NamedTuple):
 
 
 class Resonance(NamedTuple):
-    """Amplitude and phase of the free resonance branch; beyond its end the phase is None."""
+    """Amplitude and phase of the free resonance branch; beyond its end the fold's and None."""
 
     amplitude: float
     phase: float | None
@@ -55,7 +55,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def main_solutions(oscillator, frequency) -> FreeSolutions:
-    """Return the solutions on the main part of the response curve, the part with the peak."""
+    """Return the solutions on the part of the response curve with the peak; all if g >= 0."""
     free = free_solutions(oscillator, frequency)
     if oscillator.hardening >= 0:
         return free
@@ -64,7 +64,7 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def balance_amplitudes(oscillator, frequency):
-    """Return the amplitudes of `main_solutions`; only the smallest if there is no peak."""
+    """Return the amplitudes of `main_solutions`; if a softening spring has no peak, one."""
     try:
         return main_solutions(oscillator, frequency).amplitude
     except ValueError:
@@ -74,8 +74,7 @@ def balance_amplitudes(oscillator, frequency):
 def resonance(oscillator, frequency) -> Resonance:
     """Return amplitude and phase on the branch of the response curve that has the peak.
 
-    With a hardening spring the branch ends at the upper fold; with a softening spring it ends at
-    the fold next to the peak.
+    The branch ends at the upper fold; with a softening spring, at the fold next to the peak.
     """
     free = main_solutions(oscillator, frequency)
     folds = free_folds(oscillator)
@@ -91,7 +90,7 @@ def maximum_response(oscillator) -> Point:
     """Return the maximum of the free response curve over W.
 
     The curve has the amplitude a at the roots W of (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2
-    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. Its discriminant, quadratic in a^2, is 0 at maxima.
+    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. At maxima the discriminant, quadratic in a^2, is 0.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening

@@ -260,7 +260,7 @@ ZERO_AMPLITUDE = 1e-6
 
 
 def _smallest(oscillator, damper, frequency):
-    """Return the amplitude a of the smallest stable solution of (7), and `analytical_status`."""
+    """Return a of the smallest stable solution of (7), NaN if none, and `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     if beyond_closed_forms(oscillator, damper):

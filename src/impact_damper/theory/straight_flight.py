@@ -78,7 +78,7 @@ class Flight(NamedTuple):
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
-        """Return the divided difference of a function at the roots of r^2 + g r + l^2 = 0."""
+        """Return a divided difference at the roots of r^2 + damping r + stiffness^2 = 0."""
         half = np.sqrt(complex(self.damping**2 / 4 - self.stiffness**2)) or APART
         roots = -self.damping / 2 + half, -self.damping / 2 - half
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real

@@ -21,7 +21,7 @@ def load_across(a):
     for i in range(LANES):
         acting += 1 if abs(a[GRAVITY + i]) + a[BASE + i] + a[FRICTION + i] > 0.0 else 0
         rough += 1 if a[FRICTION + i] > 0.0 else 0
-    # If nothing acts now or acted in the last step, the rows are already 0.
+    # If nothing acts in this step, and nothing in the last step, the rows are 0 already.
     if acting > 0 or a[SWAYS] > 0.0:
         for i in range(LANES):
             a[DRAW + i] = a[GRAVITY + i]
