@@ -17,7 +17,7 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return the share of releases to a free motion, for each motion with damper of one kind."""
+    """Return shares of releases to a free motion, from each motion with damper of one kind."""
     rows = case.damped_kind.values == flag("released_from", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]

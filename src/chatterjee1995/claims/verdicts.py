@@ -60,7 +60,7 @@ def claims(datasets) -> pd.DataFrame:
 
 
 def document(frame, picture=None, drawn=None) -> str:
-    """Return the page of the claims in Markdown; `picture` embeds each figure named in `drawn`."""
+    """Return the Markdown page of the claims; `picture` embeds figures (those in `drawn`)."""
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     rows = frame.to_dict("records")
     for row in rows:

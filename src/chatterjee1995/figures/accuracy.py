@@ -10,7 +10,7 @@ from chatterjee1995.methods.labels import colour_of, method_in_words
 from impact_damper.data.datasets import decode, parameters_of
 from impact_damper.plot import style
 
-# Colour, marker and line of models that solve for an orbit directly.
+# Colour, marker and line of the models in `orbit_models`.
 MODELS = {
     "rigid": (style.GREY, "s", "none"),
     "rigid_mended": (style.GREY, "D", "none"),

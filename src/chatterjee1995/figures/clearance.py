@@ -27,7 +27,7 @@ RULES = {
     "elastic": style.line("explicit, elastic contact", style.ORANGE),
     "flight": style.line("flight with corrections", style.BLACK, linewidth=1.8),
 }
-# Hatching of the cells of a study in which not all motions settled.
+# Hatching of the cells of a study in which some motion neither settled nor ended without contact.
 UNSETTLED = {"hatch": "////", "edgecolor": style.BLACK, "linewidth": 0}
 
 

@@ -41,8 +41,8 @@ meets_accuracy | run | | | whether the run meets the accuracy required by the sc
     """
 )
 
-LONGER = 4  # length of the reference run in chaos, divided by the length of a compared run
-# In chaos the contacts per cycle may err by a fraction CONTACTS_OFF and by SURE standard errors.
+LONGER = 4  # cycles of the reference run in chaos, divided by the cycles of the scene
+# In chaos the contacts per cycle may err by a fraction CONTACTS_OFF plus SURE standard errors.
 CONTACTS_OFF, SURE = 0.1, 2
 
 
@@ -64,7 +64,7 @@ class ComparisonScene(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """Results of a run in 80-bit arithmetic, taken as exact; names have the meaning as in `Run`."""
+    """Results of a run in 80-bit arithmetic, taken as exact; names mean the same as in `Run`."""
 
     state: np.ndarray
     contact_times: np.ndarray
@@ -105,7 +105,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield label, tolerance, `Run` and number of cycles (`slow_periods` if `slow`)."""
+    """Yield label, tolerance, `Run` and its number of cycles (`slow_periods` if it is slow)."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:
@@ -193,9 +193,9 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return the times at which contacts begin by a model, in the order of the reference.
+    """Return the times at which contacts of a model begin, in the order of the reference.
 
-    If the contacts do not match those of the reference, each contact of the model has the time NaN.
+    If the contacts do not match those of the reference one to one, all times are NaN.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods

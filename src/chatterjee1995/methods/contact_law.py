@@ -14,7 +14,7 @@ from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
-    """End of a contact: "released", "no_release" or "falls_back", time s, departure speed / v0."""
+    """End of a contact: outcome, time s (or infinity), speed / v0 when q returns to 0 (or NaN)."""
 
     outcome: str
     duration: float
@@ -75,7 +75,7 @@ def contact(restitution, load, rule) -> Exit:
 
 
 def pull_time(restitution, load) -> float:
-    """Return the fraction of the time until u = 0 in which the wall pulls, NaN without end."""
+    """Return the fraction of the contact in which the wall pulls, NaN if u stays above 0."""
     penetration, force = _waves(restitution, load)
     end = penetration.first_fall()
     return math.nan if end == math.inf else (end - min(force.first_fall(), end)) / end

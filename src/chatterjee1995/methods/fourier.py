@@ -25,7 +25,7 @@ def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
 
 
 def product_samples(harmonics, degree) -> int:
-    """Return the number of samples that a product of `degree` series needs to avoid aliasing."""
+    """Return a number of samples with which products of `degree` series do not alias harmonics."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 
@@ -42,7 +42,7 @@ def largest(coefficients, harmonics) -> float:
 
 
 def intervals(coefficients, harmonics, level) -> np.ndarray:
-    """Return rows (wall, begin, end) with z(s) > level for wall 1, z(s) < -level for wall -1.
+    """Return intervals as rows (wall, begin, end): z > level if wall is 1, z < -level if it is -1.
 
     A bound on the second derivative shows in which cells (between two samples) z crosses the level
     once or never. All other cells are halved, so no interval wider than SHORTEST is missed.
@@ -71,7 +71,7 @@ def _beyond(coefficients, harmonics, level, wall):
 
 
 def _cells(function, coefficients, harmonics, ends, values):
-    """Return ascending cells, shape (count, 2), each with exactly one sign change of `function`."""
+    """Return ascending cells (count, 2) where `function` changes sign, once if above SHORTEST."""
     bound = 2 * np.sum(harmonics**2 * np.abs(coefficients))
     lower, upper, first, last = ends[:-1], ends[1:], values[:-1], values[1:]
     crossed = []
@@ -92,7 +92,7 @@ def _cells(function, coefficients, harmonics, ends, values):
 
 
 def indicator(rows, orders) -> np.ndarray:
-    """Return Fourier coefficients of the function that is 1 in `intervals` and 0 elsewhere."""
+    """Return Fourier coefficients of the function that is 1 in the intervals of `rows`, else 0."""
     _, begin, end = rows.T[:, :, None]
     half = (end - begin) / 2
     turn = np.exp(-0.5j * orders * (begin + end))

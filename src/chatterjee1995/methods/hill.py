@@ -6,17 +6,17 @@ import numpy as np
 from scipy.linalg import eigvals, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
-# Above DENSE unknowns only the eigenvalues nearest zero are computed, COPIES for each exponent.
+# Above DENSE unknowns only 4 COPIES eigenvalues, those nearest zero, are computed.
 DENSE, COPIES = 100, 3
 # If the multiplier of half a cycle is real and negative, the exponent has copies with imaginary
-# parts W and -W. A part within EDGE * W of W is set to W. A copy as near to -W is left out.
+# parts W and -W. A part within EDGE * W of W is set to W. Parts within EDGE * W of -W are left out.
 EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
     """Floquet exponents per unit of T, by ascending real part; NaN unless the status is "found".
 
-    Status "not_separated": more or fewer than 2 (4 with damper) eigenvalues have |Im lambda| <= W.
+    Status "not_separated": more or fewer than 2 (4 with damper) eigenvalues in -W < Im <= W.
     """
 
     values: np.ndarray
@@ -47,7 +47,7 @@ def exponents(solution) -> Exponents:
 
 
 def _near_zero(stiffness, damping, inertia):
-    """Return eigenvalues nearest zero of (stiffness + lambda damping + lambda^2 inertia) p = 0."""
+    """Return eigenvalues (see DENSE) of (stiffness + lambda damping + lambda^2 inertia) p = 0."""
     size = len(stiffness)
     factors = lu_factor(stiffness, check_finite=False)
 

@@ -15,7 +15,7 @@ class Run(NamedTuple):
     """A motion by an integrator; `status` is "ended", "failed", or "capped" after too much work.
 
     `operations` is the number of floating-point operations. Contacts begin at `contact_times`.
-    `peaks` are |Z1| at its local maxima and at both ends of the run, at the times `peak_times`.
+    `displacement` is max |Z1|, the largest of `peaks`. Peaks occur at or near their `peak_times`.
     """
 
     status: str
@@ -40,10 +40,10 @@ class Integrator:
     forcing cycles. If `locate` is true, steps end where contacts begin and end. `resolution` is the
     number of steps in a cycle if steps are `fixed`, and otherwise a tolerance.
 
-    Figures show integrators in the order of `place`. Each stage in `compared` calls the methods
-    that REQUIRED names. The stage `accuracy` reads `located` (values of `locate`), `tolerances` (a
-    name in `labels.TOLERANCE_KEYS`) and `slow` (whether runs are limited). The stage `stable_steps`
-    reads `stability_limit`, the largest stable product of step and frequency without damping.
+    Figures show integrators in the order of `place`. For each stage in `compared`, an integrator
+    defines a method in REQUIRED. The stage `accuracy` reads `located` (values of `locate`),
+    `tolerances` (a name in `labels.TOLERANCE_KEYS`) and `slow` (whether runs are limited);
+    `stable_steps` reads `stability_limit`, the largest stable step times undamped frequency.
     """
 
     REQUIRED: ClassVar = {
@@ -64,7 +64,7 @@ class Integrator:
         return f"{self.name}_{'located' if locate else 'kink'}"
 
     def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations):
-        """Return status and operations of a run, and times (n,) and states (n, 4) of its steps."""
+        """Return status and operations of a run, times (n,) and states (n, 4) of its step ends."""
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
@@ -75,14 +75,14 @@ class Integrator:
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Return |Z2| at the ends of steps in [0, end], and |Z2| at `time`, or None on failure."""
+        """Return |Z2| at step ends in [0, end] (unused with `touches`) and at `time`, or None."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return which walls at `levels` are touched, or None if the ends of steps decide."""
+        """Return which walls at `levels` are touched, or None: then |Z2| from `flight` decides."""
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
-        """Return the largest |Z1| in each cycle with fixed steps, NaN once the run has diverged."""
+        """Return max |Z1| in each cycle of `steps` equal steps, NaN once the run has diverged."""
         raise NotImplementedError
 
 
@@ -94,7 +94,7 @@ def read_off(p, work, times, ends):
 
 
 def _beginnings(p, times, ends):
-    """Return the times at which |Z2| = d0, one in each step from the gap to a wall or beyond."""
+    """Return times at which |Z2| = d0, one in each step that begins in the gap and leaves it."""
     place, distance = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
     inside = (distance > 0) | ((distance == 0) & (place * ends[:, 3] < 0))
     steps = np.flatnonzero(inside[:-1] & ~inside[1:])

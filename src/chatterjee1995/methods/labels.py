@@ -2,11 +2,11 @@
 
 from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
 
-# Quantities whose errors the stage `accuracy` compares; STATISTICS are averages of chaotic motions.
+# ERRORS: quantities whose errors the stage `accuracy` compares. STATISTICS: averages of chaos.
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 STATISTICS = ("contact_rate", "displacement", "exponent")
 
-# Titles of the models of a steady motion (`orbit_models`).
+# Titles of the models in `orbit_models`.
 MODELS = {
     "rigid": "rigid impacts",
     "rigid_mended": "rigid, corrected",
@@ -15,14 +15,14 @@ MODELS = {
     "many_harmonics": "many harmonics",
     "shooting": "shooting",
 }
-START_HARMONICS = 15  # highest harmonic of the balance that is the first guess of shooting
+START_HARMONICS = 15  # highest harmonic of the first guess for shooting and for rigid impacts
 
-# Names of lists of tolerances in the section `comparison`; an integrator uses one of the lists.
+# Lists of tolerances in the section `comparison`; an integrator in `accuracy` uses one of them.
 TOLERANCE_KEYS = ("taylor", "merson", "scipy")
 
 
 def method_in_words(label) -> str:
-    """Return the title of a model, an integrator or a run by its label; an unknown label stays."""
+    """Return the title of a model, an integrator or a run by its label; else return the label."""
     if label in MODELS:
         return MODELS[label]
     if label in integrators():

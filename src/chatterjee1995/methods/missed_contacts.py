@@ -1,4 +1,4 @@
-"""Contacts near grazing that integrators miss; one run without walls serves for all depths."""
+"""Contacts near grazing that integrators miss, from runs without walls or from `touches`."""
 
 import math
 
@@ -35,8 +35,8 @@ expected_unseen | method_tolerance depth | | | expected share of contacts at ran
     """
 )
 
-# `unseen`: the computed motion passes the wall and returns within one step. `not_reached`: the
-# motion does not reach the wall, as its error exceeds the depth. `failed`: the run breaks off.
+# `unseen`: the computed motion passes the wall and returns within one step. `not_reached`: due to
+# its error, the computed motion does not pass the wall. `failed`: the run breaks off.
 OUTCOMES = ("found", "unseen", "not_reached", "failed")
 
 

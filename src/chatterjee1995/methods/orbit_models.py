@@ -1,4 +1,4 @@
-"""Models of motions with the forcing's period, and their work (docs/explanation/methods.md)."""
+"""Rigid walls, harmonic balance, shooting, and their work (docs/explanation/methods.md)."""
 
 import math
 from dataclasses import replace
@@ -33,13 +33,13 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory import single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
 
-# Operations of the search for all solutions of the full balance (7), and of the rigid balance (14).
+# Operations to find all solutions: FULL_WORK of the balance (7), RIGID_WORK of the rigid one (14).
 FULL_WORK, RIGID_WORK = 100 * 130 + 10 * 32**3, 10 * (6**3 + 5**3) + 6 * 10 * 12
-REACH = 10.0  # largest distance of the state of a rigid orbit from the first guess
+REACH = 10.0  # largest change of a component of a rigid orbit's state from the first guess
 
 
 class Model(NamedTuple):
-    """A steady motion: its state at W T = pi/2, phases W T where contacts begin, and max |Z1|."""
+    """A steady motion: its state at W T = pi/2, phases W T at which contacts begin, max |Z1|."""
 
     status: str
     operations: float
@@ -88,7 +88,7 @@ def of_coefficients(balance, coefficients, work):
 
 
 def rigid_balance(oscillator, damper, frequency, state):
-    """Return the `Model` by balance of one harmonic with rigid walls, equations (13) and (14)."""
+    """Return the `Model` by rigid balance, (13) and (14), nearest to `state`; only for e = 1."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
     roots = single_harmonic.rigid_solutions(oscillator, damper, frequency)
@@ -104,7 +104,7 @@ def rigid_balance(oscillator, damper, frequency, state):
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """Return the `Model` by balance of one harmonic, equation (7), for elastic contacts."""
+    """Return the `Model` by balance of one harmonic, (7), nearest to `state`; not for e < 1."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
@@ -114,7 +114,7 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return coefficients of the one-harmonic solution nearest to `state`, or None, and work."""
+    """Return coefficients (or None) of the elastic solution of (7) nearest to `state`, and work."""
     if damper is None:
         work = 2 * 10 * 3**3
         solutions = free_solutions(oscillator, frequency)
@@ -137,7 +137,7 @@ def nearest_term(oscillator, damper, frequency, state):
 
 
 def many_harmonics(oscillator, damper, frequency, state, highest):
-    """Return models by harmonic balance, keyed by highest harmonic: 3, 7, 15, ... `highest`."""
+    """Return models by highest harmonic 3, 7, 15, ... <= `highest`; none without a first guess."""
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
     if coefficients is None:

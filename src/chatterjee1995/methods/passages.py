@@ -25,7 +25,7 @@ class Passage(NamedTuple):
 
 @kernel
 def largest_of_flight(p, y, t, end):
-    """Return time, size and |Z2''| of the largest |Z2| over [t, end]; at an end |Z2''| is 0."""
+    """Move y from t to end; return time, size and |Z2''| (0 if at t or end) of the largest |Z2|."""
     work = workspace()
     flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
     c = np.zeros(FLIGHT_ORDER + 1)
@@ -70,7 +70,7 @@ def without_walls(p):
 def draw_passages(p, count, radius, deepest, seed) -> list:
     """Return `count` random passages over one forcing cycle, from states uniform in a ball.
 
-    |Z2| at both ends is more than `deepest` below its maximum, so no wall is touched at an end.
+    Those are kept with max |Z2| > 2 `deepest`, and |Z2| < max |Z2| - `deepest` at both ends.
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)

@@ -27,7 +27,7 @@ class CompliantOrbit(NamedTuple):
 
 
 def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
-    """Return a `CompliantOrbit` or None, found by Newton's method from a guess, and a status."""
+    """Return the `CompliantOrbit` near a guess by Newton's method, or None, and a status."""
     state = np.array(guess, float)
     converged, _, multiplier = polish(p, state, 1, reach, tolerance)
     if not converged:
@@ -63,7 +63,7 @@ class QuietOrbits(NamedTuple):
 
 
 def straight_flight_end(oscillator, clearance, restitution) -> float:
-    """Return the frequency W of the fold of quiet orbits, for straight flights between impacts.
+    """Return W at the fold of quiet orbits for straight flights between impacts, or infinity.
 
     At the fold W^2 d0/f is sqrt(1 + k^2) with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2.
     """
@@ -97,7 +97,7 @@ def follow_quiet_orbits(parameters, states) -> QuietOrbits:
 
 
 def find_quiet_orbit(p, guess):
-    """Find the quiet orbit near a guess of its state at W T = 3 pi/4 by Newton's method."""
+    """Return the quiet orbit near a guess of its state at W T = 3 pi/4, or None, and a status."""
     orbit = newton(shoot(p, guess, 1, PHASE, symmetric=True), REACH)
     if not orbit.converged:
         return None, "not_converged"
@@ -112,7 +112,7 @@ def _dominant_root(orbit):
 
 
 def _row_ends(grid, row):
-    """Return the fractional columns at which the orbits of a row end, and the reasons."""
+    """Return the fractional columns at which the orbits of a row end, and the events there."""
     columns = [column for first, column in grid.orbits if first == row]
     if not columns:
         return [np.nan] * 2, ["no_orbit"] * 2
@@ -149,13 +149,13 @@ FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # Impulse q for equal |x| at impact and turning point, and phase phi of the turning point, for e = 1
 # and no damping or stiffness: q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
-# Quantities of Z1 that an optimum clearance minimises, and rules for the optimum (`rule_ratios`).
+# CRITERIA: quantities of Z1 that an optimum clearance minimises. RULES: rules (`rule_ratios`).
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return rm W^2 d0/f of both CRITERIA for e = 1, to first order in `contact` and `damping`."""
+    """Return rm W^2 d0/f of both CRITERIA to first order in `contact`, `damping`; NaN if e < 1."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
@@ -167,11 +167,11 @@ def elastic_ratios(flight) -> tuple[float, float]:
 
 
 def least_harmonic_ratio(flight) -> float:
-    """Return rm W^2 d0 at which the first harmonic of Z1 is smallest.
+    """Return rm W^2 d0/f at which the first harmonic of Z1 is smallest.
 
     Forcing and impulses together have the first harmonic 1 - c q exp(-i p), where c = 8/pi^2 and p
-    is the lag of the impact. With sin(u) = q L/A and n = u - p, the modulus of this harmonic is
-    smallest where tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
+    is the lag of the impact behind the forced motion. With sin(u) = q L/A (see `Flight`) and
+    n = u - p, the modulus is smallest where tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
     """
     factor = 8 / np.pi**2
     loss = flight.loss

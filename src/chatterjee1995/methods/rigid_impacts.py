@@ -25,7 +25,7 @@ from impact_damper.model.packed import (
 from impact_damper.motions.records import extremum
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE, strobe_time
 
-# Impacts in a cycle at which the integration stops; with e < 1 infinitely many can follow.
+# Number of impacts in a cycle at which the integration stops; with e < 1 it could be infinite.
 MOST_IMPACTS = 200
 ITERATIONS = 12  # most steps of Newton's method
 SAME_SPEED = 1e-6  # largest relative difference of the two approach speeds in a symmetric orbit
@@ -61,8 +61,8 @@ def rigid_map(p, restitution, y, tolerance):
     """Integrate the rigid model over one forcing cycle from the state y at W T = pi/2.
 
     The dashpot in p must be 0. Return the final state, its derivative by y, the number of impacts,
-    the smallest |Z2'| before an impact, |Z2'| and the acceleration of Z1 towards the wall before
-    the first impact, and the largest |Z1|. After MOST_IMPACTS impacts only their number is valid.
+    the smallest |Z2'| before an impact (or infinity), |Z2'| and the acceleration of Z1 towards the
+    wall before the first impact (or NaN), and max |Z1|. With MOST_IMPACTS the others are not valid.
     """
     state = y.copy()
     tangents = np.eye(4)
@@ -93,7 +93,7 @@ def without_dashpot(p):
 
 
 class RigidOrbit(NamedTuple):
-    """A symmetric orbit with two impacts a cycle; `speed` and `acceleration` precede an impact."""
+    """A symmetric orbit with two impacts a cycle; `speed`, `acceleration`: before the first."""
 
     state: np.ndarray
     multiplier: complex
@@ -108,8 +108,8 @@ class RigidOrbit(NamedTuple):
 def rigid_orbit(oscillator, damper, frequency, guess, reach):
     """Return the `RigidOrbit` within `reach` of the state `guess`, or None, and a status.
 
-    The status is "found", "not_followed" if Newton's method fails, "other_contacts" without two
-    symmetric impacts in a cycle, or "chatter" after MOST_IMPACTS impacts.
+    Status: "found"; "not_followed" if Newton's method fails or meets no impact; "other_contacts" if
+    impacts are not two and symmetric; "chatter" after MOST_IMPACTS impacts in a cycle.
     """
     return _solve(pack(oscillator, damper, frequency), damper.restitution, guess, reach)
 

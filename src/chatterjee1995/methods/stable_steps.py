@@ -43,7 +43,7 @@ ACCURACIES = (0.01, 0.1)  # allowed relative error of max |Z1| in each cycle
 FACTOR, REACH = 10.0**0.0625, 0.2
 EXACT = 1e-13  # local error allowed in the exact orbits, the reference of the runs
 CONFIRMED = 4  # number of smallest tested steps, all of which must keep the motion
-STIFF = 1e3  # r1 above which contacts are short, for the fit of the exponent of the stable step
+STIFF = 1e3  # least r1, with short contacts, in the fit of the exponent of the stable step
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
@@ -87,7 +87,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step up to which all steps hold; NaN if fewer than CONFIRMED hold."""
+    """Return the largest step up to which all tested ones hold; NaN if these are < CONFIRMED."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -95,7 +95,7 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Return slope and standard error of log(1/step) over log r1, NaN with fewer than 3 points."""
+    """Return slope and standard error of log(1/step) over log r1, or NaN; only for r1 >= STIFF."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan
@@ -127,7 +127,7 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
 
 
 def _deviations(method, orbits, counts, tested, periods):
-    """Return the largest relative deviation of max |Z1| for each orbit and number of steps."""
+    """Return the largest relative deviation of max |Z1| per orbit and step; NaN if not tested."""
     deviations = np.full(counts.shape, np.nan)
     for i, orbit in enumerate(orbits):
         if orbit is None:

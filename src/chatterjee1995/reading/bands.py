@@ -43,7 +43,7 @@ def quiet_motions(response, free):
 def suppression_band(datasets, name):
     """Return the `Band` of a curve, from the last violent motion to the end of the free resonance.
 
-    The resolution is 0 if all violent motions are periodic, else at most one frequency step.
+    The resolution is NaN without violent motions, 0 if all are periodic, else at most a step in W.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

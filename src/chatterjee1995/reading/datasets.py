@@ -78,7 +78,7 @@ def touching(response):
 
 
 def share_of_starts(response, motions):
-    """Return the share of the random starts at each frequency that lead to motions in a mask."""
+    """Return at each W the share of random starts that lead to motions in a mask, or 0."""
     total = response.motion_starts.sum("motion")
     led = response.motion_starts.where(motions, 0).sum("motion")
     return (led / total.where(total > 0)).fillna(0)
@@ -93,7 +93,7 @@ def within(data, lower, upper):
 
 
 def crossing(x, y, level):
-    """Return the first x at which y crosses a level, interpolated; NaN without a crossing."""
+    """Return the first interpolated x at which y crosses a level between two points, or NaN."""
     side = np.sign(np.asarray(y) - level)
     changes = np.flatnonzero(side[:-1] * side[1:] < 0)
     if len(changes) == 0:
@@ -117,7 +117,7 @@ def stable_impacting(design):
 
 
 def quiet_balance(design):
-    """Return the signed amplitude a of the smallest stable solution of (7) at each frequency."""
+    """Return the signed amplitude a of the smallest stable solution of (7) at each W, or NaN."""
     amplitude = stable_impacting(design)
     return amplitude.isel(solution=np.abs(amplitude).fillna(np.inf).argmin("solution"))
 

@@ -33,10 +33,10 @@ def of_curve(datasets, name):
 def pieces(branches) -> pd.DataFrame:
     """Return a row for each piece of the branches; a piece joins two successive orbits.
 
-    `lower` and `upper` are the ends in W. `size` is max |Z1| in the middle. `amplitude` and `loose`
-    are the complex first harmonic of Z1 there, with the phase relative to Z2 and to x2. A name with
-    `_change` holds the difference between the ends. `fewest` and `contacts` are the smaller and the
-    larger number of contacts. `restitution` is the least ratio of departure to approach speed.
+    `lower` and `upper` are the ends in W. `size` is max |Z1| in the middle. The complex first
+    harmonic of Z1 there is `amplitude` with its phase relative to Z2, `loose` with it relative to
+    x2. A column `_change` is the difference between the ends. `fewest` and `contacts` are the least
+    and largest number of contacts, `restitution` the least ratio of departure to approach speed.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -112,7 +112,7 @@ def crossings(part, frequency) -> pd.DataFrame:
 
 
 def smallest(part, frequency) -> pd.DataFrame:
-    """Return the row of `crossings` with the smallest size at each frequency inside a piece."""
+    """Return rows of `crossings`: the smallest size at each frequency that a piece contains."""
     rows = crossings(part, frequency)
     return rows.loc[rows.groupby("frequency")["size"].idxmin()]
 
@@ -123,7 +123,7 @@ def largest_sizes(part, frequency):
 
 
 def resonance_fold(free):
-    """Return frequency and max |Z1| at the fold of the free resonance branch, or raise Missing."""
+    """Return W and max |Z1| at the highest fold of free orbits of period 1, or raise Missing."""
     fold = free.event_kind.values == flag("event_kind", "fold")
     fold &= free.branch_period.values[free.event_branch.values] == 1
     if not fold.any():
@@ -133,7 +133,7 @@ def resonance_fold(free):
 
 
 def resonance(free, frequency):
-    """Return max |Z1| on the free resonance branch at each frequency; NaN above its fold."""
+    """Return the largest max |Z1| of free orbits of period 1 at each W; NaN above their fold."""
     end, _ = resonance_fold(free)
     part = pieces(free)
     sizes = largest_sizes(part[part.period == 1], frequency)
@@ -164,7 +164,7 @@ def smallest_quiet(branches, free, frequency):
 
 
 def high_counterparts(design, branches, free) -> pd.DataFrame:
-    """Return the rows of `crossings` that are nearest to the stable violent solutions of (7).
+    """Return for each stable violent solution of (7) the row of `crossings` nearest in amplitude.
 
     Only symmetric orbits of period 1 with two contacts are taken: (7) approximates no others.
     """
@@ -189,7 +189,7 @@ def subharmonic(free):
 
 
 def subharmonic_range(free):
-    """Return the frequencies of both folds that bound the one-third subharmonic without damper."""
+    """Return the lowest and the highest frequency of the one-third subharmonic without damper."""
     part = subharmonic(free)
     return float(part.lower.min()), float(part.upper.max())
 

@@ -210,7 +210,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Remove null entries, the names of these entries in figures, and figures without data."""
+    """Remove null entries, their names in the data of figures, and figures thus without data."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}

@@ -61,7 +61,7 @@ class Table(Shown):
 
 @dataclass(frozen=True)
 class Kind(Shown):
-    """A kind of figure, drawn by the function `draw_<name>`."""
+    """A kind of figure, drawn by the function `draw_<name>`; a schematic by one named in `data`."""
 
     room = "figures"
     most: int = 6  # largest number of entries in a figure

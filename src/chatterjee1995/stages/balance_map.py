@@ -64,15 +64,15 @@ high_verdict | map_value frequency_ratio | | | high motion: result of harmonic b
     """
 )
 
-NEAR = 0.2  # largest relative difference of max |Z1| from the prediction of a "near" motion
-HIGH = 0.5  # fraction of the free resonance amplitude below which a motion is quiet, else high
+NEAR = 0.2  # largest relative difference of max |Z1| from its prediction in a "near" motion
+HIGH = 0.5  # fraction of the free resonance amplitude below which a motion is low, else high
 
 
 class Cells(NamedTuple):
     """Solutions of harmonic balance in all cells, and starts at T = 0; NaN without a solution.
 
     `resonance` is the amplitude on the free resonance branch or, beyond the branch, at its end.
-    Without a high solution `high_start` is on this branch, with the loose mass at rest.
+    Without a high solution `high_start` is on this branch (NaN beyond it), the loose mass at rest.
     """
 
     resonance: np.ndarray
@@ -231,7 +231,7 @@ def _run(parameters, starts, settling, workers, progress):
 
 
 def _kinds(records, resonance):
-    """Return the flag `quiet_run_motion` of each run, from the free `resonance` of its cell."""
+    """Return the flag `quiet_run_motion` of each run; `resonance` is the free one of each cell."""
     low = records["maximum_displacement"] < HIGH * resonance
     quiet = low & is_symmetric_pair(records)
     outcome = records["outcome"]

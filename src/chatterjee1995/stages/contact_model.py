@@ -106,7 +106,7 @@ def _verdict(found, restitution):
 
 
 def unloaded_table(restitutions):
-    """Return the variables of contacts without load, one value for each restitution."""
+    """Return the variables of contacts without load, in columns for each restitution."""
     ends = [[contact(e, 0.0, rule) for e in restitutions] for rule in EXIT_RULES]
     return {
         "unloaded_restitution": [[end.departure for end in row] for row in ends],
@@ -116,7 +116,7 @@ def unloaded_table(restitutions):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Return the smallest settled and the largest motion with contacts, None for an absent one."""
+    """Return the smallest settled and the largest motion, of those with contacts, or None."""
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
     motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)

@@ -40,7 +40,7 @@ rule_excess | mass_ratio restitution contact_stiffness frequency rule | | | rela
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
 SAMPLES = 1024  # values of Z1 in a cycle for the integral of the first harmonic
 SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
-# Relative step and largest number of steps of the search downhill; accuracy of the optimum ratio.
+# STEP: relative step downhill. MOST_STEPS: most such steps. PRECISION: error of the optimum ratio.
 STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
 # A minimum is smooth or a kink. From the distance CLOSE to half of CLOSE the rise of a displacement
 # falls to 1/4 at a smooth minimum, and to 1/2 at a kink. KINK is the limit between 1/4 and 1/2.
@@ -129,7 +129,7 @@ class QuietMotion:
         return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """Return the ratio at the local minimum reached from a guess, and the kind of minimum."""
+        """Return the ratio at the local minimum reached from a guess, and a name of `best_kind`."""
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
         def size(ratio):

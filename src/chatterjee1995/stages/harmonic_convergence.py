@@ -40,8 +40,8 @@ decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmon
     """
 )
 
-# Errors, and the decrease predicted for each: the power of 1/N with elastic or inelastic contacts,
-# and without contacts the rate of exponential decrease in units of W `singularity_distance`.
+# MEASURES are errors. Their predicted decrease: powers of 1/N with ELASTIC or INELASTIC contacts,
+# and ANALYTIC rates of exponential decrease without a damper, in units of W `singularity_distance`.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
@@ -77,7 +77,7 @@ def decay(damper, p, state) -> tuple:
 
 
 def singularity_distance(p, state) -> float:
-    """Return the distance from the real time axis to the nearest singularity of a free motion.
+    """Return the distance from real time to a free motion's nearest singularity, inf if linear.
 
     The motion is integrated along imaginary time. Near a singularity T* the motion is
     Z1 = sqrt(-2/k3)/(T - T*), so T + Z1/Z1' estimates T*. Integration along a straight line towards
@@ -138,7 +138,7 @@ FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 
 def ladder(highest) -> np.ndarray:
-    """Return odd numbers N up to `highest`: all up to 15, and above three in each doubling."""
+    """Return odd numbers N up to `highest`: all to 15, then three in each doubling, to 2^14 - 1."""
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
     return np.unique(chosen[chosen <= highest])
@@ -194,7 +194,7 @@ def cold_status(warm, first) -> int:
 
 
 def errors(solutions, multipliers, exact):
-    """Return errors relative to the exact orbit, shape (4, n): a row for each of MEASURES."""
+    """Return errors against the exact orbit, shape (4, n): a row for each of MEASURES."""
     found = np.full((len(MEASURES), len(solutions)), np.nan)
     balance, size = solutions[0].balance, exact.record["maximum_displacement"]
     start = exact.strobe_states[0]

@@ -133,7 +133,7 @@ class Trials(NamedTuple):
         reached, running = np.zeros(count, bool), np.arange(count)
         rules = np.repeat(np.array(rules, RULE), trials)
         while len(running):
-            # Random phase and place of switching on, phase of release, and index of the start.
+            # Columns: phase and place of switching on, phase of release, index of the start.
             draws = generator.random((trials, 4))[running % trials]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first
@@ -215,7 +215,7 @@ def summary(outcome):
 
 
 def quantile(values, share):
-    """Return a quantile and its 95 % interval, shape (3,), from the binomial distribution."""
+    """Return a quantile and its approximate 95 % interval, shape (3,), by the binomial law."""
     ordered, count = np.sort(np.asarray(values, float)), len(values)
     spread = QUANTILE * math.sqrt(count * share * (1 - share))
     places = count * share + np.array([0.0, -spread, spread])

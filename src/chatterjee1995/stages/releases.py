@@ -56,14 +56,14 @@ release_share | damped free_motion bound | | | share of releases that lead to ea
     """
 )
 
-LEAD = 20  # first cycles of a run, in which the start still matters and no release lies
+LEAD = 20  # number of first cycles of a run without a release, since the start still matters
 PAPER_CYCLES = 350  # cycles within which the paper's controller reaches the non-resonance branch
 CAPTURE = 0.1  # largest difference in Z1 or Z1' of a run and the orbit that captures the run
 # A release: phase in cycles after a strobe (W T = pi/2), Z1 and Z1', and the resulting free motion.
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
 )
-# Names of the kinds of motion with and without the damper; the first name, "none", is left out.
+# Names: KINDS of motion with the damper, DESTINATIONS without; the first, "none", is left out.
 KINDS = list(DAMPED_MOTION)[1:]
 DESTINATIONS = list(FREE_MOTION)[1:]
 
@@ -147,9 +147,9 @@ def _release(case, state, wait, settling, stop=NEVER):
 
 
 def watch_runs(case, seeds, lifetime, settling, workers, progress):
-    """Return runs with the damper on from the resonance branch, and one release from each run.
+    """Return runs with the damper on from the resonance branch, and a release from each run.
 
-    The release lies after strobe LEAD, and before capture by an orbit or the end at `lifetime`.
+    It lies after strobe LEAD and before `lifetime` or capture by an orbit (NaN if this is earlier).
     """
     # Random phase and place of switching on, strobe of the release, and phase after this strobe.
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
@@ -215,7 +215,7 @@ def release_data(case, motions, entries, settling):
 
 
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
-    """Return settled motions by max |Z1|: `known` ones, and those from random states and (7)."""
+    """Return settled motions sorted by max |Z1|: of `known`, and from (7) and random states."""
     on = pack(oscillator, damper, frequency)
     # The solutions for elastic contact are good starts for an inelastic damper too.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)

@@ -38,13 +38,13 @@ own_mended_error | | | | relative error of own_displacement with corrected rigid
 
 THRESHOLDS = (0.01, 0.1)  # relative errors of max |Z1| for which the needed stiffness is stored
 REACH = 0.1  # largest distance of an orbit's state from the state predicted for it
-STIFF = 1e4  # r1 above which contacts are short, for the fit of the order of the error
+STIFF = 1e4  # least r1, with short contacts, in the fit of the order of the error
 
 
 def rigid_limit(
     oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling
 ):
-    """Compare rigid with compliant walls; raise ArithmeticError if no quiet motion is found."""
+    """Compare rigid with compliant walls; raise ArithmeticError if quiet motions are not found."""
     frequencies, stiffnesses = np.array(frequencies, float), np.array(stiffnesses, float)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
     compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)
@@ -81,7 +81,7 @@ def _quiet(oscillator, damper, frequency, starts, seed, settling):
 
 
 def _spread(correct, points, cell, own_point, orbit):
-    """Follow `orbit` from `own_point` into a cell and then to all cells; return the `Grid`."""
+    """Follow `orbit` from `own_point` to a cell, then into the other cells; return the `Grid`."""
     grid = Grid(points, correct)
     followed = follow_line(correct, own_point, points[cell], orbit)
     grid.orbits[cell] = _reached(followed, "frequencies")
@@ -90,7 +90,7 @@ def _spread(correct, points, cell, own_point, orbit):
 
 
 def _reached(followed, key):
-    """Return the orbit at the end of a line, or raise ArithmeticError with the argument `key`."""
+    """Return the orbit at the end of a line, or raise ArithmeticError about the argument `key`."""
     if not followed.arrived:
         raise ArithmeticError(f"{key}: the quiet motion cannot be followed into this grid")
     return followed.orbit
@@ -147,7 +147,7 @@ def _verdict(soft, hard):
 
 
 def _needed(stiffnesses, errors):
-    """Return the interpolated stiffness above which |error| stays below each threshold."""
+    """Return interpolated r1 above which |error| stays below each threshold, and its status."""
     shape = len(THRESHOLDS), len(errors)
     needed, status = np.full(shape, np.nan), np.full(shape, flag("needed_status", "absent"))
     for j, row in enumerate(np.abs(errors)):

@@ -58,7 +58,7 @@ def study_chunk(
     workers=1,
     progress=None,
 ):
-    """Return the motions to which random starts lead, in a range of cells of a grid.
+    """Return a dataset of the motions to which random starts lead in a chunk of cells.
 
     `cells` are the number of the first cell of the chunk, and the number after its last cell.
     """

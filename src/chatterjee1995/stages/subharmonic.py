@@ -32,7 +32,7 @@ switched_share | frequency | | | share of starts on the free subharmonic that le
     """
 )
 
-SEARCHED = 81  # frequencies at which the free subharmonic is searched for
+SEARCHED = 81  # number of frequencies at which the free subharmonic is searched for
 BEYOND = 0.1  # margin of W at each end, as a fraction of the range of the free subharmonic
 
 
@@ -48,10 +48,10 @@ def subharmonic_suppression(
     workers=1,
     progress=None,
 ):
-    """Find all motions with the damper over the range of W of the free subharmonic.
+    """Return a dataset of motions with the damper over the range of W of the free subharmonic.
 
-    This range with margins replaces the ends of `frequencies`. Half of the starts are on the free
-    subharmonic.
+    If found, the range with margins replaces the ends of `frequencies`, and within the range half
+    of the starts are on the free subharmonic.
     """
     if oscillator.cubic == 0:
         raise ValueError(
@@ -79,7 +79,7 @@ def subharmonic_suppression(
 
 
 def _switch_half(oscillator, parameters, free, states, seed):
-    """Put half of the starts (n, m, 4) on the free subharmonic, and return its max |Z1|, (n,)."""
+    """Put half of `states` (n, m, 4) on the free subharmonic; return its max |Z1| (n,) or NaN."""
     size = np.full(len(parameters), np.nan)
     half = states.shape[1] // 2
     for i, p in enumerate(parameters):
@@ -130,7 +130,7 @@ def is_subharmonic(data):
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return both ends of a branch of a `sweep`; an end not located is its last frequency."""
+    """Return both ends of a branch of a `sweep`, or its last frequency if an end is not located."""
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):
@@ -149,7 +149,7 @@ def branch_ends(data, branch, grid, rows):
 
 
 class FreeSubharmonic(NamedTuple):
-    """The free subharmonic: packed parameters, states at W T = pi/2, and `ends`, NaN if absent."""
+    """The free subharmonic: parameters, states at W T = pi/2, and `ends` in W (NaN if absent)."""
 
     parameters: np.ndarray
     states: np.ndarray

@@ -165,7 +165,7 @@ def _cells(question, balance, truth, count, total):
 
 
 def _summary(data):
-    """Yield rows on chaos among the violent motions, and on cells with a stable quiet orbit."""
+    """Yield rows on chaos among violent motions, and on cells with stable balance and orbit."""
     kinds = decode(data["high_run_motion"])
     chaotic = np.sum(kinds == "high_chaotic")
     settled = np.sum(kinds == "high")

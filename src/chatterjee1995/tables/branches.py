@@ -57,7 +57,7 @@ def _branches(datasets):
 
 
 def _ends_of(data, branch):
-    """Return the reason for each end of a branch, with the number of the branch met there."""
+    """Return the reason for each end of a branch, with the number of a branch met there, if any."""
     ends, met = data["branch_end"][branch], data["branch_met"].values[branch]
     names = [LEFT.get(name, name) for name in map(reading.meaning, ends)]
     return [
@@ -77,7 +77,7 @@ def _stable_ranges(value, stable, *, closed):
 
 
 def bifurcations(datasets) -> pd.DataFrame:
-    """Return bifurcations and changes of the contacts next to stable orbits, by branch and W."""
+    """Return bifurcations and changes of contacts at or next to stable orbits, sorted by W."""
     rows = []
     for name, data in _branches(datasets):
         for k in np.flatnonzero(_next_to_stable(data)):
@@ -103,7 +103,7 @@ def bifurcations(datasets) -> pd.DataFrame:
 
 
 def _next_to_stable(data):
-    """Return for each event whether an orbit before or after it on the branch is stable."""
+    """Return for each event whether the orbit at, before or after it on the branch is stable."""
     found = np.zeros(data.sizes["event"], bool)
     for branch in range(data.sizes["branch"]):
         points = np.flatnonzero(data["orbit_branch"].values == branch)

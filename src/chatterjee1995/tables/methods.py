@@ -59,7 +59,7 @@ def models(datasets) -> pd.DataFrame:
 
 
 def cheapest(data, labels):
-    """Return the index of the accurate run with the least work; None if no run is accurate."""
+    """Return the index of the accurate run with the least work by methods in `labels`, or None."""
     meets = decode(data["meets_accuracy"]).values == "yes"
     meets &= np.isin(data["method"].values, labels)
     work = np.where(meets, data["operations"].values, np.inf)
@@ -67,7 +67,7 @@ def cheapest(data, labels):
 
 
 def _most_accurate(data, method):
-    """Return the index of a method's run with the least error; None if the method has no run."""
+    """Return the index of a method's run with the least error of max |Z1| (in chaos: contacts)."""
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
         return None

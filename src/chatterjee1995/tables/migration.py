@@ -58,7 +58,7 @@ def _destination(motion):
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """Return the frequencies at which releases of a motion lead to each set of free motions."""
+    """Return W at which releases from each kind of motion lead to each set of free motions."""
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
         ends = list(scan.free_motion.values)

@@ -175,7 +175,7 @@ def end_with_parent() -> None:
 
 
 def _write_timing(path):
-    """Write seconds, CPU seconds and peak memory (MB) of this process and its children."""
+    """Write seconds, CPU seconds (of children too) and peak memory (MB) of this process."""
     process = psutil.Process()
     seconds = time.time() - process.create_time()
     cpu = sum(process.cpu_times()[:4])  # user, system; user and system of children

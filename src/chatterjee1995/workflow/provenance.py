@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def provenance(configuration, root) -> dict:
-    """Return digests, commit, versions and computer; outside of a repository `commit` is None."""
+    """Return digests, versions, computer, `commit` and `modified` (None outside a repository)."""
     root = Path(root)
     lock = (root / "requirements.lock").read_bytes()
     text = json.dumps(configuration, sort_keys=True)

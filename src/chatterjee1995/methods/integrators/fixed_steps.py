@@ -10,8 +10,8 @@ from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import external_force
 from impact_damper.model.packed import FREQUENCY
 
-VERLET, RUNGE_KUTTA_4, MERSON = range(3)
-BEYOND = 1e3  # |Z1| + |Z1'| + |Z2'| above which a run has diverged
+VERLET, RUNGE_KUTTA_4, MERSON = NUMBERS = range(3)
+BEYOND = 1e3  # |Z1| + |Z1'| + |Z2'|, or component of a flight, with which a run has diverged
 
 
 @kernel
@@ -101,11 +101,12 @@ def fixed_ends(method, p, start, t, step, ends):
 
 
 class FixedStep(Integrator):
-    """A method with equal steps; `number` selects it in `one_step`."""
+    """A method with equal steps; `number`, one of NUMBERS, selects it in `one_step`."""
 
     fixed = True
 
     def __init__(self, number, name, title, place, compared, stability_limit):
+        assert number in NUMBERS, f"number = {number}: must be one of {[*NUMBERS]}, for `one_step`"
         self.number, self.name, self.title, self.place = number, name, title, place
         self.compared, self.stability_limit = compared, stability_limit
 
@@ -129,7 +130,7 @@ class FixedStep(Integrator):
         return np.abs(ends[:, 3]), abs(there[0, 3])
 
 
-# The stability limit z = h omega solves |R(i z)| = 1; a step of y' = i omega y multiplies y by R.
+# Limit z = h omega of Runge-Kutta methods: |R(i z)| = 1; a step of y' = i omega y gives R(i z) y.
 BOTH = "stable_steps", "missed_contacts"
 INTEGRATORS = (
     FixedStep(VERLET, "verlet", "velocity Verlet", 1, BOTH[:1], 2.0),

@@ -17,7 +17,7 @@ UNLIMITED = 2**62  # number of evaluations of the rate that no run reaches
 
 @kernel
 def derivative(t, y, p, side, left):
-    """Return the rate; `left` counts down, and OverflowError is raised when nothing is left."""
+    """Return the rate; reduce `left`, the evaluations left, and raise OverflowError below 0."""
     left[0] -= 1
     if left[0] < 0:
         raise OverflowError("too many evaluations")
@@ -57,7 +57,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods, with its operations in an evaluation and in a factorisation."""
+    """One of SciPy's methods, with operations of an evaluation (without rate) and factorisation."""
 
     tolerances = "scipy"
     slow = True
@@ -93,10 +93,10 @@ class SciPy(Integrator):
         return (np.abs(result.y[2]), abs(result.sol(time)[2])) if result.success else None
 
 
-# Operations of an evaluation besides the rate, for 4 components. A product and its sum are two.
+# Operations of an evaluation besides the rate, for 4 components. A product with its sum is two.
 # DOP853: for each component on average 6 products for the next state, and 4 for the final values
 #     and the two error estimates.
-# LSODA: for each component 21 products and sums to predict and correct about 6 derivatives; 2 * 4^2
+# LSODA: for each component 21 products with sums, to find about 6 derivatives; 2 * 4^2
 #     to solve a system of four equations. The factorisation of its matrix takes 2/3 * 4^3.
 INTEGRATORS = (
     SciPy("DOP853", 4, operations=4 * 2 * (6 + 4)),

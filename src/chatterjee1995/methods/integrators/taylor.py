@@ -20,9 +20,9 @@ from impact_damper.kernel.single import (
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 from impact_damper.motions import traces
 
-# Kinds of steps: in flight, in flight until a contact, and in contact.
+# Kinds of steps: FLIGHT in flight, MEETING in flight until a contact begins, CONTACT in contact.
 FLIGHT, MEETING, CONTACT = range(3)
-# Orders of the series in flight and in contact with which the library integrates.
+# Orders of the library's series: in flight, and in contact.
 ORDERS = FLIGHT_ORDER, CONTACT_ORDER
 # Columns of the row of a step: time at the beginning, length, wall in contact before the step, wall
 # after the step (-1, 1, or 0 for none), and from SERIES on the coefficients of the series of Z1.
@@ -33,7 +33,7 @@ PARTS = 8  # number of parts of a step; a velocity is assumed to vanish at most 
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Fill `rows` with steps of y from t to `end`; return their number, final time and wall."""
+    """Fill `rows` with steps from t towards `end`; update y; return their number, time and wall."""
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
@@ -63,7 +63,7 @@ def steps_of(orders):
 
 
 def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
-    """Return the steps of a run from a state at t as rows (see ROWS), and the final state."""
+    """Return steps of a run from `start` at t, as rows (see ROWS), and the final state (or NaN)."""
     y, side = start.copy(), side_of(p, start)
     end, parts = t + periods * 2 * np.pi / p[FREQUENCY], []
     while t < end:
@@ -111,7 +111,7 @@ def counted(rows):
 
 
 def work_of_steps(counts, orders=ORDERS, tangents=False):
-    """Return the floating-point operations of steps, from their number of each kind."""
+    """Return the floating-point operations of steps, given the number of steps of each kind."""
     return sum(count * step_work(kind, orders, tangents) for kind, count in enumerate(counts))
 
 
