@@ -175,7 +175,7 @@ class MachineEntry(section.Section):
             yield f"{section.dotted(path)}: {error}" if path else str(error)
 
     def _lacking(self, path):
-        """Yield a line for each missing key of the contact."""
+        """Yield a line for each missing key of absorber and contact, and for a second stiffness."""
         rival, ball = self.absorber.values(), self.contact.values()
         for key in Rival.model_fields:
             if rival and key not in rival:

@@ -32,7 +32,7 @@ NUMBER, RANGE = "<number>", "<range>"
 class Allowed:
     """The words after "must be" that name allowed values; they replace pydantic's message.
 
-    For a list or mapping `test` returns whether its type and length are allowed.
+    For a list or mapping `test` returns whether its type, length and repetitions are allowed.
     """
 
     def __init__(self, words, meaning="", why="", test=None):
@@ -187,7 +187,7 @@ class Section(BaseModel):
     @model_validator(mode="wrap")
     @classmethod
     def _name_keys(cls, value, handler):
-        """Report unknown and missing keys, with the keys known in this section."""
+        """Report unknown keys with the keys known here, missing keys with the keys needed here."""
         try:
             return handler(value)
         except ValidationError as error:
@@ -265,7 +265,7 @@ def dotted(path) -> str:
 
 
 def problems_of(error) -> list:
-    """Return a line for each problem that pydantic found, in the order of the keys."""
+    """Return a line for each problem that pydantic found, in alphabetical order of their paths."""
     details = error.errors(include_url=False)
     # Paths mix names and positions in lists, which Python cannot compare.
     return [_line(detail) for detail in sorted(details, key=lambda d: [*map(str, d["loc"])])]

@@ -46,7 +46,7 @@ def shown_variable(name, values):
 
 
 def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
-    """Return a dataset of registered variables, in SI units if the `model` is a machine.
+    """Return a dataset of registered variables, in the units of the machine if `model` has one.
 
     `data` and `coordinates` hold dimensionless arrays by registered name, or pairs (dims, array).
     """
@@ -96,7 +96,7 @@ def in_si(data, machine, damper=None) -> xr.Dataset:
 
 
 def from_si(data, scales) -> xr.Dataset:
-    """Return the dataset of a machine in dimensionless numbers, by the machine's scales."""
+    """Return a dataset in dimensionless numbers: unchanged, or by the scales of a machine."""
     return _converted(data, lambda values, unit: values / unit, scales) if scales.si else data
 
 
@@ -244,7 +244,7 @@ def save(data, path) -> None:
 
 
 def load(path) -> xr.Dataset:
-    """Read a dataset that `save` wrote under this path, else raise BrokenFileError."""
+    """Read the dataset that `save` wrote to a path; raise BrokenFileError for any other content."""
     check_length(path)
     try:
         data = xr.load_dataset(path, engine="netcdf4")
@@ -264,10 +264,7 @@ def load(path) -> xr.Dataset:
 
 
 def seal(variables, path) -> dict:
-    """Return the attributes by which `load` detects that a file was replaced or damaged.
-
-    The SHA-256 digest is of all names, dimensions, shapes and values.
-    """
+    """Return the attributes by which `load` detects that a file was replaced or damaged."""
     path, digest = Path(path).absolute(), hashlib.sha256()
     for name, variable in sorted(variables.items()):
         digest.update(f"{name} {variable.dims} {variable.shape}".encode())

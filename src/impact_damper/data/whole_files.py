@@ -23,7 +23,7 @@ class BrokenFileError(OSError):
 def whole(path):
     """Yield a temporary path to write to, which is renamed to `path` on success.
 
-    Temporary files for the same `path`, left by a killed process, are removed first.
+    All temporary files for the same `path`, such as those of a killed process, are removed first.
     """
     path = Path(path)
     part = path.with_name(f"{path.name}.part-{os.getpid()}")

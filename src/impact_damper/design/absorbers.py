@@ -69,7 +69,7 @@ def absorber_responses(
 
     `mass` (kg) is the mass of the tuned absorber, `band` (Hz) the range over which it is tuned.
     `force_shares` multiply the excitation. `detunings` are relative changes of the absorber's
-    stiffness. The status "exact" means a linear machine, "one_harmonic" a cubic spring.
+    stiffness. Status: exact; one_harmonic (cubic spring); not_possible (no linear stiffness).
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)

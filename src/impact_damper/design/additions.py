@@ -19,7 +19,7 @@ from impact_damper.design.task import NOMINAL, VARIED, labelled
 from impact_damper.design.transients import transients
 from impact_damper.motions.strobe_map import strobe_time
 
-# Number of frequencies in `force_map`, besides the resonances and the promised frequency.
+# `count` of `Task.few` in `force_map`; the promised frequency is added.
 FREQUENCIES = 5
 # Loose mass of the heavier damper, divided by the loose mass of the task.
 HEAVIER = 2.0
@@ -42,9 +42,9 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 
 
 def other_masses(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of the damper and a heavier one, empty if the damper is good enough.
+    """Return a dataset of the damper and of a heavier one, whose gap a short search finds.
 
-    A short search finds the gap of the heavier damper, which is at most as heavy as the machine.
+    It is empty if the damper is good enough, or if the other would be heavier than the machine.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"

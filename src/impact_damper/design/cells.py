@@ -23,15 +23,15 @@ KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 # Purposes for which starts are drawn. The index of a purpose is part of the seed. A choice and its
 # confirmation therefore have different starts.
 STREAMS = ("search", "compared", "confirmed", "orbit", "forces", "masses", "repeated", "shocks")
-# Cells for which a thread draws starts at once (DRAWN), motions that a thread runs at once
-# (FOLLOWED), cells whose motions are run further between two comparisons of bounds (TOGETHER).
+# Largest number of cells for which a thread draws starts at once (DRAWN), of motions that a thread
+# runs at once (FOLLOWED), of regimes run further between two comparisons of bounds (TOGETHER).
 DRAWN, FOLLOWED, TOGETHER = 4, 8, 8
 # Largest ratio of neighbouring records in a regime, in order of size.
 APART = 1.3
 # A peak is the largest displacement in BLOCK cycles. The displacement that a regime exceeds once in
 # HORIZON cycles is extrapolated from its TAIL largest peaks.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
-# Least and largest number of cycles of all motions of a regime together.
+# Cycles of all motions of a regime together: least number for an extrapolation, and largest number.
 POOLED, MOST_POOLED = 25_000, 200_000
 # Relative growth of a record that is assumed for each doubling of the cycles up to POOLED.
 MISSING = 0.03
@@ -53,7 +53,7 @@ class Cell(NamedTuple):
 def draw_starts(task, cells, count, stream) -> np.ndarray:
     """Return random starts, shape (cells, count, 4), scaled by the motions without the damper.
 
-    `stream` is a name in STREAMS, with numbers after it if the name is used several times.
+    The tuple `stream` is a name in STREAMS, followed by numbers if the name is used several times.
     """
     states, stop = np.empty((len(cells), count, 4)), np.zeros(1, bool)
     name, *turn = stream
@@ -105,7 +105,7 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime) -> tuple:
-        """Return a regime's displacement; whether it is known; whether later peaks are smaller."""
+        """Return the displacement of a regime; if it is known; if late peaks fit the early ones."""
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
         pooled = BLOCK * np.isfinite(peaks).sum()
@@ -139,7 +139,7 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether a regime of cell k exceeds its extrapolation after MOST_POOLED cycles."""
+        """Return whether a regime of cell k with MOST_POOLED cycles exceeds its extrapolation."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 
@@ -160,7 +160,7 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Double the cycles run by a regime of cell k. The first call runs POOLED/2 cycles.
+        """Double the cycles run by a regime of cell k; in the first call run at least POOLED/2.
 
         Records of the first run are forgotten, because they may include transients.
         """
@@ -232,7 +232,7 @@ def run(task, cells, count, stream, progress=None) -> Motions:
 def peaks_of_blocks(task, p, states, number, cycles) -> np.ndarray:
     """Run motions from a strobe in place; return largest displacements, shape (motions, number).
 
-    A motion is run for a number of blocks of forcing cycles. After an escape they are infinite.
+    A block has `cycles` forcing cycles. After an escape the displacements are infinite.
     """
     tolerance, stop = task.effort.settling.tolerance, np.zeros(1, bool)
     peaks, parameters = np.zeros((number, len(states))), np.tile(p, (len(states), 1))

@@ -19,8 +19,8 @@ from impact_damper.motions.strobe_map import strobe_time
 # Number of states in a forcing cycle at which a motion is measured, and number of cycles over
 # which a motion that is not periodic is measured.
 SAMPLES, WATCHED = 64, 200
-# Random starts at each frequency of the response, which bounds nothing. Largest number of further
-# cycles of a motion that has not settled, to classify the motion.
+# Largest numbers: of random starts at each frequency of the response, and of further cycles of a
+# motion that has not settled, to classify the motion.
 STARTS, FURTHER = 32, 1500
 # Variable of the dataset -> name of the cost in `costs.measured_costs`, physical quantity.
 COSTS = {
@@ -36,7 +36,6 @@ COSTS = {
 
 def response_and_costs(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset of the response with the chosen damper, and of costs of large motions."""
-    # Motions that have not settled are run further, to classify them. The search saves this time.
     effort = task.effort
     settling = replace(effort.settling, further=FURTHER)
     searched = {"starts": min(STARTS, effort.starts), "seed": effort.seed, "settling": settling}

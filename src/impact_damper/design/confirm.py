@@ -13,8 +13,8 @@ from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import Curve, score, search, search_around
 from impact_damper.design.task import NOMINAL, SIDES, VARIED, Task, labelled
 
-# A gap is confirmed if its promised displacement is at most CONFIRMED times the least displacement
-# of the search. At most ROUNDS gaps are tried.
+# A gap is confirmed if the search chooses a tried gap again, or if the promised displacement is at
+# most CONFIRMED times the least displacement of the search. At most ROUNDS gaps are tried.
 CONFIRMED, ROUNDS = 1.1, 4
 # Nearby gaps are run again if the promised displacement exceeds SURPRISE times the searched one.
 SURPRISE = 1.1

@@ -18,10 +18,10 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 def measured_costs(p, y, begin, periods) -> dict:
     """Return the dimensionless costs of a motion over a number of forcing cycles.
 
-    Only contacts that begin in these cycles are counted. Rates, forces and powers are NaN if the
-    motion escapes over the barrier of a softening spring. Forces and powers are divided by the
-    primary mass. On a moving base the acceleration is absolute. Without a moving base the absolute
-    displacement is NaN.
+    Only contacts that begin in these cycles are counted. Rates, forces, accelerations and powers
+    are NaN if the motion escapes over the barrier of a softening spring. Forces and powers are
+    divided by the primary mass. On a moving base the acceleration is absolute. Without a moving
+    base the absolute displacement is NaN.
     """
     time = periods * 2 * np.pi / p[FREQUENCY]
     panels = sampled(p, y, begin, begin + time, POLISH_TOLERANCE)

@@ -247,7 +247,7 @@ class Steps:
 
 
 def _sources():
-    """Return a digest of all source files of the package."""
+    """Return a digest of all Python files of the package."""
     digest = hashlib.sha256()
     for path in sorted(Path(__file__).parents[1].rglob("*.py")):
         digest.update(path.read_bytes())

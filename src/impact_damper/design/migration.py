@@ -46,8 +46,8 @@ def migration(
 
     The dataset has, for each gap and frequency, the share of releases that succeed, their median
     time and `migration_bound`: the time in which the share `share` of all releases succeed, at 95 %
-    confidence, or infinity. At the `sure_frequency` of a gap and at all higher frequencies this
-    time is finite. `migration_gap` is the gap with the lowest `sure_frequency`. A ValueError is
+    confidence, or infinity. From the `sure_frequency` of a gap on, it is finite wherever there are
+    two free motions. `migration_gap` is the gap with the lowest `sure_frequency`. A ValueError is
     raised if the machine without damper has only one motion at each frequency.
     """
     effort = Effort() if effort is None else effort
@@ -106,7 +106,7 @@ def release_time(case, seed, longest_hold, settling, stop) -> float:
 
 
 def _table(task, gaps, times, longest_hold) -> xr.Dataset:
-    """Return the dataset of releases from their times (s), NaN if there is only one free motion."""
+    """Return the dataset of releases from times (s), which are NaN where one free motion exists."""
     rank = bounding_rank(task.share, times.shape[-1])
     bounds = -np.sort(-times, axis=-1)[..., rank - 1]
     one = np.isnan(times[..., 0])

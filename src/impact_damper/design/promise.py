@@ -13,7 +13,7 @@ from impact_damper.design.task import VARIED
 CORNERS = 8
 # In at most SPLITS rounds, frequencies are added beside the peak of each set of factors whose peak
 # is at least NEAR times the largest one. A peak is known if the last frequencies raised the peak by
-# at most the fraction PEAK, and if a parabola through 3 points exceeds the peak by at most PEAK.
+# at most the fraction PEAK and, inside the band, a parabola by at most PEAK; or if it is infinite.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
 # Sets that deviate are run first at half of the grid's frequencies, but at FEWEST at least.
 FEWEST = 9
@@ -97,7 +97,7 @@ class Promise:
                 return
 
     def refined(self) -> "Promise":
-        """Run further frequencies until the peak over the frequency is known; return the object."""
+        """Run further frequencies, SPLITS times or until the peak is known; return the object."""
         before = {}
         for _ in range(SPLITS):
             cells = []
@@ -160,7 +160,7 @@ def beside_peak(frequencies, bounds) -> list:
 
 
 def factor_sets(task, gap) -> np.ndarray:
-    """Return sets of factors: nominal, gap (mm) at both ends of its tolerance, and corners."""
+    """Return factor sets for a gap (mm): nominal, both ends of the gap's tolerance, and corners."""
     widths = task.deviations(gap)
     signs = [(-1, 1) if width else (0,) for width in widths]
     corners = np.array(list(itertools.product(*signs)), float)

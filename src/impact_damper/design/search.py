@@ -13,18 +13,18 @@ from impact_damper.design.cells import Cell, run
 from impact_damper.design.promise import other_sets
 from impact_damper.design.task import NOMINAL, Task
 
-# First search over all gaps: largest number of gaps, numbers of frequencies and of starts.
+# First search over all gaps: largest number of gaps, `count` of `Task.few`, number of starts.
 GAPS, FREQUENCIES, STARTS = 40, 9, 12
-# Comparison near the best gaps: numbers of frequencies, of starts, and of rounds.
+# Comparisons near the best gaps: `count` of `Task.few`, number of starts, largest number of rounds.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
 # Typical ratio of `cells.return_level` to the largest displacement of few unsettled motions.
 RECORD = 1.2
-# JUMP: least ratio of neighbouring displacements at a jump. SMOOTH and FINE: largest intervals of
-# the logarithm of the gap that are not split, in general and at a jump.
+# JUMP: least ratio of neighbouring displacements at a jump. An interval of the logarithm of the gap
+# is split if it is above FINE at a jump, above SMOOTH elsewhere.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
 # Gaps with values of at most CANDIDATE times the least value form candidate ranges. A range ends at
-# LEVEL times its own least value. The widest range is chosen, of those whose own least value is at
-# most ALIKE times the least value of all gaps.
+# LEVEL times its own least value. Of the ranges whose own least value is at most ALIKE times the
+# least value of all gaps, the widest is chosen.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
 # A gap is rounded to at least DIGITS and fewer than MOST_DIGITS significant digits, or not at all.
@@ -52,7 +52,7 @@ class Curve:
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements. At a known gap the larger one is kept, with `replace` the new one."""
+        """Add displacements. A known gap keeps the larger one, or gets the new one if `replace`."""
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
             if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
@@ -68,7 +68,7 @@ class Curve:
     def within(self, lows, highs) -> np.ndarray:
         """Return the largest displacement between each pair of gaps.
 
-        The curve is interpolated, and at a jump replaced by the larger displacement of both sides.
+        At these gaps the curve is interpolated or, in a jump, the larger neighbour is taken.
         """
         logs, values = np.log(self.gaps), np.log(self.sizes)
         found = np.full(len(lows), -np.inf)
@@ -111,9 +111,9 @@ class Curve:
         return max(good, key=lambda each: each.high / each.low)
 
     def keeping(self, gap, size) -> tuple:
-        """Return both ends of a range of gaps around `gap`, and the displacements just beyond.
+        """Return the ends of a range of gaps around `gap`, and displacements just beyond, or NaN.
 
-        Displacements in the range are at most `size`. The range includes the tolerance of `gap`.
+        The range is the tolerance of `gap` and all adjoining gaps with displacements up to `size`.
         """
         ends, beyond = [], []
         for end, step in zip(self.task.gap_ends(gap), (-1, 1), strict=True):
@@ -125,7 +125,7 @@ class Curve:
         return ends, beyond
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return sets of factors with the worst tolerated gap, none if this is `gap` or an end."""
+        """Return `sets` with the worst gap in the tolerance, none if `gap` or an end is as bad."""
         low, high = self.task.gap_ends(gap)
         inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
         known = np.array([low, gap, high])
@@ -163,7 +163,7 @@ class Curve:
 
 
 def middle_gap(first, last) -> float:
-    """Return a gap inside a range, near its middle, with as few digits as possible."""
+    """Return a gap inside a range, near its middle, with DIGITS digits or, if needed, more."""
     middle = float(np.sqrt(first * last))
     for digits in range(DIGITS, MOST_DIGITS):
         gap = float(f"{middle:.{digits}g}")

@@ -13,9 +13,9 @@ from impact_damper.design.task import labelled
 from impact_damper.model.packed import FREQUENCY
 
 # Number of impulses of each sign. The largest impulse changes the velocity of the machine by WIDEST
-# times its largest velocity without damper.
+# times its largest velocity without damper or, if that is infinite, at the promised displacement.
 SHOCKS, WIDEST = 32, 2.0
-# Cycles of a motion, and cycles between which its largest displacement is compared.
+# Cycles of a motion, and of each block whose largest displacement is compared with the promise.
 LONGEST, BLOCK = 1000, 10
 # Cycles for which the share of starts that have returned is stored.
 LIMITS = (10, 30, 100, 300, 1000 - BLOCK)

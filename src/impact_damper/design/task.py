@@ -1,7 +1,7 @@
 """The task of a design: machine, loose mass, contact, band of frequencies, tolerances, effort.
 
-All values are in SI units. Rule (18) of the paper is m2 w^2 (gap/2) = F, with the loose mass m2,
-the angular forcing frequency w and the amplitude F of the force.
+Values are in SI units unless mm are named. Rule (18) of the paper is m2 w^2 (gap/2) = F, with the
+loose mass m2, the angular forcing frequency w and the amplitude F of the force.
 """
 
 import math
@@ -46,10 +46,9 @@ ABSOLUTE = {
     "stiffness": "stiffness",
     "damping": "damping",
 }
-# Least gap that a design considers, divided by the gap of rule (18) or by the greatest gap,
-# whichever is smaller.
+# Least gap considered, divided by the least gap of rule (18) or, if smaller, by the greatest gap.
 LEAST_GAP = 0.15
-# Greatest gap, divided by the gap of rule (18), if the machine without damper escapes.
+# Greatest gap, divided by the greatest gap of rule (18), if the bare machine escapes everywhere.
 ESCAPING = 4.0
 # Ends of the range over which an absorber is tuned for comparison, divided by the lowest and by the
 # highest frequency of band and resonance.
@@ -81,7 +80,7 @@ class Effort:
     candidates : int
         Largest number of gaps in each comparison after the first search over all gaps.
     starts : int
-        Random starts (initial states of machine and loose mass) at each gap and frequency.
+        Random starts (initial states of machine and loose mass) that test a gap at each frequency.
     seed : int
         Seed of the random starts.
     settling : Settling, optional
@@ -262,7 +261,7 @@ class Task:
 
     @cached_property
     def gap_tolerance(self) -> tuple[float, float]:
-        """Largest deviation of the gap, as a fraction of the gap and in mm; one of the two is 0."""
+        """Largest deviation of the gap, as a fraction of the gap and in mm; at least one is 0."""
         value = self.tolerances.get("gap", 0.0)
         return (value, 0.0) if isinstance(value, float) else (0.0, 1e3 * float(value.split()[0]))
 
@@ -436,7 +435,7 @@ class Task:
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the least and greatest resonance, Hz: natural frequency, free peak, and folds."""
+    """Return the least and the greatest of natural frequency, peak and folds without damper, Hz."""
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
     found = [point.frequency for point in free_folds(oscillator)]

@@ -161,7 +161,7 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy at rest. The loose mass sticks, or gravity holds it on a wall."""
+    """Return the energy at rest. The loose mass sticks, or lies on a wall if there is gravity."""
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
     weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]

@@ -105,9 +105,8 @@ def _at_heights(leaving):
             yield found[0]
 
 
-# WHOLE: periods of branches from which new branches are followed that begin unstable, too. STABLE:
-# longest period of a new branch from any other branch. MET: longest period of a branch at whose end
-# a branch of more symmetry is followed.
+# WHOLE: periods of branches from which unstable branches are followed too. STABLE: longest period
+# of a branch from other branches. MET: longest period of a branch followed to one of more symmetry.
 WHOLE, STABLE, MET = (1, 3), 9, 4
 # Largest differences of the parameter and of max |Z1| between an event and the end of the branch
 # that leaves there. The end is a fold, whose error is 1e-7 in branch length.

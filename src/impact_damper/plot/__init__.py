@@ -1,6 +1,6 @@
 """Plots of results, such as `impact_damper.plot.response(data)`.
 
-Each function draws on `axes` (`axes.legend()` adds a legend), or on a new figure with a legend.
+All but `conclusion` draw on `axes` (`axes.legend()` adds a legend), or on new axes with a legend.
 """
 
 from impact_damper.plot.basin_plane import basins

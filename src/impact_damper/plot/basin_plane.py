@@ -21,8 +21,8 @@ SADDLES = style.markers("unstable orbit", style.BLACK, "x", markersize=5)
 def basins(data, axes=None):
     """Draw basins of attraction: the motion to which each state of a plane leads.
 
-    With a damper the motion also depends on the place of the loose mass. The shade is the share of
-    places that lead to the smallest motion. A legend is drawn below the axes.
+    With a damper the motion also depends on the place of the loose mass. For several places the
+    shade is the share of places that lead to the smallest motion. The legend is below the axes.
 
     Parameters
     ----------

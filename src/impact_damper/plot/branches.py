@@ -37,7 +37,7 @@ def branch(data, axes=None):
     """Draw the largest displacement in periodic orbits against the parameter that varies.
 
     Stable orbits are solid lines, unstable ones dotted lines. Colours distinguish periods.
-    Markers show bifurcations and changes of contact of stable orbits.
+    Markers show bifurcations and changes of contact beside stable orbits.
 
     Parameters
     ----------

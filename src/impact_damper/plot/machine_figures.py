@@ -115,7 +115,7 @@ def gap_panel(axes, data):
 
 @style.context()
 def draw_forces(data):
-    """Return a figure of displacement over excitation: with damper, with absorber, with neither."""
+    """Return a figure of displacement over excitation for damper, absorber, neither; or None."""
     if not {"force_map_displacement", "competitor_displacement"} <= set(data):
         return None
     drawn = style.figure("double", 2.8)
@@ -143,7 +143,7 @@ def draw_forces(data):
 
 @style.context()
 def draw_transients(data):
-    """Return a figure of the largest displacement in cycles of two sweeps and an unforced decay."""
+    """Return a figure of largest displacements in cycles of two sweeps and a decay; or None."""
     if "sweep_envelope" not in data:
         return None
     drawn = style.figure("double", 2.8)

@@ -57,7 +57,7 @@ def phase_panel(axes, run):
 
 
 def _time_panel(axes, run):
-    """Draw Z1 and Z2 against time. The line of Z2 is thick in contact."""
+    """Draw Z1 and, if there is a contact, Z2 against time. The line of Z2 is thick in contact."""
     time, relative = run["time"], run["relative_displacement"]
     axes.plot(time, run["displacement"], color=style.BLACK, label="primary mass, $Z_1$")
     if len(run["contact_wall"]):
@@ -73,7 +73,7 @@ def _time_panel(axes, run):
 
 
 def _in_contact(run, wall):
-    """Return the mask of times in contact with a wall. A contact without end (NaN) lasts on."""
+    """Return the mask of times in contact with a wall. A contact whose end is NaN lasts on."""
     contacts = run[["contact_begin", "contact_end"]].isel(
         contact=run["contact_wall"].values == wall
     )

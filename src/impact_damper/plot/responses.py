@@ -87,7 +87,7 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw orbits: with a damper only unstable ones of period 1 and, if `stable`, stable ones."""
+    """Draw orbits. With a damper: unstable ones of period 1 and, if `stable`, all stable ones."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return
@@ -114,7 +114,7 @@ def _draw_balance(axes, balance, free):
 
 
 def _draw_solutions(axes, amplitude, role):
-    """Draw amplitudes, shape (frequency, solution). Solutions with NaN are left out."""
+    """Draw amplitudes, shape (frequency, solution). A solution of NaN only is left out."""
     for branch in np.abs(amplitude.values).T:
         if np.isfinite(branch).any():
             style.draw(axes, amplitude["frequency"], branch, **style.ROLES[role])

@@ -14,8 +14,8 @@ from impact_damper.plot import style
 def datasets_in(data, takes, words) -> list[xr.Dataset]:
     """Return one or several datasets as a list.
 
-    A TypeError is raised unless `takes` accepts each dataset. Its message has `words`, the names of
-    the functions that return such datasets.
+    A TypeError is raised unless `takes` accepts each dataset, and all are of one machine or without
+    units. `words` are the names of the functions that return such datasets.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:

@@ -27,8 +27,8 @@ VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 def sweep(data, axes=None):
     """Draw the largest displacement of the quiet motion against clearance, and its minimum.
 
-    Points show the exact motion. Lines show the amplitude by harmonic balance. With inelastic
-    contact, and for a machine, the lines join the points.
+    Points show the exact motion. Lines show the amplitude by harmonic balance. Without an optimum
+    by harmonic balance, as for inelastic contact, the lines join the points.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def sweep(data, axes=None):
 
 
 def _balanced(sweep):
-    """Return whether a sweep has amplitudes by harmonic balance."""
+    """Return whether a sweep has an optimum by harmonic balance."""
     return bool(np.isfinite(sweep["analytical_optimum"]))
 
 

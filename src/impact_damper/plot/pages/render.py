@@ -145,7 +145,7 @@ QUANTITIES = {
 }
 HARDLY = 0.2  # impacts in a cycle, below which the loose mass is only ballast
 # Columns of tables: name of a variable or key; description; unit; factor that divides (in GIVEN) or
-# multiplies (in COSTS) the value; key of the tolerance.
+# multiplies (in COSTS) the value; in GIVEN also the key of the tolerance, or None.
 TABLES = {
     "GIVEN": (
         ("mass", "mass without the loose mass", "kg", 1, None),
@@ -285,7 +285,7 @@ def _shocks(data):
 
 
 def _condition(data, tolerated):
-    """Return the nearest change that breaks the promise: of the gap, or of the excitation."""
+    """Return the nearest change of gap or excitation after which nothing is promised, or None."""
     gap, promised = float(data["design_gap"]), float(data["promised_displacement"])
     found = []
     kinds = decode(data["keeping_end"]).values
