@@ -64,7 +64,7 @@ def number(x):
 
 
 def template(function, caller):
-    """Return what numba's kernels call in place of a template; `caller` only calls the result."""
+    """Return the intrinsic that numba's kernels call for a template; `caller` only calls it."""
 
     def generate(context, builder, signature, arguments):
         builder.call(_compiled(builder.module, function, arguments), arguments)

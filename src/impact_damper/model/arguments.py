@@ -152,7 +152,7 @@ def read_pair(scales, name, values) -> np.ndarray:
 
 
 def _components(scales, name, values, kinds, words):
-    """Return dimensionless displacements and velocities; the error message needs `words`."""
+    """Return dimensionless displacements and velocities; `words` tell in errors what is needed."""
     numbered = list(_numbered(values))
     if len(numbered) != len(kinds):
         raise ValueError(f"{name} = {shown(values)}: must be {words}")

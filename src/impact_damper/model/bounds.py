@@ -60,7 +60,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return the number in an array without dimensions (with a unit an error), or another value."""
+    """Return the number of an array without dimensions, or another value; units are an error."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")
@@ -80,7 +80,7 @@ def check_number(
     """Return `value` as a float, or raise an error if it is not allowed.
 
     Raise TypeError for a value that is no real number, such as True, and ValueError if the value is
-    not finite or out of bounds; this message has the reason `why`, and `given` for the value.
+    not finite or out of bounds. This second message has the reason `why`, and `given` as the value.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -128,7 +128,7 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Raise an error if `points` grid points need over MOST_RUNS runs and `starts` > `least`."""
+    """Check `starts` at each of `points`: at least `least`; if more, at most MOST_RUNS in all."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 
@@ -140,7 +140,7 @@ def nearest(name, known) -> str:
 
 
 def names_arguments(function):
-    """Decorate a public function or class; errors for unknown or missing arguments list all.
+    """Decorate a public function or class; errors for wrong names list the known names.
 
     The docstring of a dataclass gets a list of the fields with a `meaning`.
     """

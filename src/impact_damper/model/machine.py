@@ -24,7 +24,7 @@ MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """A value that a machine computed from other values; each copy of the machine computes anew."""
+    """A value that a machine computed from other values; each copy of the machine does so again."""
 
 
 @bounds.names_arguments
@@ -96,8 +96,8 @@ class Machine:
     linear_stiffness x + cubic_stiffness x^3. The natural frequency may be given in place of the
     linear stiffness. Give one of damping_ratio, quality_factor and damping, and one excitation.
     Functions that take a machine take frequencies in Hz and states in m and m/s, and return
-    datasets in mm, Hz, N, m/s and s. An unbalance has the force unbalance w^2. On a moving base all
-    displacements of the machine are relative to the base, whose acceleration acts on both masses.
+    datasets in mm, Hz, N, m/s and s. An unbalance exerts a force of amplitude unbalance w^2.
+    On a moving base displacements are relative to the base. Its acceleration acts on both masses.
     The deflection is measured from rest under the weight of the machine.
 
     Raises
@@ -177,7 +177,7 @@ class Machine:
             )
 
     def _derive(self):
-        """Compute stiffness or natural frequency, and the damping ratio from the quality factor."""
+        """Derive stiffness and natural frequency from each other, damping ratio from quality."""
         if self.natural_frequency is None:
             found = math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
             object.__setattr__(self, "natural_frequency", Derived(found))

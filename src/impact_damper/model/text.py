@@ -10,7 +10,7 @@ POSITIONAL = 5
 
 
 def number(value, digits=3) -> str:
-    """Return a number with `digits` significant digits, such as "0.215", "2e7"; NaN is "none"."""
+    """Return a number rounded to `digits` significant digits, such as "2e7"; NaN is "none"."""
     value = float(value) + 0.0  # -0.0 becomes 0.0
     if not math.isfinite(value):
         return "none" if math.isnan(value) else "∞" if value > 0 else "-∞"

@@ -137,7 +137,7 @@ def check_si(name, value, quantity, **bounds) -> float:
 
 
 def absolute_value(value, quantity) -> float | None:
-    """Return a deviation with a unit of the quantity in SI units; None otherwise (a fraction)."""
+    """Return a deviation that has a unit of the quantity, in SI units; None for a fraction."""
     if quantity is None or not (isinstance(value, str) or hasattr(value, "units")):
         return None
     try:
@@ -180,7 +180,7 @@ class Scales(NamedTuple):
     def unit(self, kind) -> float:
         """Return the SI value of the dimensionless number 1 of a kind, a key of QUANTITIES.
 
-        A frequency in Hz is W w0/(2 pi), and a gap is twice the clearance. Without units all are 1.
+        A frequency in Hz is W w0/(2 pi), a gap is twice the clearance. Without `si` the value is 1.
         """
         if not self.si:
             return 1.0

@@ -1,4 +1,4 @@
-"""Simulate one motion, from a given state or a random state."""
+"""Simulate one motion from a given state; draw random states."""
 
 import numpy as np
 

@@ -81,7 +81,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return the mean growth in a batch, its error, and if recent batches exceed half the mean."""
+    """Return mean growth in a batch, its error, and whether recent batches exceed half the mean."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):

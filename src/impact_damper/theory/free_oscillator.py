@@ -31,7 +31,7 @@ class Point(NamedTuple):
 
 
 class Resonance(NamedTuple):
-    """Amplitude and phase of the free resonance branch; beyond its end the fold's and None."""
+    """Amplitude and phase of the free resonance branch; beyond the fold its amplitude and None."""
 
     amplitude: float
     phase: float | None
@@ -64,7 +64,7 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def balance_amplitudes(oscillator, frequency):
-    """Return the amplitudes of `main_solutions`; if a softening spring has no peak, one."""
+    """Return the amplitudes of `main_solutions`; the smallest if a softening spring has no peak."""
     try:
         return main_solutions(oscillator, frequency).amplitude
     except ValueError:

@@ -71,8 +71,8 @@ def find_contact(a):
     END_Z1_SLOPE must hold Z1 and Z1' at T before the call; they are updated with T. If T is below
     LENGTH, `expect_contact` expects a contact at T; the contact may lie slightly later.
 
-    Bounds decide most flights without a search, for any spring. `change` bounds the change
-    of Z2' by the moduli of terms of Z1' and by MOST. First Z2' points to the wall ahead.
+    Bounds decide most flights without a search, for any spring. `change` is a bound on
+    the change of Z2', from the terms of Z1' and MOST. At first Z2' points to the wall ahead.
 
     - `clear`: Z2 deviates from its chord, the straight line between the ends of the flight, by at
       most SAG `change` T. The wall ahead is not met if both ends are further from this wall.

@@ -177,7 +177,7 @@ def wall_force_held(a, i):
 
 
 def end_turn(a):
-    """Set Z2' to 0 after a turn and while a mass sticks, to a tiny SLIDE number after a slip.
+    """Set Z2' to 0 after a turn and while the mass sticks, and to TINY SLIDE after a slip.
 
     A loose mass that has stuck during the step keeps its Z2.
     """

@@ -1,7 +1,7 @@
 """Template (see `step`): search for the first root of an event function f(t) within a step.
 
 In flight f is the distance of the loose mass to a wall, and its root is the beginning of a contact.
-In contact f is q + LAG q' (`separation`), and its root is the separation. The row MODE has a mode:
+In contact f is q + LAG q' (`separation`), and its root is the separation. Modes in the row MODE:
 
     MARCH     several roots are possible. A bound on |f''| gives a time within which f cannot
               vanish. The search advances by such times, so that it never passes the first root.
@@ -102,7 +102,7 @@ def store_end(a, i, row, end, move, going):
 
 
 def store_search(a, i, mode, t, move):
-    """Store T, MODE, END_Z1 and its slope after a move; return 1 if the search goes on, else 0."""
+    """Store T, MODE, END_Z1 and the slope after a move; return 1 if the search goes on, else 0."""
     going = a[MODE + i] <= ENDING
     a[T + i] = t
     a[MODE + i] = mode

@@ -51,8 +51,8 @@ def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
     The coefficients of Z1 are assumed to decay geometrically from SCALE; three coefficients from
-    order EARLY on give the rate. At LENGTH the last terms of Z1' reach SAFETY times the tolerance.
-    So the processor can begin the next step before the last coefficients are computed.
+    order EARLY on give the rate. At LENGTH the last terms of Z1' reach `largest_tail`. So
+    the processor can begin the next step before the last coefficients are computed.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -183,8 +183,8 @@ def dashpot_jump(a, d, direction):
     """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
 
     The dashpot's force begins (direction -1) or ends (direction +1). Only this force jumps.
-    Therefore the tangent's velocities jump in proportion to its Z2; the determinant is 1. A wall's
-    force that begins or ends at a depth is 0 there and does not jump.
+    Therefore the tangent's velocities jump in proportion to its Z2, and the matrix has determinant
+    1. A wall's force that begins or ends at a depth is 0 there and does not jump.
     """
     for i in range(TANGENTS):
         j = i % LANES
