@@ -6,7 +6,7 @@ import numpy as np
 from scipy.linalg import eigvals, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
-# Above DENSE unknowns only 4 COPIES eigenvalues, those nearest zero, are computed.
+# Above DENSE unknowns only the 4 * COPIES eigenvalues nearest zero are computed.
 DENSE, COPIES = 100, 3
 # If the multiplier of half a cycle is real and negative, the exponent has copies with imaginary
 # parts W and -W. A part within EDGE * W of W is set to W. Parts within EDGE * W of -W are left out.
@@ -16,7 +16,7 @@ EDGE = 1e-2
 class Exponents(NamedTuple):
     """Floquet exponents per unit of T, by ascending real part; NaN unless the status is "found".
 
-    Status "not_separated": more or fewer than 2 (4 with damper) eigenvalues in -W < Im <= W.
+    Status "not_separated": more or fewer than 2 (4 with damper) eigenvalues with -W < Im <= W.
     """
 
     values: np.ndarray

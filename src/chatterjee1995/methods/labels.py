@@ -2,7 +2,7 @@
 
 from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
 
-# ERRORS: quantities whose errors the stage `accuracy` compares. STATISTICS: averages of chaos.
+# ERRORS: quantities with errors in the stage `accuracy`. STATISTICS: averages of chaotic motions.
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 STATISTICS = ("contact_rate", "displacement", "exponent")
 

@@ -190,7 +190,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return coefficients of the solution of (7) with least |a|; free: of the largest solution."""
+    """Return coefficients of the solution of (7) with least |a|; without damper, of the largest."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2

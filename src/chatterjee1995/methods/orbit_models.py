@@ -1,4 +1,4 @@
-"""Rigid walls, harmonic balance, shooting, and their work (docs/explanation/methods.md)."""
+"""Models by rigid walls, harmonic balance, shooting; their work (docs/explanation/methods.md)."""
 
 import math
 from dataclasses import replace

@@ -149,7 +149,7 @@ FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # Impulse q for equal |x| at impact and turning point, and phase phi of the turning point, for e = 1
 # and no damping or stiffness: q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
-# CRITERIA: quantities of Z1 that an optimum clearance minimises. RULES: rules (`rule_ratios`).
+# CRITERIA: quantities of Z1 that an optimum clearance minimises. RULES for it: see `rule_ratios`.
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 

@@ -87,7 +87,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step up to which all tested ones hold; NaN if these are < CONFIRMED."""
+    """Return the largest step up to which all tested ones hold; NaN if fewer than CONFIRMED do."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -95,7 +95,7 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Return slope and standard error of log(1/step) over log r1, or NaN; only for r1 >= STIFF."""
+    """Return slope and standard error of log(1/step) over log r1 for r1 >= STIFF (3 or more)."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan

@@ -72,13 +72,13 @@ def is_outcome(data, *meanings):
 
 
 def touching(response):
-    """Return the mask of the motions, settled or not, in which the loose mass touches the walls."""
+    """Return the mask of motions, settled or not but bounded, whose loose mass touches walls."""
     steady = is_outcome(response, "settled", "quasi_periodic", "chaotic", "unresolved")
     return steady & (response.contacts > 0)
 
 
 def share_of_starts(response, motions):
-    """Return at each W the share of random starts that lead to motions in a mask, or 0."""
+    """Return at each W the share of random starts that lead to motions in a mask, 0 if none do."""
     total = response.motion_starts.sum("motion")
     led = response.motion_starts.where(motions, 0).sum("motion")
     return (led / total.where(total > 0)).fillna(0)

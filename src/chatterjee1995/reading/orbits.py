@@ -34,9 +34,9 @@ def pieces(branches) -> pd.DataFrame:
     """Return a row for each piece of the branches; a piece joins two successive orbits.
 
     `lower` and `upper` are the ends in W. `size` is max |Z1| in the middle. The complex first
-    harmonic of Z1 there is `amplitude` with its phase relative to Z2, `loose` with it relative to
-    x2. A column `_change` is the difference between the ends. `fewest` and `contacts` are the least
-    and largest number of contacts, `restitution` the least ratio of departure to approach speed.
+    harmonic of Z1 there is `amplitude` if its phase is relative to Z2, `loose` if relative to x2.
+    Columns `*_change` are differences between the ends. `fewest` and `contacts` are the least and
+    largest number of contacts, `restitution` the least ratio of departure to approach speed.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -112,7 +112,7 @@ def crossings(part, frequency) -> pd.DataFrame:
 
 
 def smallest(part, frequency) -> pd.DataFrame:
-    """Return rows of `crossings`: the smallest size at each frequency that a piece contains."""
+    """Return, at each frequency inside a piece, the row of `crossings` with the smallest size."""
     rows = crossings(part, frequency)
     return rows.loc[rows.groupby("frequency")["size"].idxmin()]
 

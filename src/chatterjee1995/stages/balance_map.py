@@ -231,7 +231,7 @@ def _run(parameters, starts, settling, workers, progress):
 
 
 def _kinds(records, resonance):
-    """Return the flag `quiet_run_motion` of each run; `resonance` is the free one of each cell."""
+    """Return the flag `quiet_run_motion` of each run; `resonance` is the free amplitude there."""
     low = records["maximum_displacement"] < HIGH * resonance
     quiet = low & is_symmetric_pair(records)
     outcome = records["outcome"]

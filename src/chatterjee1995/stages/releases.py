@@ -149,7 +149,7 @@ def _release(case, state, wait, settling, stop=NEVER):
 def watch_runs(case, seeds, lifetime, settling, workers, progress):
     """Return runs with the damper on from the resonance branch, and a release from each run.
 
-    It lies after strobe LEAD and before `lifetime` or capture by an orbit (NaN if this is earlier).
+    The release lies after strobe LEAD, before `lifetime` or capture by an orbit; NaN if impossible.
     """
     # Random phase and place of switching on, strobe of the release, and phase after this strobe.
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])

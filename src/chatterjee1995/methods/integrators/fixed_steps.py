@@ -11,7 +11,7 @@ from impact_damper.kernel.equation import external_force
 from impact_damper.model.packed import FREQUENCY
 
 VERLET, RUNGE_KUTTA_4, MERSON = NUMBERS = range(3)
-BEYOND = 1e3  # |Z1| + |Z1'| + |Z2'|, or component of a flight, with which a run has diverged
+BEYOND = 1e3  # least |Z1| + |Z1'| + |Z2'|, or component of a flight, of a run that has diverged
 
 
 @kernel

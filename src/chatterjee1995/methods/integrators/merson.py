@@ -21,7 +21,7 @@ FIRST = 1e-3  # length of the first step, divided by the forcing period or the t
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return state and error/(limit of error) after a step; by Z2, not `side`, if `by_position`."""
+    """Return the state and error/limit after a step; with `by_position` Z2 determines the wall."""
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
     k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)

@@ -57,7 +57,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods, with operations of an evaluation (without rate) and factorisation."""
+    """One of SciPy's methods; operations of an evaluation beside the rate, of a factorisation."""
 
     tolerances = "scipy"
     slow = True

@@ -33,7 +33,7 @@ PARTS = 8  # number of parts of a step; a velocity is assumed to vanish at most 
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Fill `rows` with steps from t towards `end`; update y; return their number, time and wall."""
+    """Fill `rows` with steps from t towards `end`, update y; return the count, final time, wall."""
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
