@@ -22,7 +22,7 @@ LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)
 KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 # Purposes for which starts are drawn. The index of a purpose is part of the seed. A choice and its
 # confirmation therefore have different starts.
-STREAMS = ("search", "compared", "confirmed", "orbit", "forces", "masses", "repeated", "shocks")
+STREAMS = "search compared confirmed orbit forces masses repeated shocks searched_again".split()
 # Largest number of cells for which a thread draws starts at once (DRAWN), of motions that a thread
 # runs at once (FOLLOWED), of regimes run further between two comparisons of bounds (TOGETHER).
 DRAWN, FOLLOWED, TOGETHER = 4, 8, 8

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.data.sweeps import runs_of_true
-from impact_damper.design.cells import Cell, run
-from impact_damper.design.promise import other_sets
+from impact_damper.design.cells import STREAMS, Cell, run
+from impact_damper.design.promise import MORE, RARE, other_sets
 from impact_damper.design.task import NOMINAL, Task
 
 # First search over all gaps: largest number of gaps, `count` of `Task.few`, number of starts.
@@ -173,20 +173,46 @@ def middle_gap(first, last) -> float:
 
 
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
-    """Return displacements (mm) at gaps (mm), and the worst frequency and set of factors of each.
+    """Return displacements (mm) at gaps (mm), and the frequency and set of factors of each one.
 
     Displacements are the largest over frequencies and sets. In each cell the fraction (1 - share)/2
-    of the motions, rounded to a whole number of the largest, is left out. The displacement of a
-    motion that has not settled is RECORD times its largest displacement so far.
+    of the motions, rounded to a whole number of the largest, is left out. Few starts hardly tell
+    rare motions from others: a cell whose rare motions decide on a gap is run with more starts.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
-    motions = run(task, cells, starts, stream, progress)
+    found = run(task, cells, starts, stream, progress)
+    table, usual = (
+        each.reshape(len(gaps), -1)
+        for each in (_exceeded_by(task, found, rank) for rank in _ranks(task, starts))
+    )
+    usual, known, turn = usual.max(axis=1), np.zeros(table.shape, bool), 0
+    while True:
+        worst = table.argmax(axis=1)
+        rows = np.arange(len(gaps))
+        rows = rows[(table.max(axis=1) > RARE * usual) & ~known[rows, worst]]
+        if not len(rows):
+            return table.max(axis=1), *zip(*(conditions[k] for k in worst), strict=True)
+        some, turn = [cells[k * len(conditions) + worst[k]] for k in rows], turn + 1
+        again = "searched_again", STREAMS.index(stream[0]), *stream[1:], turn
+        more = run(task, some, MORE * starts, again, progress)
+        table[rows, worst[rows]] = _exceeded_by(task, more, _ranks(task, MORE * starts)[0])
+        known[rows, worst[rows]] = True
+
+
+def _ranks(task, starts):
+    """Return how many motions are left out, and 1 + the number that twice the share allows."""
+    allowed = starts * (1 - task.share)
+    return round(allowed / 2), int(2 * allowed)
+
+
+def _exceeded_by(task, motions, rank):
+    """Return displacements (mm) that `rank` motions of each cell exceed.
+
+    The displacement of a motion that has not settled is RECORD times its largest one so far.
+    """
     sizes = np.sort(motions.peaks * np.where(motions.settled, 1.0, RECORD), axis=1)
-    sizes = sizes[:, -1 - round(starts * (1 - task.share) / 2)]
-    table = task.millimetres(sizes).reshape(len(gaps), len(conditions))
-    worst = table.argmax(axis=1)
-    return table.max(axis=1), [conditions[k][0] for k in worst], [conditions[k][1] for k in worst]
+    return task.millimetres(sizes[:, -1 - rank])
 
 
 def search(task, progress=None, rounds=ROUNDS) -> Curve:
