@@ -36,6 +36,7 @@ class Pool(NamedTuple):
     """Trajectories that are being integrated, each to its own end time.
 
     numbers: Parameters, state, side, time, longest step and tolerance; shape (m, LENGTH).
+    ends, tangents: End times, shape (m,); one tangent of each trajectory, shape (m, 4).
     farthest: |Z1| beyond which a trajectory escapes (`equation.no_return`); shape (m,).
     queues: Indices of the trajectories that wait for a step of each kind; shape (4, m).
     waiting: Number of trajectories in each queue; shape (4,).

@@ -4,8 +4,7 @@ Several trajectories can be stepped side by side, each in its lane. A generated 
 over the lanes: `equation` yields the lines of the loop, and `straight_lines` compiles them;
 `branches` compiles the templates. With one lane a kernel works on numbers and pairs, three times as
 fast as loops over arrays. With several lanes a kernel consists of vector instructions and is again
-three times as fast. All numbers of a step stand in one flat array of rows. A row has one number for
-each lane.
+three times as fast. A step's numbers stand in a flat array of rows with one number for each lane.
 """
 
 import importlib.util
@@ -37,7 +36,7 @@ CONTACT_ORDER = 23
 # Rows of a step, in this order (name of a group of rows, content):
 # packed.NAMES    the packed parameters
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
-# STEP            further arguments of the step, and its result LENGTH
+# STEP            further arguments of the step, and its results SIDE and LENGTH
 # SCRATCH         intermediate results
 # SERIES          coefficients of series: Z1 (X); penetration of the wall (Q); acceleration without
 #                 the force of the wall (G); slope of the spring's nonlinear force for tangents (U).

@@ -128,7 +128,7 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Check `starts` at each of `points`: at least `least`; if more, at most MOST_RUNS in all."""
+    """Raise an error unless `starts` is `least`, or more with at most MOST_RUNS at `points`."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 

@@ -177,7 +177,7 @@ class Machine:
             )
 
     def _derive(self):
-        """Derive stiffness and natural frequency from each other, damping ratio from quality."""
+        """Derive stiffness, natural frequency, damping ratio from values given in their place."""
         if self.natural_frequency is None:
             found = math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
             object.__setattr__(self, "natural_frequency", Derived(found))
