@@ -265,7 +265,7 @@ def report(
 
 
 def read(path):
-    """Return the content of a YAML file, and its machine (local imports make `--help` fast)."""
+    """Return the content of a YAML file, and a `Machine` (local imports make `--help` fast)."""
     from impact_damper.command.machine_file import read_machine_file
     from impact_damper.model.machine import Machine
 

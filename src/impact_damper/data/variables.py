@@ -67,7 +67,7 @@ def _named_values(text):
     return {name: int(value) for name, value in pairs}
 
 
-# Labels of states without attractor. `mixed`: the place of the loose mass decides on the attractor.
+# Labels of states without attractor. `mixed`: the place of the loose mass decides on the label.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,

@@ -78,7 +78,7 @@ def _force(task, gap, frequency):
 
 
 def competitors(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of responses of the machine alone and with tuned absorbers."""
+    """Return a dataset of responses of the machine alone, and with tuned and own absorber."""
     band = task.absorber_band
     found = absorber_responses(
         task.machine, task.mass, task.grid, SHARES, band=band, own=task.absorber

@@ -90,7 +90,7 @@ def design_damper(
     Raises
     ------
     TypeError, ValueError
-        If an argument is out of range; the message names it, in SI units.
+        If an argument is out of range; the message has its name and, in SI units, its value.
 
     Examples
     --------
@@ -153,7 +153,7 @@ def evaluate_damper(
     Raises
     ------
     TypeError, ValueError
-        If an argument is out of range; the message names it, in SI units.
+        If an argument is out of range; the message has its name and, in SI units, its value.
 
     Examples
     --------

@@ -42,7 +42,7 @@ def migration(
     phase after the motion has settled, or after `longest_hold` cycles. At least the share `share`
     of all releases must succeed. By default the gaps (m) cover the range of `design_damper`.
     `effort` has the numbers of frequencies, of gaps (`candidates`) and of releases for each gap and
-    frequency (`starts`). The other arguments are as for `design_damper`.
+    frequency (`starts`); `progress` is the title of a bar. Others are as for `design_damper`.
 
     The dataset has, for each gap and frequency, the share of releases that succeed, their median
     time and `migration_bound`: the time in which the share `share` of all releases succeed, at 95 %

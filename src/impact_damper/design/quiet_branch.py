@@ -13,7 +13,7 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import Orbit
 from impact_damper.orbits.shooting import find_orbit
 
-# Least and greatest gap of the branch, divided by the nominal one.
+# Least and greatest gap of the branch, divided by the gap of the design.
 GAP_SPAN = (0.4, 2.0)
 
 

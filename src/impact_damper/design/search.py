@@ -34,7 +34,7 @@ HUGE = 1e9
 
 
 class Range(NamedTuple):
-    """Range of nominal gaps with similar values: ends, a gap near the middle, least value, mm."""
+    """Range of nominal gaps with similar values: ends, a middle gap, least value; in mm."""
 
     low: float
     high: float
@@ -43,7 +43,7 @@ class Range(NamedTuple):
 
 
 class Curve:
-    """Largest displacements (mm) at ascending gaps (mm), and the frequencies where they occur."""
+    """Displacements (mm; of `score` or promised) at ascending gaps (mm), with worst frequencies."""
 
     def __init__(self, task: Task):
         self.task = task
@@ -104,7 +104,7 @@ class Curve:
         return found
 
     def choose(self) -> Range:
-        """Return the widest of the ranges with values close to the least one."""
+        """Return the widest of the ranges whose least value is close to the least of all."""
         ranges = self.ranges()
         best = min(each.size for each in ranges)
         good = [each for each in ranges if each.size <= ALIKE * best]
@@ -136,7 +136,7 @@ class Curve:
         return rows
 
     def critical(self) -> np.ndarray:
-        """Return the worst frequencies of the gaps with displacements near the least one."""
+        """Return the worst frequencies of gaps with displacements near the least nominal value."""
         return np.unique(self.worst[self.sizes <= CANDIDATE * self.nominal()[1].min()])
 
     def unclear(self) -> np.ndarray:

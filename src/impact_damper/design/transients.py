@@ -43,9 +43,9 @@ STEEPEST = 0.01
 # Before a sweep the first frequency is held until transients without the damper have decayed to the
 # fraction SETTLED, but for at most HELD forcing cycles.
 SETTLED, HELD = 0.01, 10**5
-# A decay ends when the energy, measured from rest, falls to the energy of a displacement of REST
-# times the first one, or after MOST_WINDOWS windows. A window is a period of the unforced vibration
-# (infinite at the barrier of a softening spring), at most LONGEST periods of small vibrations.
+# A decay ends at an escape, after MOST_WINDOWS windows, or when the energy above rest falls to the
+# energy of REST times the first displacement. A window is a period of the unforced vibration. For a
+# softening spring, where it is infinite at the barrier, it is at most LONGEST small vibrations.
 REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
 

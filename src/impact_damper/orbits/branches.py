@@ -15,7 +15,7 @@ from impact_damper.orbits.segments import NUDGE
 MOST_POINTS = 10_000
 # Largest difference at W T = pi/2 between states of equal orbits.
 SAME = 1e-5
-# A step may hold an orbit if max |Z1| differs by at most NEARBY plus its change on the step.
+# A step may hold an orbit if their max |Z1| differ by at most NEARBY plus the change on the step.
 NEARBY = 0.02
 # Largest distance beyond the range of the parameter to which packed parameters are extrapolated.
 EXTENDED = 1e-3

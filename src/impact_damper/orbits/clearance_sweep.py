@@ -47,8 +47,8 @@ def clearance_sweep(
     ----------
     system : Oscillator or Machine
     damper : dict, Damper or MachineDamper
-        Its clearance is ignored. A dictionary holds the arguments of `Damper` without the
-        clearance.
+        Its clearance is ignored. With an `Oscillator` it may be a dictionary of arguments of
+        `Damper` without the clearance.
     frequency : float
         Forcing frequency W, or Hz for a machine.
     clearances : sequence of float

@@ -22,8 +22,8 @@ from impact_damper.orbits.segments import flow_all
 
 # Length of a forcing cycle as a phase, radian.
 TURN = 2 * math.pi
-# Largest residual of a converged orbit, divided by its largest state or 1. With contacts it is, if
-# larger, STIFF_RESIDUAL times their natural frequency, which multiplies rounding errors.
+# Largest residual of a converged orbit, divided by its largest state, at least 1. With contacts the
+# bound may rise to STIFF_RESIDUAL times their natural frequency, which multiplies rounding errors.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # Smallest distance of the first phase of an orbit from a contact, radian.
 MARGIN = 0.15
@@ -33,7 +33,7 @@ CONTACTS = 64
 
 @dataclass(frozen=True)
 class Orbit:
-    """A periodic orbit, or an approximation of one, in m segments, best with ends in flight.
+    """A periodic orbit, or an approximation of one, in m segments whose ends should lie in flight.
 
     p, periods: Packed parameters, and period n in forcing cycles.
     phases: Phases W T at the beginnings of segments and at the last end, shape (m + 1,).

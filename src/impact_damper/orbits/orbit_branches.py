@@ -47,7 +47,7 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     Returns
     -------
     xarray.Dataset
-        The variables of a point of `orbit_branches`, for the only point. The phase of the state
+        The variables of each `point` of `orbit_branches`, for this orbit. The phase of the state
         lies in a flight. For each `contact`: the wall, and the times and the relative velocities
         Z2' at the beginning and the end.
 

@@ -8,7 +8,7 @@ from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.plot import style
 from impact_damper.plot.sheets import dataset_in, sheet
 
-# Colours of attractors by ascending displacement. The last colour is for the largest attractor.
+# Colours of attractors by ascending displacement, in turn. The last is for the largest of several.
 COLOURS = (style.SKY, style.VERMILION, style.PURPLE, "#F7E7A6")
 CHAOS = style.ORANGE
 # Colours of the labels -6 (quasi-periodic) to -1 (unresolved) of states without an attractor.

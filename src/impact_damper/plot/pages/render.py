@@ -27,7 +27,7 @@ GENERATOR = '<meta name="generator" content="impact-damper'
 
 
 def conclusion(data) -> list[str]:
-    """Return the conclusion of a result of `design_damper` in paragraphs."""
+    """Return the conclusion of a design or an evaluation in paragraphs."""
     return _conclusion(numbers_of(data))
 
 
