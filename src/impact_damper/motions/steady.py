@@ -120,6 +120,7 @@ def settle_with(
 
     `settle` is `settle_each` or `ensemble.settle_many`; other arguments as of `ensemble.settle`.
     """
+    bounds.check_count("workers", workers, most=4096)
     states = np.ascontiguousarray(states, float)
     records = np.zeros(len(states), MOTION)
     stop = np.zeros(1, bool) if stop is None else stop
