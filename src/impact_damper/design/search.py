@@ -175,9 +175,9 @@ def middle_gap(first, last) -> float:
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
     """Return displacements (mm) at gaps (mm), and the frequency and set of factors of each one.
 
-    Displacements are the largest over frequencies and sets. In each cell the fraction (1 - share)/2
-    of the motions, rounded to a whole number of the largest, is left out. Few starts hardly tell
-    rare motions from others: a cell whose rare motions decide on a gap is run with more starts.
+    Displacements are the largest over frequencies and sets. In each cell the largest motions are
+    left out: (1 - share)/2 of all, rounded. Few starts hardly tell rare motions from others: a cell
+    whose rare motions decide on a gap is run again with more starts.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
@@ -201,7 +201,7 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
 
 
 def _ranks(task, starts):
-    """Return how many motions are left out, and 1 + the number that twice the share allows."""
+    """Return how many motions exceed the displacement of a cell, and how many the usual one."""
     allowed = starts * (1 - task.share)
     return round(allowed / 2), int(2 * allowed)
 
