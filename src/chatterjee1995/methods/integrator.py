@@ -64,7 +64,7 @@ class Integrator:
         return f"{self.name}_{'located' if locate else 'kink'}"
 
     def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations):
-        """Return status and operations of a run, times (n,) and states (n, 4) of its step ends."""
+        """Return status, operations, times (n,) and states (n, 4) of the start and of step ends."""
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:

@@ -95,7 +95,7 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Return slope and standard error of log(1/step) over log r1 for r1 >= STIFF (3 or more)."""
+    """Return slope and standard error of log(1/step) over log r1, r1 >= STIFF; NaN if < 3 steps."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan

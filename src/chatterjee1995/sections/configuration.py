@@ -194,7 +194,7 @@ Configuration = create_model(
 
 
 def configuration(given, trusted=False):
-    """Return the checked configuration; with `trusted`, as in a job, only types are checked."""
+    """Return the checked configuration; `trusted` (in jobs) skips contradictions and SI values."""
     try:
         found = Configuration.model_validate(without_left_out(given), context=trusted)
     except ValidationError as error:

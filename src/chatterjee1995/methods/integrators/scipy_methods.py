@@ -57,7 +57,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods; operations of an evaluation beside the rate, of a factorisation."""
+    """One of SciPy's methods, with its operations per evaluation (without rate) and per LU."""
 
     tolerances = "scipy"
     slow = True
@@ -94,8 +94,7 @@ class SciPy(Integrator):
 
 
 # Operations of an evaluation besides the rate, for 4 components. A product with its sum is two.
-# DOP853: for each component on average 6 products for the next state, and 4 for the final values
-#     and the two error estimates.
+# DOP853: for each component about 6 products for the next state, 4 for final values and errors.
 # LSODA: for each component 21 products with sums, to find about 6 derivatives; 2 * 4^2
 #     to solve a system of four equations. The factorisation of its matrix takes 2/3 * 4^3.
 INTEGRATORS = (
