@@ -67,7 +67,7 @@ def cheapest(data, labels):
 
 
 def _most_accurate(data, method):
-    """Return the index, or None, of a method's run with the best max |Z1|, in chaos contact rate."""
+    """Return the index, or None, of a method's run with the best max |Z1| (chaos: contact rate)."""
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
         return None
