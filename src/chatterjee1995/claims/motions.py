@@ -136,7 +136,7 @@ def contact_model(datasets):
 
 
 def _duration(restitution):
-    """Return the time in contact, divided by the time in contact for e = 1."""
+    """Return the time in contact without load, divided by its value for e = 1."""
     return 1 / math.sqrt(1 - damping_ratio(restitution) ** 2)
 
 

@@ -5,7 +5,7 @@ import numpy as np
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading import orbits
 
-# Names of dampers with light masses, with a heavy mass, and on an oscillator with low damping.
+# Names of dampers: LIGHT masses, a HEAVY mass, and one on an oscillator with LOW_DAMPING.
 LIGHT, HEAVY, LOW_DAMPING = reading.BY_MASS[:2], reading.BY_MASS[2], "figure_08"
 AS_LARGE = 0.95  # least ratio of damped to free size at which a subharmonic is called unchanged
 

@@ -22,7 +22,7 @@ MOTIONS = (
 
 @style.context()
 def draw_contact_model(*, contact_model):
-    """Draw the error of the restitution for both exit rules, and the contacts of all datasets."""
+    """Draw the first dataset's error of restitution by both exit rules, and contacts of all."""
     drawn = style.figure("double", 4.0)
     panels = drawn.subplots(1, 2, sharex=True, sharey=True)
     data = contact_model[0]

@@ -1,4 +1,4 @@
-"""Models by rigid walls, harmonic balance, shooting; their work (docs/explanation/methods.md)."""
+"""Models with rigid walls, by balance or by shooting; their work (docs/explanation/methods.md)."""
 
 import math
 from dataclasses import replace

@@ -10,7 +10,7 @@ from impact_damper.data.datasets import parameters_of
 from impact_damper.data.whole_files import whole
 from impact_damper.model.text import number
 
-# Significant digits of numbers in CSV and in Markdown files.
+# Significant digits of numbers: DIGITS in CSV files, FEW_DIGITS in Markdown files.
 DIGITS, FEW_DIGITS = 6, 4
 SHOWN = 9  # number of columns that the page of a table shows
 HEADS = {
