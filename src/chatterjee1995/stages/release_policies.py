@@ -168,7 +168,7 @@ class Trials(NamedTuple):
         return held
 
     def labels(self, states):
-        """Return labels of the states at a strobe, and cycles to decide them; see `label_states`."""
+        """Return labels of states at a strobe, and cycles to decide them; see `label_states`."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
         return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings
