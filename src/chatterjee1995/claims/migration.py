@@ -56,7 +56,7 @@ def _scanned(datasets, case):
 
 
 def _nearest_range(decides, frequency):
-    """Return both ends of the range of W nearest to `frequency` in which `decides` is true."""
+    """Return both ends (or NaN) of the range of W nearest `frequency` where `decides` is true."""
     scanned = list(decides)
     ends = [
         (scanned[first], scanned[last - 1]) for first, last in runs_of_true(list(decides.values()))

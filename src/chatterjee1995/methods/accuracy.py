@@ -1,4 +1,4 @@
-"""Errors and work of integrators and models on a scene, a motion that all of them compute."""
+"""Errors and work of integrators and models on scenes, the motions that they compute."""
 
 from typing import NamedTuple
 
