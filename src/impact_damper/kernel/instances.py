@@ -76,7 +76,7 @@ SINES = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9)]
 def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
     """Return the module with the step for a number of lanes and the orders of the series.
 
-    Its source is written to a file in the folder of the compiled kernels.
+    The source of a new module is written to a file in the folder of the compiled kernels.
     """
     name = f"impact_damper_step_{lanes}_{flight_order}_{contact_order}"
     if name in sys.modules:
@@ -197,7 +197,7 @@ class Writer:
     def _constants(self, phase, tangent):
         """Return a function that returns the lines for coefficient k of the constant series.
 
-        With one lane the lines load it. With several lanes they compute it, as trajectories change.
+        With one lane the lines load it; with several lanes they compute it, as trajectories change.
         """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
         if self.lanes > 1:

@@ -27,7 +27,7 @@ INDEX, OFFSET = ir.IntType(32), ir.IntType(64)
 def straight(function):
     """Decorate a function, a loop `for i in range(lanes)` with the same arithmetic for each lane.
 
-    The number of lanes is at most WIDTH, or a multiple of WIDTH. The left side of `=` or `+=` is a
+    The number of lanes is at most WIDTH, or a multiple of WIDTH. The left of `=`, `+=` or `-=` is a
     name, `a[1 + i]`, or, with one lane, `a[1]`. The right side consists of names, constants,
     `a[1 + i]`, `a[1]` (the same for all lanes), `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`,
     `*`, `/`, `abs(x)`, and `max(x, y)`, which means `x if x > y else y`. `(x, y)` is a pair, and

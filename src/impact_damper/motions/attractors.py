@@ -19,14 +19,14 @@ from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_time
 
-# Proof of a neighbourhood of radius r0: steps in a forcing cycle, largest ratio of the radius after
-# a period to r0, and bisections of r0.
+# Proof of a neighbourhood of radius r0. STEPS: in a forcing cycle. FACTOR: largest ratio of the
+# radius after a period to r0. HALVINGS: bisections of r0.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
-# Largest difference of the strobe states of equal free orbits; largest relative difference of max
-# |Z1| of equal damped motions.
+# ALIKE: largest difference of the strobe states of equal free orbits. SAME: largest relative
+# difference of max |Z1| of equal damped motions.
 ALIKE, SAME = 1e-6, 1e-5
-# Search for orbits: width of the region, divided by the largest displacement and speed of the
-# free motions; number of grid points on each axis.
+# Search for orbits. REACH: width of the region, divided by the largest displacement and speed of
+# the free motions. SEARCHED: number of grid points on each axis.
 REACH, SEARCHED = 3.0, 24
 # Labels of motions by outcome. A settled motion has the index of its attractor as its label.
 LABELS = {
@@ -38,8 +38,8 @@ LABELS = {
     records.DRIFTING: BASIN_LABEL["no_contact"],
     records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
 }
-# Release set: number of phases in a forcing cycle, even; half width of the grid divided by max |Z1|
-# of the resonance motion; fine cells along the edge of a coarse cell, a power of 2.
+# Release set. PHASES: even number in a forcing cycle. WIDTH: half width of the grid over max |Z1|
+# of the resonance motion. REFINED: fine cells along the edge of a coarse cell, a power of 2.
 PHASES, WIDTH, REFINED = 16, 1.6, 4
 
 

@@ -14,7 +14,7 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which a step grows after success.
 GROWTH = 1.5
-# Largest corrections of a predicted state and of the first state; larger ones may change the orbit.
+# Largest correction of a predicted state (REACH) and of the first (NUDGE) within the same orbit.
 REACH, NUDGE = 0.03, 1e-3
 # Shortest step of the parameter, which is the accuracy of the end of a branch.
 RESOLUTION = 1e-8

@@ -17,7 +17,7 @@ from impact_damper.motions.records import NEVER
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.free_oscillator import main_solutions
 
-# Forcing cycles that `course` adds before and after a run, and its samples in a forcing cycle.
+# MARGIN: forcing cycles that `course` adds before and after a run. SAMPLES: in a forcing cycle.
 MARGIN, SAMPLES = 10, 40
 # Largest difference between max |Z1| of equal free motions.
 ALIKE = 1e-6

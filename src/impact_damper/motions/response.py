@@ -27,9 +27,9 @@ from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.sweep import sweep
 from impact_damper.motions.watch import NEAR
 
-# Runs that measure lives: largest difference of the first Z1 and Z1' from the chaotic motion;
-# distance from an orbit at which a transient ends; number of further forcing cycles of a lasting
-# run, which show whether the run is still chaotic.
+# Runs that measure lives. APART: largest difference of first Z1 and Z1' from the chaotic motion.
+# CAPTURE: distance from an orbit at which a transient ends. CHECKED: number of further forcing
+# cycles of a lasting run, which show whether the run is still chaotic.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 

@@ -25,13 +25,13 @@ from impact_damper.motions.simulate import random_states
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-# Search for free motions: number of phases of the starts on solutions of harmonic balance, samples
-# in a forcing cycle, and largest number of states stored of one motion.
+# Search for free motions. PHASES: number of starts on a solution of harmonic balance. SAMPLES: in a
+# forcing cycle. MOST_STATES: largest number of states stored of one motion.
 PHASES, SAMPLES, MOST_STATES = 6, 256, 5
-# Largest random start divided by the largest free motion; smallest divided by largest start.
+# SPREAD: largest random start over largest free motion. SMALLEST: smallest over largest start.
 SPREAD, SMALLEST = 3.0, 0.01
-# Placed starts: Z2 divided by the clearance; Z2' divided by the free motion's speed or the crossing
-# speed (`_crossing_speed`), whichever is larger.
+# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by the larger of free
+# motions' speed and the crossing speed (`_crossing_speed`); at rest by the crossing speed.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
 # States of the loose mass for `sweep.stable_orbits`: number; largest |Z1' - Z2'|, divided by the
 # larger of both speeds above.
@@ -39,8 +39,8 @@ LOOSE_STATES, LOOSE_SPEED = 240, 2.0
 # Largest |Z1| and |Z1'| of random starts with a softening spring, divided by `barrier`'s values.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
-# Ramps: relative change of a parameter in a step; forcing cycles in a step; ratio of the first
-# frequency to the lowest fold, inverse ratio to the highest fold; ratio of first to last force.
+# Ramps. STEP: relative change of a parameter in a step. PERIODS: cycles in a step. BELOW: first
+# frequency over lowest fold, or highest fold over first frequency. RAISED: first over last force.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 

@@ -23,7 +23,7 @@ from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
 # Number of motions in one call of a kernel. Ctrl-C waits for its end.
 CHUNK = 128
-# Largest number of CHUNKs that are settled in one call; least number of calls for each thread.
+# MOST_CHUNKS: largest number of chunks settled in one call. SLICES: least number of calls a thread.
 MOST_CHUNKS, SLICES = 8, 3
 
 

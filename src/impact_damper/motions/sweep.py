@@ -21,17 +21,17 @@ from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
-# Limits for records of one motion: relative difference of max |Z1| (and asymmetry of a symmetric
-# motion); difference of max |Z1| near rest; ratio of the sizes of motions that have not settled.
+# Limits for records of one motion. SAME: relative difference of max |Z1|, asymmetry of a symmetric
+# motion. ROUNDING: difference of max |Z1| near rest. SIMILAR: ratio of sizes of unsettled motions.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
 # Outcomes with infinite or no displacement. Records that share one of them are one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
-# Newton's method for further orbits: longest period in forcing cycles; largest distance from the
-# start, divided by the largest known motion or the clearance; largest difference of equal orbits.
+# Newton's method for further orbits. LONGEST: period in cycles. REACH: distance from the start over
+# the largest known motion or the clearance. SAME_ORBIT: largest difference of equal orbits.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
-# Events at the end of a branch: smallest modulus of the multiplier at a bifurcation; smallest
-# imaginary part of a complex multiplier; largest difference of max |Z1| between a symmetric motion
-# and the asymmetric motion that branches off.
+# Events at the end of a branch. CRITICAL: smallest modulus of the multiplier at a bifurcation.
+# COMPLEX: smallest imaginary part of a complex multiplier. CLOSE: largest difference of max |Z1|
+# between a symmetric motion and the asymmetric motion that branches off.
 CRITICAL, COMPLEX, CLOSE = 0.98, 1e-3, 0.05
 
 

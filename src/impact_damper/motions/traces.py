@@ -9,7 +9,7 @@ from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import LENGTH, assign, side_of, state_in_step, step, workspace
 
-# Number of steps in one call of the kernel, which takes a fraction of a second; number of rows of
+# STEPS_AT_ONCE: steps in a call of the kernel, which takes a fraction of a second. ROWS: rows of
 # the log at first. The allocation of a larger log would take longer than a short motion.
 STEPS_AT_ONCE, ROWS = 50_000, 64
 

@@ -19,26 +19,26 @@ from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
-# Forcing cycles of the first block; batches of a block, from which the standard error is estimated.
+# FIRST: most forcing cycles of the first block. BATCHES: parts of a block, for the standard error.
 FIRST, BATCHES = 1500, 30
 # Smallest growth of the tangent of a chaotic motion in a block, as a natural logarithm. While a
 # motion leaves an unstable orbit from a rounding error, the tangent grows by ln(1e16) = 37.
 GROWN = 40.0
 # Largest modulus, in standard errors, of a Lyapunov exponent that is taken as 0.
 NEUTRAL = 3.0
-# Longest period of an orbit in forcing cycles; largest distance of an orbit from the last state.
+# LONGEST: period of an orbit in forcing cycles. REACH: distance of an orbit from the last state.
 LONGEST, REACH = 256, 1e-2
 # Largest distance of a motion from the closed curves on which it lies.
 NEIGHBOUR = 1e-3
 # Fields that are copied from a known quasi-periodic motion to a motion on the same closed curves.
 TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
-# Largest error of a rotation number, and smallest number of points.
+# AGREEMENT: largest error of a rotation number. FEWEST: smallest number of points.
 AGREEMENT, FEWEST = 1e-8, 100
 # Smallest empty interval on the circle of the angle's advances modulo 1, in revolutions.
 INTERVAL = 0.02
-# Largest change of the angle between neighbouring points, sorted by phase, and largest sum of the
-# moduli of all these changes, in revolutions.
+# TURN: largest change of the angle between neighbouring points, sorted by phase, in revolutions.
+# WANDERING: largest sum of the moduli of all these changes.
 TURN, WANDERING = 0.05, 3.0
 
 

@@ -27,15 +27,15 @@ from impact_damper.motions.strobe_map import (
 # Longest period of an orbit in forcing cycles; length of a ring, the buffer of last strobe states.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# Smallest Lyapunov exponent of chaos, in standard errors; largest of weak chaos, per unit of T.
+# CONFIDENCE: least Lyapunov exponent of chaos in standard errors. WEAK: largest of weak chaos, 1/T.
 CONFIDENCE, WEAK = 4.0, 0.05
-# Forcing cycles of a batch, in which the logarithms of the growth of a tangent are summed; number
-# of last batches in which the tangent of a chaotic motion must still grow.
+# BLOCK: forcing cycles of a batch, in which the logarithms of the growth of a tangent are summed.
+# RECENT: number of last batches in which the tangent of a chaotic motion must still grow.
 BLOCK, RECENT = 10, 5
 # Largest and smallest distance from an orbit at which Newton's method is tried.
 NEAR, NEAREST = 1e-4, 1e-9
-# Early trials of Newton's method: distance at the first and second trial; number of returns that
-# must approach each other; largest nonlinear part and most returns of the further approach.
+# Early trials of Newton's method. EARLY: distances at the two trials. RETURNS: number of returns
+# that must approach each other. NONLINEAR: largest nonlinear part. APPROACH: most further returns.
 EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 # Largest energy of an unforced motion at rest, divided by the first energy.
 REST = 1e-9

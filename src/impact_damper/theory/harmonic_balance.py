@@ -183,7 +183,7 @@ def _rigid_table(oscillator, damper, frequencies):
     }
 
 
-# Search for an edge of the band: least and greatest W/Wp, step of W/Wp, error of the frequency.
+# Search for a band's edge: SEARCHED range of W/Wp, STEP of W/Wp, TOLERANCE of the frequency.
 SEARCHED = (0.2, 2.0)
 SEARCH_STEP = 0.005
 EDGE_TOLERANCE = 1e-10
