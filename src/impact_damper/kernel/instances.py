@@ -38,7 +38,7 @@ CONTACT_ORDER = 23
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
 # STEP            further arguments of the step, and its results SIDE and LENGTH
 # SCRATCH         intermediate results
-# SERIES          coefficients of series: Z1 (X); penetration of the wall (Q); acceleration without
+# SERIES          coefficients of series: Z1 (X); depth Z2 -+ d0 in a wall (Q); Z1'' without
 #                 the force of the wall (G); slope of the spring's nonlinear force for tangents (U).
 #                 The coefficients of three series are the same in all steps: forcing without its
 #                 factor cosine or sine (E); h/k (H); D/k (D)
@@ -174,7 +174,7 @@ class Writer:
         return f"{text}def {name}({arguments}):\n{calls}"
 
     def moving(self, phase):
-        """Return the names of the unknown series: X for Z1 and, in contact, Q for penetration."""
+        """Return the names of the unknown series: X for Z1 and, in contact, Q for Z2 -+ d0."""
         return "XQ" if phase == "contact" else "X"
 
     def constant_series(self):

@@ -19,8 +19,8 @@ from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_time
 
-# Proof of a neighbourhood of radius r0. STEPS: in a forcing cycle. FACTOR: largest ratio of the
-# radius after a period to r0. HALVINGS: bisections of r0.
+# Proof of a neighbourhood of radius r0. STEPS: number in a forcing cycle. FACTOR: largest ratio of
+# the radius after a period to r0. HALVINGS: bisections of r0.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # ALIKE: largest difference of the strobe states of equal free orbits. SAME: largest relative
 # difference of max |Z1| of equal damped motions.

@@ -21,8 +21,8 @@ from impact_damper.model.packed import (
 )
 from impact_damper.motions.traces import states_at, trace
 
-# Nodes of a panel, scaled to [-1, 1]; matrix that maps values at the nodes to coefficients of
-# Chebyshev polynomials; weights of Clenshaw-Curtis quadrature.
+# NODES of a panel, scaled to [-1, 1]. COEFFICIENTS: matrix that maps values at the nodes to
+# coefficients of Chebyshev polynomials. WEIGHTS of Clenshaw-Curtis quadrature.
 NODES = -np.cos(np.pi * np.arange(14) / 13)
 COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
 WEIGHTS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))] @ COEFFICIENTS

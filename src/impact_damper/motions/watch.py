@@ -24,7 +24,7 @@ from impact_damper.motions.strobe_map import (
     speed_weight,
 )
 
-# Longest period of an orbit in forcing cycles; length of a ring, the buffer of last strobe states.
+# Longest period of an orbit in forcing cycles. RING: length of the buffer of last strobe states.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
 # CONFIDENCE: least Lyapunov exponent of chaos in standard errors. WEAK: largest of weak chaos, 1/T.

@@ -72,7 +72,7 @@ def flight_values(a):
 
 
 def penetration_values(a):
-    """Compute SWAY, then Z1 and the penetration, with their derivatives at T."""
+    """Compute SWAY, then Z1 and the depth Z2 -+ d0, with their derivatives at T."""
     find_sway(a)
     contact_values(a)
 
