@@ -44,7 +44,7 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 def other_masses(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset of the damper and of a heavier one, whose gap a short search finds.
 
-    It is empty if the damper is good enough, or if the other would be heavier than the machine.
+    The dataset is empty if the damper is good enough, or if the other outweighs the machine.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"

@@ -57,7 +57,7 @@ def design_damper(
     contact : float, str or HertzContact
         Stiffness of the contact, N/m, or the contact of curved bodies. The stiffness of curved
         bodies is computed for the speed with which the loose mass crosses the gap of the paper's
-        rule (18) in half a forcing cycle. The pressure is computed for the impacts of the design.
+        rule (18) in half a cycle at mid-band. The pressure is computed for the design's impacts.
     mount : dict, optional
         Arguments of `machine.mounting`: inclination of the gap, such as {"inclination": "90 deg"},
         friction_coefficient, and normal_force between the loose mass and its floor. By default the

@@ -2,7 +2,7 @@
 
 The names *minimal critical shock*, *convergence time* and *finite-time basin stability* come from
 Attractors.jl, version 2. Motions return here when they stay below the promised displacement. A
-chaotic motion can do so, though it never settles.
+chaotic motion can return, though it never settles.
 """
 
 import numpy as np

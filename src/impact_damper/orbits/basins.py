@@ -117,7 +117,7 @@ def basins(
         and (in the terms of Attractors.jl)
 
         - the median convergence time, and the longest after `shock`, infinite without a return;
-        - the finite-time basin stability: the share of states that reach it in `within` cycles;
+        - the finite-time basin stability: the share of states that converge in `within` cycles;
         - the minimal critical shock: the smallest impulse at the phase of the plane after which the
           motion does not return. The search begins with 256 steps to the plane's largest speed.
 
@@ -316,7 +316,7 @@ def saddles(p, states, periods, phase):
 
 
 def run_backwards(p, states, phase, tolerance, reach):
-    """Return the states one forcing cycle before given states, or NaN for states beyond the reach.
+    """Return states one forcing cycle before given states, NaN where these lie beyond the reach.
 
     Backwards in time, with the velocity reversed, the equation is the same with negative damping.
     """
