@@ -9,8 +9,7 @@ from scipy.optimize import brentq
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.orbits.continuation import Point, point_at_distance
 
-# The place of an event is its distance along the tangent at a step's beginning or, near a grazing,
-# the height of an extremum.
+# The place of an event is a distance along a step's first tangent or, through a grazing, a height.
 # Largest tolerance of the place of a bifurcation, divided by the length of the step.
 FINE = 1e-3
 # Tolerance of the place of a change of contact, divided by the larger of 1 and the step's length.

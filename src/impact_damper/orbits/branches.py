@@ -201,7 +201,7 @@ def _next_pieces(point, span, length, search):
 
 
 def _ending(piece, first, span):
-    """Return why a branch ends on a piece, or ""; the events before; whether its meeting is lost.
+    """Return why a branch ends on a piece, or ""; the events before; whether a meeting is lost.
 
     `first` is the first point of a branch that may be closed, otherwise None.
     """

@@ -23,8 +23,8 @@ from impact_damper.orbits.shooting import AMPLIFYING
 # Newton's method: largest number of corrections, and largest change of an unknown by a correction.
 NEWTON, LARGEST = 10, 0.5
 # Newton's method has converged if the residual is a rounding error and in addition
-# - the last correction, by an updated derivative, is below CLOSE, or it is below ROUNDING and more
-#   than half as large as the one before, or
+# - the derivative by the parameter is new, and the last correction is below CLOSE, or is below
+#   ROUNDING and more than half as large as the correction before; or
 # - the correction before the last one is below SURE.
 # With a larger residual it fails if a correction above SURE exceeds SHRINKING times the one before.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7

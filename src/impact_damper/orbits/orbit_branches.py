@@ -104,7 +104,7 @@ def orbit_branches(
     follows the branches that leave a branch of period 1 or 3, at a period doubling only next to
     stable orbits. From other branches it follows those of a period up to 9 that begin stable, next
     to stable orbits. It follows the branch of more symmetry at which a branch of a period up to 4
-    ends. A branch of a period above 1 then ends when the periods of unstable orbits in a row exceed
+    ends. It stops a branch of a period above 1 when the periods of unstable orbits in a row exceed
     300 forcing cycles together.
 
     Parameters
@@ -231,7 +231,7 @@ def _checked_orbit(model, state, period, phase):
 
 
 def _seeds(motions, damper):
-    """Yield period, frequency, max |Z1| and state of settled motions, if damped with contacts."""
+    """Yield period, frequency, max |Z1| and state of settled motions; damped ones have contacts."""
     for data in motions:
         chosen = data["outcome"].values == flag("outcome", "settled")
         if damper is not None:

@@ -116,7 +116,7 @@ NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Append the branches that leave at events (`_new_branch`) or are met at ends, up to MET.
+    """Append the branches that leave at events or are met at ends, as the functions below select.
 
     The function `follow` returns the `Branch` of an orbit at a value of the parameter.
     """
