@@ -248,7 +248,7 @@ def peaks_of_blocks(task, p, states, number, cycles) -> np.ndarray:
 
 
 def return_level(peaks) -> float:
-    """Return the displacement that motions exceed once in HORIZON cycles, from peaks of blocks.
+    """Return the displacement exceeded once in HORIZON cycles, at least the largest of the peaks.
 
     The excesses over a high level are assumed to be distributed exponentially (S. Coles, An
     Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). The tail of a bounded

@@ -53,7 +53,7 @@ ESCAPING = 4.0
 # Ends of the range over which an absorber is tuned for comparison, divided by the lowest and by the
 # highest frequency of band and resonance.
 ABSORBED = 0.5, 2.0
-# Comparisons of many gaps stop a chaotic motion after PATIENT decay times of the machine, at least
+# First runs (`cells.run`) stop a chaotic motion after PATIENT decay times of the machine, at least
 # LEAST_PATIENCE cycles, and all motions after LONG x PATIENT decay times, at least LEAST_LIMIT.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
@@ -300,7 +300,7 @@ class Task:
 
     @cached_property
     def hurried(self) -> Settling:
-        """`Settling` for comparisons of many gaps: runs last for a few decay times of the machine.
+        """`Settling` of first runs (`cells.run`), which last for some decay times of the machine.
 
         Motions that settle later are run further if the promised displacement depends on them.
         """

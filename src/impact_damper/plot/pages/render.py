@@ -331,7 +331,7 @@ def _worse(data, nominal):
 
 
 def _other_mass(data, asked):
-    """Return another loose mass that meets the limit or is worth building; None if not needed."""
+    """Return another loose mass that does what this one does not, or None (see `conclusion`)."""
     missed = named(data, "limit_status") == "missed"
     fails = missed or named(data, "decision") == "do_not_build"
     if "other_mass" not in data or not fails:
