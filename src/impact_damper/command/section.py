@@ -167,7 +167,7 @@ NAME = text("a name becomes part of a file name", pattern="[A-Za-z0-9][A-Za-z0-9
 
 # The loader of the C library libyaml, if it is installed, is several times as fast.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-# Numbers with an exponent, which YAML 1.1 reads as text if point or sign is missing.
+# Numbers with an exponent. YAML 1.1 reads them as text without a point or the exponent's sign.
 SCIENTIFIC = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 
 

@@ -66,7 +66,7 @@ def other_masses(task, decision, progress=None) -> xr.Dataset:
 
 
 def _force(task, gap, frequency):
-    """Return the largest contact force (N) of the largest motion at a gap (mm), frequency (Hz)."""
+    """Return the contact force (N) of the largest motion at a gap (mm), frequency (Hz), or NaN."""
     cell = Cell(1e-3 * gap, frequency)
     motions = run(task, [cell], task.effort.starts, ("masses",))
     k, p = int(np.argmax(motions.peaks[0])), task.packed(*cell)

@@ -28,7 +28,7 @@ class Tried(NamedTuple):
 
     @property
     def harmful(self) -> np.ndarray:
-        """Sets of factors with the nominal gap: the nominal set and the worst one."""
+        """Sets of factors with the nominal gap: the nominal set and the worst set."""
         worst = self.promise.sets[self.promise.worst[0]].copy()
         worst[0] = 1
         return np.unique([NOMINAL, worst], axis=0)

@@ -15,15 +15,15 @@ from impact_damper.orbits.continuation import NEWTON, Point, recut
 from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
 # Moduli of the heights of points on the side with more contacts: ratio of successive moduli,
-# smallest, largest.
+# smallest modulus, largest modulus.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# Largest number of divisions of a failed step: through a grazing, and between two points there.
+# Largest number of divisions of failed steps: on a way through a grazing, and between two points.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
 # A step in which `Orbit.deviation` falls below FALLEN times its value leads to another branch.
 FALLEN = 0.01
 # Heights of points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
-# Newton's method: largest correction, and largest relative and absolute error of the height.
+# Newton's method: LARGEST correction. The height's largest error is CLOSE times it plus ROUNDING.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 

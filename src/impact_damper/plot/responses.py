@@ -75,7 +75,7 @@ def response(data, axes=None):
 
 
 def _kind(data):
-    """Return the kind of response in a dataset, or "" for other datasets."""
+    """Return the kind of frequency response in a dataset, or "" for other datasets."""
     if "followed_value" in data and parameters_of(data).get("parameter") == "frequency":
         return "orbits"
     if "free_amplitude" in data:

@@ -313,7 +313,7 @@ def _condition(data, tolerated):
 
 
 def _worse(data, nominal):
-    """Return the frequencies at which the machine moves more with the damper than without."""
+    """Return frequencies at which the machine moves more with the damper than without, or None."""
     if float(data["worst_ratio"]) <= 1:
         return None
     known = ~np.isnan(nominal)
@@ -347,7 +347,7 @@ def _other_mass(data, asked):
 
 
 def _masses(data, asked):
-    """Return the table rows of dampers with other loose masses."""
+    """Return the table rows of this damper and of a heavier one, [] if there is no heavier one."""
     if "other_mass" not in data:
         return []
     names = ("other_mass", "other_gap", "other_displacement", "other_force")
