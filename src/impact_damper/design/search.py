@@ -1,6 +1,6 @@
-"""The search for the gap: a curve of largest displacements over the gap, refined where it is small.
+"""The search for the gap: a curve of displacements over the gap, refined where it is small.
 
-Few starts at few frequencies give the first curve. Near the best gaps, values besides the gap
+Few starts at few frequencies give the first curve. Near the best gaps, other values than the gap
 deviate too. The value of a nominal gap is the largest displacement within the gap's tolerance.
 """
 

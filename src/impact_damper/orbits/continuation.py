@@ -26,7 +26,7 @@ NEWTON, LARGEST = 10, 0.5
 # - the derivative by the parameter is new, and the last correction is below CLOSE, or is below
 #   ROUNDING and more than half as large as the correction before; or
 # - the correction before the last one is below SURE.
-# With a larger residual it fails if a correction above SURE exceeds SHRINKING times the one before.
+# With a larger residual it fails if a correction exceeds SURE and SHRINKING times the one before.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative by the parameter is expensive. It is updated only after a correction below REFINED,
 # if the corrections since the last update add up to more than UNMOVED.

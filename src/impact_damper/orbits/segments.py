@@ -26,7 +26,7 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 # Smallest ratio of the moduli of two multipliers that orthogonal iteration separates.
 APART = 30.0
 # Orthogonal iteration: largest number of sweeps; change of the basis below which iteration ends;
-# last change of the basis above which multipliers are not separated.
+# change of the basis in the last sweep from which on multipliers are not separated.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # Largest norm of the derivative of a segment, if possible.
 AMPLIFIED = 30.0
