@@ -301,7 +301,7 @@ def damper(given, machine, gap):
     if gap is None:
         return None
     values = design_arguments(given)
-    values = {name: values[name] for name in ("mass", "restitution", "contact", "band")}
+    values = {name: values[name] for name in ("mass", "restitution", "contact", "band", "mount")}
     task = Task(machine=machine, **values, gap=quantity(gap))
     return task.damper(task.gap)
 

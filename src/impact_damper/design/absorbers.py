@@ -1,38 +1,26 @@
 """Tuned absorbers: their tuning to a machine, and the machine's response in closed form.
 
-Frequencies r are divided by the natural frequency of the machine, and s = r^2. The machine has the
-damping ratio z1. The absorber has the mass ratio m, the tuning f (its natural frequency divided by
-the machine's) and the damping ratio z. The squared displacement of a linear machine, in the unit
-of the table, is g(s) N(s)/D(s) with
-
-    N = (b f^2 - s)^2 + 4 z^2 b^2 f^2 s
-    D = [(1 - s)(f^2 - s) - 4 z1 z f s - m f^2 s]^2 + 4 s [z1 (f^2 - s) + z f (1 - s) - m z f s]^2
-
-    excitation                        unit of displacement    g      b
-    force F                           F/k                     1      1
-    unbalance m_e r_e                 m_e r_e/m1              s^2    1
-    displacement A of the base        A                       s^2    1 + m
-    acceleration B of the base        B/w1^2                  1      1 + m
-
-m1, k and w1 are mass, stiffness and natural frequency (rad/s) of the machine. A moving base
-accelerates both masses, and displacements are relative to the base.
+A machine of mass m1 has the dynamic stiffness K = k + i c w - m1 w^2 at the angular frequency w. An
+absorber of mass m has the complex spring L = ka + i ca w, and q = L/(L - m w^2) is the acceleration
+of its mass divided by the machine's. Under a force F the machine has the amplitude F/|K - m w^2 q|.
+On a moving base F is multiplied by |1 + q m/m1|, because the base also accelerates the absorber.
 """
 
 import math
-from typing import NamedTuple
+from dataclasses import replace
 
 import numpy as np
-from numpy.polynomial import polynomial
 from scipy.optimize import minimize_scalar
 
 from impact_damper.data.datasets import flag
 from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
-from impact_damper.theory.tuned_mass_damper import Tuning, exact_optimum
+from impact_damper.theory.tuned_mass_damper import exact_optimum
 
-# Largest imaginary part of a root that is taken as real, divided by the width of the resonance.
-REAL = 1e-6
+# Points of the frequency over the resonance and over the band, and the number of widths of the
+# resonance that the first points reach on both sides.
+POINTS, REACH = 1001, 8.0
 # Grid of the first search for the optimum, around the closed form `exact_optimum`. On each side lie
 # STEPS tunings, at logarithmic distances from NARROW sqrt(mass ratio) to WIDE. DAMPINGS multiply
 # the damping ratio. A given band adds PLACES tunings and the damping ratios BAND_DAMPINGS.
@@ -41,25 +29,11 @@ DAMPINGS = np.geomspace(0.3, 10, 12)
 PLACES = 9
 BAND_DAMPINGS = np.geomspace(1e-3, 0.3, 10)
 # Tolerances of the logarithms of tuning and damping ratio when the optimum is refined.
-TUNING_TOLERANCE, DAMPING_TOLERANCE = 1e-11, 1e-10
+TUNING_TOLERANCE, DAMPING_TOLERANCE = 1e-6, 1e-5
 COMPETITORS = ("bare", "tuned", "own")
 # Force shares (factors of the machine's excitation), from a quarter to four.
 SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
 DETUNINGS = (-0.1, 0.0, 0.1)
-
-
-class LinearMachine(NamedTuple):
-    """Linear machine: z1, g(s), moving base or not, unit of displacement (m), frequency (Hz)."""
-
-    damping_ratio: float
-    forcing: np.ndarray
-    based: bool
-    unit: float
-    natural_frequency: float
-
-    def load(self, mass_ratio) -> float:
-        """Return b: on a moving base the absorber passes its own load on to the machine."""
-        return 1 + mass_ratio if self.based else 1.0
 
 
 def absorber_responses(
@@ -110,12 +84,18 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
     frequencies. At the optimum the response is equally large at two frequencies: at the two highest
     maxima, or at the highest maximum and an end of the band.
     """
-    ratio, linear = mass / machine.mass, linear_machine(machine)
-    limits = (0.0, math.inf) if band is None else tuple(f / linear.natural_frequency for f in band)
+    ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
+    frequencies = _frequencies(linear, ratio, band)
+
+    def absorber(log_tuning, log_damping):
+        own = 2 * math.pi * linear.natural_frequency * math.exp(log_tuning)
+        return TunedAbsorber(
+            mass=mass, stiffness=mass * own**2, damping=2 * mass * math.exp(log_damping) * own
+        )
 
     def highest(log_tuning, log_damping):
-        tuning = Tuning(ratio, math.exp(log_tuning), math.exp(log_damping))
-        return maxima(linear, tuning, limits)[1].max()
+        stiffness, force = _dynamics(linear, absorber(log_tuning, log_damping), frequencies)
+        return np.max(force / np.abs(stiffness))
 
     def best_tuning(log_damping):
         # At the optimum two maxima cross in a kink. A fit of parabolas would stop too early there.
@@ -123,6 +103,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
             highest, bracket=tunings, args=(log_damping,), method="golden", tol=TUNING_TOLERANCE
         )
 
+    limits = (0.0, math.inf) if band is None else np.divide(band, linear.natural_frequency)
     tunings, dampings = _around_optimum(ratio, limits, highest)
     damping = minimize_scalar(
         lambda log: best_tuning(log).fun,
@@ -130,54 +111,21 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
         method="bounded",
         options={"xatol": DAMPING_TOLERANCE},
     ).x
-    return _absorber(machine, Tuning(ratio, math.exp(best_tuning(damping).x), math.exp(damping)))
+    return absorber(best_tuning(damping).x, damping)
 
 
-def linear_machine(machine) -> LinearMachine:
-    """Return the `LinearMachine` of a machine, whose cubic stiffness is ignored."""
-    stiffness, mass = machine.linear_stiffness, machine.mass
-    if stiffness == 0:
-        raise ValueError(
-            "linear_stiffness = 0 N/m: must be greater than 0 N/m for a tuned absorber (the "
-            "machine has no natural frequency to tune to)"
-        )
-    ratio = machine.viscous_damping / (2 * math.sqrt(stiffness * mass))
-    force, unbalance = machine.forcing
-    forcing = (np.array([0.0, 0.0, 1.0]), unbalance / mass)
-    if not unbalance:
-        forcing = (np.ones(1), force / stiffness)
-    return LinearMachine(ratio, forcing[0], machine.is_based, forcing[1], machine.natural_frequency)
-
-
-def maxima(linear, tuning, band):
-    """Return r and squared displacement of each stationary point in a band and of the band's ends.
-
-    Stationary points are roots of a polynomial in t, with s = 1 + w t and the width w of the
-    resonance. In s the roots for a light absorber would lie so close that rounding merges them.
-    """
-    (mass, f, z), z1 = tuning, linear.damping_ratio
-    width = min(math.sqrt(mass) + z1, 1.0)
-    s, host, own = np.array([1.0, width]), np.array([0.0, -width]), np.array([f**2 - 1, -width])
-    carried = (4 * z1 * z * f + mass * f**2) * s
-    real = np.convolve(host, own) - np.append(carried, 0.0)
-    imaginary = 2 * (z1 * own + z * f * host - mass * z * f * s)
-    load = linear.load(mass)
-    passed = np.array([load * f**2 - 1, -width])
-    above = np.convolve(passed, passed) + np.append((2 * z * f * load) ** 2 * s, 0.0)
-    below = polynomial.polyadd(
-        np.convolve(real, real), np.convolve(s, np.convolve(imaginary, imaginary))
+def _frequencies(machine, ratio, band):
+    """Return frequencies (Hz) over the resonance of a linear machine and over the band."""
+    damping_ratio = machine.viscous_damping / (
+        2 * math.sqrt(machine.linear_stiffness * machine.mass)
     )
-    above = np.convolve(above, _composed(linear.forcing, s))
-    slope = polynomial.polysub(
-        np.convolve(polynomial.polyder(above), below),
-        np.convolve(above, polynomial.polyder(below)),
-    )
-    roots = 1 + width * polynomial.polyroots(slope)
-    places = np.sqrt(roots.real[(np.abs(roots.imag) <= REAL * width) & (roots.real > 0)])
-    ends = np.array([end for end in band if math.isfinite(end)])
-    inside = places[(places > band[0]) & (places < band[1])]
-    stationary = np.sort(np.concatenate([ends, inside]))
-    return stationary, _squared(linear, tuning, stationary)
+    width = min(math.sqrt(ratio) + damping_ratio, 1.0)
+    ends = 1 + REACH * width * np.array([-1.0, 1.0])
+    found = machine.natural_frequency * np.linspace(max(ends[0], 0.1), ends[1], POINTS)
+    if band is None:
+        return found
+    inside = found[(found > band[0]) & (found < band[1])]
+    return np.union1d(inside, np.linspace(*band, POINTS))
 
 
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
@@ -187,21 +135,32 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     the largest solution that is stable against folds and below the barrier of a softening spring,
     or infinity without such a solution. Other instabilities and other motions are not found.
     """
-    scales = machine.scales
-    sizes = np.empty((len(frequencies), len(force_shares)))
-    for row, hertz in zip(sizes, frequencies, strict=True):
-        oscillator, w = machine.oscillator(), scales.from_si(hertz, "frequency")
-        force = oscillator.forcing_amplitude(w)
-        stiffness = oscillator.linear_frequency**2 - w**2 + 1j * oscillator.damping * w
-        if absorber is not None:
-            link = scales.from_si(absorber.stiffness, "stiffness")
-            link += 1j * w * scales.from_si(absorber.damping, "damping")
-            mass = absorber.mass / machine.mass
-            passed = mass * link / (link - mass * w**2)
-            stiffness -= w**2 * passed
-            force *= abs(1 + oscillator.base * passed)
-        row[:] = [_amplitude(oscillator, stiffness, force * share) for share in force_shares]
-    return scales.to_si(sizes, "displacement")
+    oscillator = machine.oscillator()
+    pairs = zip(*_dynamics(machine, absorber, np.asarray(frequencies)), strict=True)
+    sizes = [
+        [_amplitude(oscillator, stiffness, force * share) for share in force_shares]
+        for stiffness, force in pairs
+    ]
+    return machine.scales.to_si(np.array(sizes), "displacement")
+
+
+def _dynamics(machine, absorber, frequencies):
+    """Return the scaled dynamic stiffness and force of a machine at frequencies (Hz).
+
+    The stiffness leaves out the cubic spring.
+    """
+    scales, oscillator = machine.scales, machine.oscillator()
+    w = scales.from_si(frequencies, "frequency")
+    force = oscillator.force + oscillator.unbalance * w**2
+    stiffness = oscillator.linear_frequency**2 - w**2 + 1j * oscillator.damping * w
+    if absorber is not None:
+        link = scales.from_si(absorber.stiffness, "stiffness")
+        link = link + 1j * w * scales.from_si(absorber.damping, "damping")
+        mass = absorber.mass / machine.mass
+        passed = mass * link / (link - mass * w**2)
+        stiffness = stiffness - w**2 * passed
+        force = force * np.abs(1 + oscillator.base * passed)
+    return stiffness, force
 
 
 def _amplitude(oscillator, stiffness, force):
@@ -222,43 +181,13 @@ def _amplitude(oscillator, stiffness, force):
     return math.sqrt(stable[-1]) if len(stable) else math.inf
 
 
-def _squared(linear, tuning, frequency):
-    """Return g(s) N(s)/D(s), the squared displacement of a linear machine, at frequencies r."""
-    s = np.square(frequency)
-    forcing = polynomial.polyval(s, linear.forcing)
-    (mass, f, z), z1 = tuning, linear.damping_ratio
-    real = (1 - s) * (f**2 - s) - 4 * z1 * z * f * s - mass * f**2 * s
-    imaginary = 2 * (z1 * (f**2 - s) + z * f * (1 - s) - mass * z * f * s)
-    load = linear.load(mass)
-    above = (load * f**2 - s) ** 2 + (2 * z * f * load) ** 2 * s
-    return forcing * above / (real**2 + s * imaginary**2)
-
-
-def _composed(coefficients, inner):
-    """Return the coefficients of a polynomial whose argument is the polynomial `inner`."""
-    composed = np.zeros(1)
-    for coefficient in coefficients[::-1]:
-        composed = np.convolve(composed, inner)
-        composed[0] += coefficient
-    return composed
-
-
-def _absorber(machine, tuning):
-    """Return the absorber in SI units for a machine and a dimensionless `Tuning`."""
-    mass = tuning.mass_ratio * machine.mass
-    own = 2 * math.pi * linear_machine(machine).natural_frequency * tuning.frequency
-    return TunedAbsorber(
-        mass=mass, stiffness=mass * own**2, damping=2 * mass * tuning.damping_ratio * own
-    )
-
-
 def _around_optimum(ratio, limits, highest):
     """Return bounds of the logarithms of tuning and damping ratio around the best grid point."""
     closed = exact_optimum(ratio)
     factors = np.geomspace(NARROW * math.sqrt(ratio), WIDE, STEPS)
     tunings = np.log(closed.frequency) + np.concatenate([-factors[::-1], [0.0], factors])
     dampings = np.log(closed.damping_ratio * DAMPINGS)
-    if limits != (0.0, math.inf):
+    if limits[0] > 0:
         tunings = np.union1d(tunings, np.log(np.linspace(*limits, PLACES)))
         dampings = np.union1d(dampings, np.log(BAND_DAMPINGS))
     heights = [[highest(f, z) for z in dampings] for f in tunings]

@@ -15,7 +15,7 @@ from impact_damper.design.task import NOMINAL, SIDES, VARIED, Task, labelled
 
 # A gap is confirmed if the search chooses a tried gap again, or if the promised displacement is at
 # most CONFIRMED times the least displacement of the search. At most ROUNDS gaps are tried.
-CONFIRMED, ROUNDS = 1.1, 4
+CONFIRMED, ROUNDS = 1.05, 4
 # Nearby gaps are run again if the promised displacement exceeds SURPRISE times the searched one.
 SURPRISE = 1.1
 

@@ -173,6 +173,16 @@ def test_all_commands_compute_with_the_stiffness_of_a_ball(machine_file):
     assert found == task.contact_stiffness == pytest.approx(expected)
 
 
+def test_all_commands_compute_with_gravity_and_friction(machine_file):
+    text = machine_file.read_text()
+    mount = "inclination: 90 deg, friction_coefficient: 0.2, normal_force: 3 N"
+    assert "damper: {" in text
+    machine_file.write_text(text.replace("damper: {", f"damper: {{{mount}, "))
+    given, machine = command_line.read(machine_file)
+    found = command_line.damper(given, machine, "3 mm")
+    assert (found.gravity, found.friction) == pytest.approx((9.81, 0.6))
+
+
 def test_a_contact_that_is_not_known_names_its_key(machine_file):
     machine_file.write_text(FILE.replace(", contact_stiffness: 2e6 N/m", ""))
     with pytest.raises(ConfigurationError, match="damper.contact_stiffness: missing; needed here"):
