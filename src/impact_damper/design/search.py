@@ -17,8 +17,6 @@ from impact_damper.design.task import NOMINAL, Task
 GAPS, FREQUENCIES, STARTS = 40, 9, 12
 # Comparisons near the best gaps: `count` of `Task.few`, number of starts, largest number of rounds.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
-# Typical ratio of `cells.return_level` to the largest displacement of few unsettled motions.
-RECORD = 1.2
 # JUMP: least ratio of neighbouring displacements at a jump. An interval of the logarithm of the gap
 # is split if it is above FINE at a jump, above SMOOTH elsewhere.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
@@ -207,12 +205,9 @@ def _ranks(task, starts):
 
 
 def _exceeded_by(task, motions, rank):
-    """Return displacements (mm) that `rank` motions of each cell exceed.
-
-    The displacement of a motion that has not settled is RECORD times its largest one so far.
-    """
-    sizes = np.sort(motions.peaks * np.where(motions.settled, 1.0, RECORD), axis=1)
-    return task.millimetres(sizes[:, -1 - rank])
+    """Return displacements (mm) that `rank` motions of each cell exceed."""
+    sizes = [np.sort(motions.numbers(k)[0])[-1 - rank] for k in range(len(motions.peaks))]
+    return task.millimetres(np.array(sizes))
 
 
 def search(task, progress=None, rounds=ROUNDS) -> Curve:
