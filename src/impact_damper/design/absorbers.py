@@ -10,26 +10,18 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+from scipy.optimize import differential_evolution
 
 from impact_damper.data.datasets import flag
 from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
-from impact_damper.theory.tuned_mass_damper import exact_optimum
 
 # Points of the frequency over the resonance and over the band, and the number of widths of the
 # resonance that the first points reach on both sides.
 POINTS, REACH = 1001, 8.0
-# Grid of the first search for the optimum, around the closed form `exact_optimum`. On each side lie
-# STEPS tunings, at logarithmic distances from NARROW sqrt(mass ratio) to WIDE. DAMPINGS multiply
-# the damping ratio. A given band adds PLACES tunings and the damping ratios BAND_DAMPINGS.
-STEPS, NARROW, WIDE = 10, 0.1, 0.4
-DAMPINGS = np.geomspace(0.3, 10, 12)
-PLACES = 9
-BAND_DAMPINGS = np.geomspace(1e-3, 0.3, 10)
-# Tolerances of the logarithms of tuning and damping ratio when the optimum is refined.
-TUNING_TOLERANCE, DAMPING_TOLERANCE = 1e-6, 1e-5
+# Bounds of the logarithms of tuning and damping ratio, tolerance and seed of the search.
+TUNINGS, DAMPINGS, TOLERANCE, SEED = (-1.5, 1.0), (-7.0, 0.7), 1e-7, 1995
 COMPETITORS = ("bare", "tuned", "own")
 # Force shares (factors of the machine's excitation), from a quarter to four.
 SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
@@ -93,25 +85,16 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
             mass=mass, stiffness=mass * own**2, damping=2 * mass * math.exp(log_damping) * own
         )
 
-    def highest(log_tuning, log_damping):
-        stiffness, force = _dynamics(linear, absorber(log_tuning, log_damping), frequencies)
+    def highest(logs):
+        stiffness, force = _dynamics(linear, absorber(*logs), frequencies)
         return np.max(force / np.abs(stiffness))
 
-    def best_tuning(log_damping):
-        # At the optimum two maxima cross in a kink. A fit of parabolas would stop too early there.
-        return minimize_scalar(
-            highest, bracket=tunings, args=(log_damping,), method="golden", tol=TUNING_TOLERANCE
-        )
-
-    limits = (0.0, math.inf) if band is None else np.divide(band, linear.natural_frequency)
-    tunings, dampings = _around_optimum(ratio, limits, highest)
-    damping = minimize_scalar(
-        lambda log: best_tuning(log).fun,
-        bounds=dampings,
-        method="bounded",
-        options={"xatol": DAMPING_TOLERANCE},
-    ).x
-    return absorber(best_tuning(damping).x, damping)
+    # Two maxima cross in a kink at the optimum, where methods that use slopes stop too early.
+    return absorber(
+        *differential_evolution(
+            highest, (TUNINGS, DAMPINGS), rng=SEED, tol=TOLERANCE, atol=0, polish=False
+        ).x
+    )
 
 
 def _frequencies(machine, ratio, band):
@@ -179,21 +162,3 @@ def _amplitude(oscillator, stiffness, force):
     # The middle one of three solutions is unstable.
     stable = squares[::2][squares[::2] < barrier]
     return math.sqrt(stable[-1]) if len(stable) else math.inf
-
-
-def _around_optimum(ratio, limits, highest):
-    """Return bounds of the logarithms of tuning and damping ratio around the best grid point."""
-    closed = exact_optimum(ratio)
-    factors = np.geomspace(NARROW * math.sqrt(ratio), WIDE, STEPS)
-    tunings = np.log(closed.frequency) + np.concatenate([-factors[::-1], [0.0], factors])
-    dampings = np.log(closed.damping_ratio * DAMPINGS)
-    if limits[0] > 0:
-        tunings = np.union1d(tunings, np.log(np.linspace(*limits, PLACES)))
-        dampings = np.union1d(dampings, np.log(BAND_DAMPINGS))
-    heights = [[highest(f, z) for z in dampings] for f in tunings]
-    i, j = np.unravel_index(np.argmin(heights), (len(tunings), len(dampings)))
-    return _neighbours(tunings, i), _neighbours(dampings, j)
-
-
-def _neighbours(values, place):
-    return values[max(place - 2, 0)], values[min(place + 2, len(values) - 1)]
