@@ -14,7 +14,7 @@ AWAY = 0.1  # relative distance of d0 from the optimum d0 at which the rise of m
 
 
 def excess(datasets):
-    """Return the numbers of claim 9: the optimum d0 slightly exceeds the optimum d0 by (7)."""
+    """Return the numbers of claim 9: the optimum d0 slightly exceeds that of equation (7)."""
     groups = _sweeps(datasets, "damping", restitution=1)
     members = [sweep for group in groups.values() for sweep in group]
     over = [float(sweep.optimum_clearance / sweep.analytical_optimum) - 1 for sweep in members]

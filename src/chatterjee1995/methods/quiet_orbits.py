@@ -143,8 +143,8 @@ def _end(followed):
     return fraction, followed.status
 
 
-# Ratio rm W^2 d0/f at which the first harmonic of Z2 is f/(rm W^2) and the primary mass is at rest,
-# as rule (18) requires. The harmonic of a straight flight between rigid walls is 8 d0/pi^2.
+# Ratio rm W^2 d0/f by (18) if 8 d0/pi^2 replaces d0: the first harmonic of Z2 for a straight flight
+# between rigid walls while the primary mass is at rest.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # Impulse q for equal |x| at impact and turning point, and phase phi of the turning point, for e = 1
 # and no damping or stiffness: q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.

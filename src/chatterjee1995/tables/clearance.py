@@ -1,4 +1,4 @@
-"""Tables of the optimum clearance, the d0 with the smallest max |Z1|, and of rules for it."""
+"""Tables of the optimum d0, with the smallest max |Z1| or first harmonic, and of rules for it."""
 
 import numpy as np
 import pandas as pd

@@ -85,7 +85,7 @@ class Motions:
     peaks : array, shape (m, n)
         Largest displacement of the orbit, or record of a motion that has not settled.
     blocks : array of arrays, shape (m,)
-        Peaks of each cell, shape (n, blocks), NaN in blocks in which a motion was not run.
+        Largest displacements in blocks of BLOCK cycles, shape (n, blocks), NaN if not run.
     """
 
     task: object

@@ -30,7 +30,7 @@ def measured_costs(p, y, begin, periods) -> dict:
     wall, (x, v) = panels.wall[:, None], np.moveaxis(panels.states, -1, 0)[:2]
     depth, rate = penetration(p, panels.states, wall)
     contact = wall_force(p, depth, rate)
-    # The Python function `py_func` accepts arrays. The compiled function does not.
+    # Only kernels can call the compiled functions; `py_func` is the Python function.
     external = forcing_amplitude.py_func(p) * np.cos(p[FREQUENCY] * panels.times)
     free = (1 - p[BASE]) * external - p[DAMPING] * v - spring.py_func(p, x)
     absolute = largest(x + base_displacement(p, panels.times)) if p[BASE] else np.nan

@@ -66,7 +66,7 @@ class Curve:
     def within(self, lows, highs) -> np.ndarray:
         """Return the largest displacement between each pair of gaps.
 
-        At these gaps the curve is interpolated or, in a jump, the larger neighbour is taken.
+        There the curve is interpolated or, in a jump, the larger displacement of both sides taken.
         """
         logs, values = np.log(self.gaps), np.log(self.sizes)
         found = np.full(len(lows), -np.inf)
@@ -150,7 +150,7 @@ class Curve:
                 for begin, after in zip(self.gaps[:-1], self.gaps[1:], strict=True)
             ]
         )
-        # A narrow range of small motions may lie beside a gap with a small motion.
+        # Beside a gap with a small motion there may be a narrow range of better gaps.
         small = self.sizes <= CANDIDATE * values.min()
         matters |= small[:-1] | small[1:]
         middles = np.sqrt(self.gaps[:-1] * self.gaps[1:])

@@ -317,7 +317,7 @@ class Source(Writer):
         return f"{IMPORTS}\n\n" + "\n\n".join(functions)
 
     def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
-        """Return a kernel that sums series at the time in the row `time`.
+        """Return the source of a kernel that sums series at the time in the row `time`.
 
         `results` maps the row of each result to its series: "X" for the sum of the series X, "X'"
         for the derivative of the sum, "|X|" for the sum of the moduli of the terms. A sum begins at

@@ -35,7 +35,7 @@ class Identified(NamedTuple):
 
 @names_arguments
 def from_ring_down(cls, data, *, mass, **excitation) -> Identified:
-    """Return the machine whose free decay m x'' + c x' + k x + k3 x^3 = 0 is nearest to a record.
+    """Find the machine whose free decay m x'' + c x' + k x + k3 x^3 = 0 is nearest to a record.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def from_ring_down(cls, data, *, mass, **excitation) -> Identified:
 
 @names_arguments
 def from_response(cls, data, *, force) -> Identified:
-    """Return the machine whose response to a known force is nearest to a measured curve.
+    """Find the machine whose response to a known force is nearest to a measured curve.
 
     All branches obey the balance of the first harmonic, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2
     = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). The residual divided by

@@ -178,7 +178,7 @@ class Scales(NamedTuple):
     si: bool = False
 
     def unit(self, kind) -> float:
-        """Return the SI value of the dimensionless number 1 of a kind, a key of QUANTITIES.
+        """Return the SI value that corresponds to 1, for a kind (a key of QUANTITIES).
 
         A frequency in Hz is W w0/(2 pi), a gap is twice the clearance. Without `si` the value is 1.
         """

@@ -33,8 +33,8 @@ SPREAD, SMALLEST = 3.0, 0.01
 # Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by the larger of free
 # motions' speed and the crossing speed (`_crossing_speed`); at rest by the crossing speed.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
-# States of the loose mass for `sweep.stable_orbits`: number; largest |Z1' - Z2'|, divided by the
-# larger of both speeds above.
+# States of the loose mass for `sweep.stable_orbits`: number; largest |Z1' - Z2'|, divided by
+# the speed of the free motions or by the crossing speed, whichever is larger.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
 # Largest |Z1| and |Z1'| of random starts with a softening spring, divided by `barrier`'s values.
 WITHIN = 0.7

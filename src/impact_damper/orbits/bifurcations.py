@@ -40,7 +40,7 @@ class Event(NamedTuple):
 
 
 def _reversal(point, symmetric):
-    """Return the `_product` of mu + 1 over the multipliers mu of a cycle.
+    """Return the `_product` of mu + 1 over the `cycle_multipliers` mu.
 
     The cycle of a symmetric orbit is half its period. At mu = -1 a symmetric orbit loses its
     symmetry, and an asymmetric one doubles its period. Return 1 if `symmetric` does not fit.

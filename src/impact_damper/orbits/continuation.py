@@ -213,7 +213,7 @@ class Problem:
         return None if point is None or self.length(point.x - x) > aside else point
 
     def at_value(self, point, value):
-        """Return the point at a value of the parameter close to the value of a point, or None.
+        """Return the point near `point` at a close value of the parameter, or None.
 
         The first guess lies on the tangent, at most FARTHEST_GUESS away. Without this limit, the
         guess near a fold would be a large state, whose integration takes minutes.

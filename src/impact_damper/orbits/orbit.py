@@ -207,7 +207,7 @@ class Orbit:
         """State minus (for odd n: plus) the state half a period later, shape (4,).
 
         The deviation changes its sign where a branch meets a branch of symmetric orbits or of half
-        the period. If `sign` is -1, ones replace the deviation.
+        the period. If `sign` is -1, all entries are 1.
         """
         if self.sign < 0:
             return np.ones(4)

@@ -53,7 +53,7 @@ def _leaving(event):
     """Return the `Problem` of the other branch, and its unknowns and direction at an event."""
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
-    # In a cycle the state is multiplied by `sign`, the deviation from the state by -`sign`.
+    # After `problem.cycle` the state is `sign` times, the deviation -`sign` times itself.
     sign, size = (1 if doubled else -1), 4 if problem.damped else 2
     factors = point.orbit.factors[:, :size, :size].copy()
     factors[-1] *= -1

@@ -157,7 +157,7 @@ class _Balance:
         """Return the range of p that contains every solution with |a| <= reach.
 
         The upper end is a bound by (7a) or, if smaller, the root of (a + reach) cos(p). The lower
-        end is 0, or the first root of (a - reach) cos(p), or the upper end if there is no root.
+        end is 0 if d0 <= reach, else the first root of (a - reach) cos(p) or the upper end.
         """
         reach *= 1 + 1e-6
         spring = reach * (abs(self.detuning) + abs(self.hardening) * reach**2)
