@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import impact_damper as idm
-from impact_damper.kernel.single import side_of, workspace
+from impact_damper.kernel.single import side_of, step, workspace
 from impact_damper.kernel.tangents import advance
 from impact_damper.model import packed
 from impact_damper.model.packed import pack
@@ -188,3 +188,20 @@ def test_tangents_are_difference_quotients(of_damper, of_oscillator, rule):
     ends = [[moved(start + s * d, np.empty((0, 4))) for s in (1, -1)] for d in step]
     quotients = [(ahead - behind) / 2e-6 for ahead, behind in ends]
     assert_allclose(tangents, quotients, atol=1e-5 * max(1, np.abs(quotients).max()))
+
+
+def test_a_flight_moves_on_from_a_separation_behind_the_wall():
+    """The error of this separation is above the rounding errors of the flight that follows."""
+    p = np.array([
+        0.9975092120424324, 0.019950184240848642, 0.9950246281095139, 0.0049753718904860045,
+        0.0, 0.1414178209243579, 1.0, 0.21212673138653673, 4.975123140547569, 10.0,
+        0.24326186655003557, 0.04889564733934642, 0.0, 0.0
+    ])  # fmt: skip
+    y = np.array([
+        0.062449098144035854, -1.779071228651208, -0.1699886135892479, 7.288015869970868
+    ])  # fmt: skip
+    work, side, t, steps = workspace(), side_of(p, y), 0.0, 0
+    while t < 2 * math.pi / p[0] and steps < 1000:
+        length, side = step(p, y, side, t, 6.0, 1e-9, work)
+        t, steps = t + length, steps + 1
+    assert steps < 200

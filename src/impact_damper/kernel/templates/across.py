@@ -133,7 +133,9 @@ def step_outside(a, i, t):
     deep = safe_advance(-q, slope, bound) if q <= fine else 0.0
     pressed = safe_advance(-f, rise, bent) if f <= fine else 0.0
     across = safe_advance(2.0 * clearance + q, -slope, bound)
-    here = q >= -fine and f >= -fine and (q > fine or slope > 0.0) and (f > fine or rise > 0.0)
+    # As a flight begins, a positive f that falls is the error of the separation before it.
+    pushes = rise > 0.0 or (f > fine and t > 0.0)
+    here = q >= -fine and f >= -fine and (q > fine or slope > 0.0) and pushes
     other = 2.0 * clearance + q <= fine and slope < 0.0
     shortest = math.sqrt(8.0 * fine / (bent + TINY))
     ahead = max(min(max(deep, pressed), across), max(shortest, ROUNDING * t))
