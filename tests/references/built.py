@@ -10,7 +10,17 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
+import impact_damper as idm
+
 PROGRAM = Path(__file__).with_name("built.c")
+# A machine on a moving base, whose spring hardens.
+BOARD = idm.Machine(
+    mass=12,
+    linear_stiffness=2e5,
+    cubic_stiffness=5e8,
+    damping_ratio=0.01,
+    base_displacement="0.2 mm",
+)
 
 
 @functools.cache

@@ -195,7 +195,7 @@ def _orbits(scene, settings):
 def _times(scene, model, reference):
     """Return the times at which contacts of a model begin, in the order of the reference.
 
-    If the contacts do not match those of the reference one to one, all times are NaN.
+    All times are NaN unless each contact has one partner in the reference, and none is left.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods

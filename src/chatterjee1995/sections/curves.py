@@ -4,7 +4,7 @@ from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
 from impact_damper.command.section import choice, dotted, problem, several
 
-# Stages that an entry of `curves` can list, and those of them that need a damper.
+# Stages that an entry of `curves` can list, and the stages among them that need a damper.
 STAGES_OF_CURVES = ("harmonic_balance", "design_orbit", "response", "subharmonic", "branches")
 NEED_DAMPER = ("design_orbit", "subharmonic")
 # Initial state: the three numbers under figure 4 of the paper, and relative velocity 0. A start at

@@ -99,7 +99,7 @@ class Job:
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Return the result of the stage's function, with those of `offered` that it accepts."""
+        """Return the result of the stage's function; it gets the `offered` that it accepts."""
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}

@@ -85,7 +85,7 @@ def evaluate(
 ):
     """Say how far the machine moves with a given gap, and how sure that is.
 
-    The answer and its tests are those of `impact-damper design`.
+    The answer and its tests are the same as by `impact-damper design`.
     """
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.design_damper import evaluate_damper

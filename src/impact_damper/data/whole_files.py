@@ -23,7 +23,7 @@ class BrokenFileError(OSError):
 def whole(path):
     """Yield a temporary path to write to, which is renamed to `path` on success.
 
-    All temporary files for the same `path`, such as those of a killed process, are removed first.
+    First all temporary files for the same `path` are removed: a killed process leaves some.
     """
     path = Path(path)
     part = path.with_name(f"{path.name}.part-{os.getpid()}")

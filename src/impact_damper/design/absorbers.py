@@ -8,6 +8,7 @@ On a moving base F is multiplied by |1 + q m/m1|, because the base also accelera
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from scipy.optimize import differential_evolution
@@ -69,6 +70,7 @@ def absorber_responses(
     )
 
 
+@cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
     """Return the absorber that minimises the largest displacement of the linear machine.
 

@@ -180,10 +180,7 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
     found = run(task, cells, starts, stream, progress)
-    table, usual = (
-        each.reshape(len(gaps), -1)
-        for each in (_exceeded_by(task, found, rank) for rank in _ranks(task, starts))
-    )
+    table, usual = _exceeded_by(task, found, _ranks(task, starts)).reshape(2, len(gaps), -1)
     usual, known, turn = usual.max(axis=1), np.zeros(table.shape, bool), 0
     while True:
         worst = table.argmax(axis=1)
@@ -194,7 +191,7 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
         some, turn = [cells[k * len(conditions) + worst[k]] for k in rows], turn + 1
         again = "searched_again", STREAMS.index(stream[0]), *stream[1:], turn
         more = run(task, some, MORE * starts, again, progress)
-        table[rows, worst[rows]] = _exceeded_by(task, more, _ranks(task, MORE * starts)[0])
+        table[rows, worst[rows]] = _exceeded_by(task, more, _ranks(task, MORE * starts))[0]
         known[rows, worst[rows]] = True
 
 
@@ -204,10 +201,10 @@ def _ranks(task, starts):
     return round(allowed / 2), int(2 * allowed)
 
 
-def _exceeded_by(task, motions, rank):
-    """Return displacements (mm) that `rank` motions of each cell exceed."""
-    sizes = [np.sort(motions.numbers(k)[0])[-1 - rank] for k in range(len(motions.peaks))]
-    return task.millimetres(np.array(sizes))
+def _exceeded_by(task, motions, ranks):
+    """Return the displacement (mm) that a number of motions exceed, shape (ranks, cells)."""
+    sizes = np.array([np.sort(motions.numbers(k)[0]) for k in range(len(motions.peaks))])
+    return task.millimetres(np.stack([sizes[:, -1 - rank] for rank in ranks]))
 
 
 def search(task, progress=None, rounds=ROUNDS) -> Curve:

@@ -2,8 +2,8 @@
 
 Near an orbit of period n the distances between states n cycles apart decrease geometrically. Once
 the sum of all further distances is small, Newton's method looks for a stable orbit close by. So a
-slow passage near a fold is not mistaken for an orbit.
-Up to a distance of 0.01 the motion must also follow the linearised map of the orbit (`is_linear`).
+slow passage near a fold is not mistaken for an orbit. At a distance above NEAR, and at most 0.01,
+the motion must also follow the linearised map of the orbit (`is_linear`).
 """
 
 import math

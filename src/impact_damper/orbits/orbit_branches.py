@@ -102,10 +102,10 @@ def orbit_branches(
     With a frequency and a state, the function follows the branch of the orbit near the state. With
     datasets of motions, it follows every branch over frequency through a settled motion. It also
     follows the branches that leave a branch of period 1 or 3, at a period doubling only next to
-    stable orbits. From other branches it follows those of a period up to 9 that begin stable, next
-    to stable orbits. It follows the branch of more symmetry at which a branch of a period up to 4
-    ends. It stops a branch of a period above 1 when the periods of unstable orbits in a row exceed
-    300 forcing cycles together.
+    stable orbits. From branches of other periods it follows branches of a period up to 9 that begin
+    stable, next to stable orbits. It follows the branch of more symmetry at which a branch of a
+    period up to 4 ends. It stops a branch of a period above 1 when the periods of unstable orbits
+    in a row exceed 300 forcing cycles together.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ def dataset_in(data, takes, words) -> xr.Dataset:
 
 @contextmanager
 def sheet(axes, count=1, height=3.6, columns=3):
-    """Return a context that yields the given axes, or those of a new figure in the common style.
+    """Return a context that yields the given axes, or axes of a new figure in the common style.
 
     A new figure is `height` inches high. Its legend has `columns` columns; 0 means no legend.
     """

@@ -1,11 +1,9 @@
 """Dampers as they are built: their promises hold in a simulator that shares no code with ours."""
 
-import shutil
-
 import numpy as np
 import pytest
-from helpers.design_tasks import task
-from references.built import by_program
+from helpers.design_tasks import needs_compiler, task
+from references.built import BOARD, by_program
 from scipy.stats import binom
 
 import impact_damper as idm
@@ -13,15 +11,7 @@ from impact_damper.design.promise import Promise
 from impact_damper.design.task import NOMINAL
 from impact_damper.motions.start_states import random_starts
 
-needs_compiler = pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler `cc`")
 PUMP = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.01, force=40)
-BOARD = idm.Machine(
-    mass=12,
-    linear_stiffness=2e5,
-    cubic_stiffness=5e8,
-    damping_ratio=0.01,
-    base_displacement="0.2 mm",
-)
 BUILT = {
     "vertical": (
         PUMP,

@@ -1,26 +1,15 @@
 """Impulses on a machine, held against a simulator that shares no code with the library."""
 
-import shutil
-
 import numpy as np
 import pytest
-from helpers.design_tasks import task
-from references.built import by_program
+from helpers.design_tasks import needs_compiler, task
+from references.built import BOARD, by_program
 
-import impact_damper as idm
 from impact_damper.design.cells import Cell, run
 from impact_damper.design.shocks import BLOCK, convergence_times, shocks
 from impact_damper.design.task import labelled
 from impact_damper.motions.strobe_map import strobe_time
 
-needs_compiler = pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler `cc`")
-BOARD = idm.Machine(
-    mass=12,
-    linear_stiffness=2e5,
-    cubic_stiffness=5e8,
-    damping_ratio=0.01,
-    base_displacement="0.2 mm",
-)
 # At this frequency the light damper leaves the board its large motion beside the small one.
 FREQUENCY, GAP, PROMISED = 21.5, 4.0, 2.5
 CYCLES, LEAD = 500, 450
