@@ -1,7 +1,7 @@
-"""Integration of many trajectories, stepped side by side in LANES lanes of vector registers.
+"""Integrate many trajectories. LANES of them are stepped side by side in vector registers.
 
 All trajectories of one step must be in the same phase, in flight or in contact. Therefore a pool
-holds more trajectories than there are lanes and has a queue for each kind of step. Each step takes
+holds more trajectories than there are lanes, and has a queue for each kind of step. Each step takes
 its trajectories from the longest queue. The result of a trajectory depends on no other trajectory.
 """
 
@@ -15,7 +15,7 @@ from impact_damper.kernel.equation import no_return
 from impact_damper.model import packed
 
 LANES = 16
-# Largest number of trajectories in a pool. With it the longest queue nearly always fills all lanes.
+# Largest number of trajectories in a pool. The longest of its queues then mostly fills all lanes.
 RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
@@ -24,8 +24,7 @@ flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.cont
 flight_tangents = by_address(_MANY.flight_tangents)
 contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Indices at which quantities of a trajectory begin in `Pool.numbers`. Their order is the same as in
-# the rows of a step (`instances.rows`).
+# Indices at which quantities of trajectory m begin in `Pool.numbers[m]`, in the order of the rows.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -36,12 +35,13 @@ class Pool(NamedTuple):
     """Trajectories that are being integrated, each to its own end time.
 
     numbers: Parameters, state, side, time, longest step and tolerance; shape (m, LENGTH).
-    ends, tangents: End times, shape (m,); one tangent of each trajectory, shape (m, 4).
+    ends: End times; shape (m,).
+    tangents: One tangent of each trajectory; shape (m, 4).
     farthest: |Z1| beyond which a trajectory escapes (`equation.no_return`); shape (m,).
     queues: Indices of the trajectories that wait for a step of each kind; shape (4, m).
     waiting: Number of trajectories in each queue; shape (4,).
     contacts: Contacts begun since the last call of `send`; shape (m,).
-    held: Index of the trajectory whose parameters are in each lane, or -1; shape (LANES,).
+    held: Index of the trajectory whose parameters each lane holds, or -1; shape (LANES,).
     a, d: Rows of the step and of its tangents (`instances.rows`).
     """
 
@@ -109,7 +109,7 @@ def enqueue(queues, waiting, m, kind):
 
 @kernel
 def choose(pool, chosen):
-    """Take at most LANES trajectories from the longest queue; return their number and the queue.
+    """Take at most LANES trajectories from the longest queue. Return their count and the queue.
 
     `chosen` receives their indices. Lanes that remain free get the last index.
     """
@@ -127,7 +127,7 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Copy chosen trajectories into lanes; parameters only if the lane held another trajectory."""
+    """Copy chosen trajectories into lanes. Parameters that a lane holds are not copied again."""
     for lane in range(LANES):
         m = chosen[lane]
         numbers = pool.numbers[m]
@@ -145,10 +145,10 @@ def gather(pool, chosen, kind):
 
 @kernel_only
 def scatter(pool, chosen, count, kind, arrived):
-    """Copy trajectories from the lanes into the pool, and queue unfinished trajectories.
+    """Copy trajectories from the lanes into the pool, and queue those that have not ended.
 
-    Return the number of trajectories at their end times; `arrived` receives their indices. A
-    trajectory that has escaped (`equation.no_return`) ends at once, in the state at the escape.
+    Return the number of trajectories that have ended. `arrived` receives their indices. Escaped
+    trajectories (`equation.no_return`) end at once, in the state at the escape.
     """
     ended = 0
     for lane in range(count):
@@ -178,7 +178,7 @@ def scatter(pool, chosen, count, kind, arrived):
 
 @kernel
 def advance_some(pool, chosen, arrived):
-    """Step the trajectories of a pool until some are at their end times; return their number.
+    """Step the trajectories of a pool until some have ended. Return the number of these.
 
     `arrived` (LANES,) receives their indices. `chosen` (LANES,) is working memory.
     """
@@ -203,8 +203,8 @@ def advance_some(pool, chosen, arrived):
 def advance(parameters, states, sides, starts, ends, tolerance, contacts):
     """Integrate trajectories, each from its start time to its end time.
 
-    The `states` (m, 4) and the walls in contact, `sides` (m,), are replaced by their values at the
-    end times. `contacts` (m,) receives the numbers of contacts begun.
+    `states` (m, 4) and `sides` (m,), the walls in contact, are replaced by those at the end times.
+    `contacts` (m,) receives the number of contacts that each trajectory has begun.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

@@ -1,8 +1,8 @@
-"""Compile templates of a step, bypassing numba's front end, which takes most of a compilation.
+"""Compile templates of a step without numba's front end, which would take most of the time.
 
-A template is a Python function of pointers to float64 and of numbers. It consists of assignments,
-calls, `if`, `while`, `return`, and `for` loops over `range(count)` with a constant count. Numbers
-known at compilation are computed then, and branches that they exclude are left out.
+A template is a Python function. Its arguments are pointers to float64 and numbers. It consists of
+assignments, calls, `if`, `while`, `return`, and `for` loops over `range(count)` with a constant
+count. What depends only on constants is computed at compilation, which leaves out dead branches.
 """
 
 import ast
@@ -22,7 +22,7 @@ from numba.extending import intrinsic
 from impact_damper.kernel.compiling import CONTRACT
 
 FLOAT, INTEGER, TRUTH = ir.DoubleType(), ir.IntType(64), ir.IntType(1)
-# For each operator: the Python function, LLVM's instruction for floats, and the one for integers.
+# Operator -> Python function, LLVM instruction for floats, LLVM instruction for integers.
 OPERATORS = {
     ast.Add: (operator.add, "fadd", "add"),
     ast.Sub: (operator.sub, "fsub", "sub"),
@@ -40,7 +40,7 @@ INTRINSICS = {math.sqrt: "sqrt", math.sin: "sin", math.cos: "cos", np.floor: "fl
 
 @cache
 def _definitions(file):
-    """Return the syntax trees of the functions of a file, by the number of their first line."""
+    """Return a dictionary of the syntax trees of a file's functions, keyed by their first lines."""
     found = {}
     for node in ast.walk(ast.parse(Path(file).read_text())):
         if isinstance(node, ast.FunctionDef):
@@ -54,7 +54,7 @@ def definition(function):
 
 
 def bits(x):
-    """Return the bits of a float as an integer, for x > 0 nearly 2^52 (1023 + log2(x))."""
+    """Return the bits of a float as an integer, which for x > 0 is about 2^52 (1023 + log2(x))."""
     return int(np.float64(x).view(np.int64))
 
 
@@ -64,7 +64,7 @@ def number(x):
 
 
 def template(function, caller):
-    """Return the intrinsic that numba's kernels call for a template; `caller` only calls it."""
+    """Return the intrinsic by which numba's kernels call a template. `caller` only calls it."""
 
     def generate(context, builder, signature, arguments):
         builder.call(_compiled(builder.module, function, arguments), arguments)
@@ -88,7 +88,7 @@ def _is_llvm(value):
 
 
 def _compiled(module, function, arguments):
-    """Return the LLVM function of a template; only the pointers remain arguments."""
+    """Return the LLVM function of a template. Arguments known at compilation become constants."""
     name = f"{function.__module__}.{function.__name__}"
     name = ".".join([name, *(str(each) for each in arguments if not _is_llvm(each))])
     if name in module.globals:
@@ -107,16 +107,16 @@ def _compiled(module, function, arguments):
 
 
 class Body(ast.NodeVisitor):
-    """Writes the LLVM code of a template's body. A value is an LLVM value or a Python object."""
+    """Writes the LLVM code of a template. What is known at compilation stays a Python object."""
 
     def __init__(self, builder, function):
         self.builder, self.function = builder, function
         self.tree = definition(function)
-        # Values of names assigned once; memory of other names; memory of the returned values.
+        # Values of names that are assigned once, memory of other names, memory of results.
         self.values, self.memory, self.returned = {}, {}, []
 
     def expand(self, arguments):
-        """Write the body with these arguments, and return the values of its `return`."""
+        """Write the body with these arguments. Return what the template returns."""
         self.end = self.builder.append_basic_block()
         names = [each.arg for each in self.tree.args.args]
         nodes = [each for each in ast.walk(self.tree) if isinstance(each, ast.Name)]
@@ -134,7 +134,7 @@ class Body(ast.NodeVisitor):
         return values[0] if len(values) == 1 else values
 
     def run(self, statements):
-        """Write statements up to a `return`."""
+        """Write statements, up to the first `return`."""
         for statement in statements:
             if not self.builder.block.is_terminated:
                 self.visit(statement)
@@ -149,7 +149,7 @@ class Body(ast.NodeVisitor):
         self.builder.store(self.llvm(value, self.memory[name].type.pointee), self.memory[name])
 
     def llvm(self, value, kind=None):
-        """Return a value as an LLVM value, an integer as a float if `kind` is FLOAT."""
+        """Return a value as an LLVM value. If `kind` is FLOAT, an integer becomes a float."""
         if _is_llvm(value):
             converted = value.type == INTEGER and kind == FLOAT
             return self.builder.sitofp(value, FLOAT) if converted else value
@@ -158,7 +158,7 @@ class Body(ast.NodeVisitor):
         return ir.Constant(FLOAT if kind == FLOAT or isinstance(value, float) else INTEGER, value)
 
     def alike(self, *values):
-        """Return numbers as LLVM values, as floats if one of them is a float."""
+        """Return numbers as LLVM values. If one of them is a float, all become floats."""
         kinds = [self.llvm(each).type for each in values]
         return [self.llvm(each, FLOAT if FLOAT in kinds else None) for each in values]
 
@@ -184,7 +184,7 @@ class Body(ast.NodeVisitor):
         self.store(node.target, self.visit(value))
 
     def store(self, target, value):
-        """Assign a value to a name or to an entry of an array, or values to several of them."""
+        """Assign a value to a name or an array entry, or each value of a tuple to its target."""
         if isinstance(target, ast.Tuple):
             for each, part in zip(target.elts, value, strict=True):
                 self.store(each, part)
@@ -225,7 +225,7 @@ class Body(ast.NodeVisitor):
         self.builder.position_at_end(after)
 
     def visit_For(self, node):
-        """Write a loop of i over several lanes as a loop; write out the turns of other loops."""
+        """Write a loop of i over several lanes as a loop. Write out all turns of other loops."""
         count, counter = self.visit(node.iter.args[0]), node.target.id
         if counter == "i" and count > 1:
             with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:
@@ -280,7 +280,7 @@ class Body(ast.NodeVisitor):
         return reduce(self.builder.and_, map(self.compared, signs, terms, terms[1:]))
 
     def compared(self, sign, *pair):
-        """Return whether two numbers satisfy a comparison, as Python does for NaN."""
+        """Return the result of a comparison of two numbers. NaN is compared as in Python."""
         pair = self.alike(*pair)
         if pair[0].type != FLOAT:
             return self.builder.icmp_signed(sign, *pair)
@@ -304,7 +304,7 @@ class Body(ast.NodeVisitor):
         return getattr(self.builder, whole)(*pair)
 
     def extreme(self, sign, found, other):
-        """Return the smaller or the larger of two numbers, as Python does for NaN."""
+        """Return the smaller or the larger of two numbers. NaN is compared as in Python."""
         return self.builder.select(self.compared(sign, other, found), other, found)
 
     def visit_Call(self, node):

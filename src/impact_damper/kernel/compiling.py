@@ -1,12 +1,12 @@
-"""Compile kernels with numba, cache their machine code and call them. Decorators for functions:
+"""Compile kernels, which are functions in machine code, with numba. Decorators for functions:
 
-    kernel       The function is compiled on the first call, and cached.
-    kernel_only  Only kernels can call the function; it is cached as part of these kernels.
+    kernel       The function is compiled on the first call, and its machine code is cached.
+    kernel_only  Only kernels can call the function, and it is cached as part of them.
     inlined      Kernels that call the function contain a copy of the function.
 
-numba compiles a cached function again after an edit of the file that defines it, but not after an
-edit of a function that it calls. Therefore each module has a folder of its own, whose name is the
-digest of all modules that its kernels can depend on.
+numba compiles a cached kernel again if the kernel's own file was edited, but not if another file
+with a called function was edited. Therefore the kernels of each module have their own cache folder.
+Its name is a digest of all files on which the kernels can depend.
 """
 
 import gc
@@ -33,18 +33,15 @@ from impact_damper.kernel.sources import kernel_digest
 # Time spent on compilation, in s, after which MESSAGE is printed.
 PATIENCE = 1.0
 MESSAGE = "impact_damper: compiling kernels; later sessions will load them from the cache"
-# Event of the compilation of a kernel that is called by address.
+# Kind of numba event that `compiled` triggers while it compiles a kernel.
 COMPILING = "impact_damper:compile"
-# Number of float64 values in one of the processor's cache lines of 64 bytes.
+# Number of float64 numbers in a cache line of the processor, which has 64 bytes.
 CACHE_LINE = 8
 
 
 @cache
 def cache_directory(*paths) -> Path:
-    """Return the folder of the compiled kernels of the modules `paths`.
-
-    If the usual folder cannot be made, a temporary folder takes its place.
-    """
+    """Return the folder for the compiled kernels of modules; `paths` are the modules' files."""
     chosen = os.environ.get("NUMBA_CACHE_DIR")
     root = Path(chosen) if chosen else platformdirs.user_cache_path("impact-damper")
     path = root / kernel_digest(*paths)
@@ -55,16 +52,13 @@ def cache_directory(*paths) -> Path:
     return path
 
 
-# Folder of the generated modules and their kernels. They depend on this subpackage and its imports.
+# Folder for the modules that `instances` generates, and for their compiled kernels.
 CACHE_DIRECTORY = cache_directory()
 
 
 @contextmanager
 def own_cache(function):
-    """Return a context in which numba caches a decorated function in the folder of its module.
-
-    At its end the context restores the user's setting of the folder.
-    """
+    """Return a context in which numba caches `function` in the folder of the function's module."""
     path = Path(function.__code__.co_filename)
     generated = path.is_relative_to(CACHE_DIRECTORY)
     before = numba.config.CACHE_DIR
@@ -75,16 +69,16 @@ def own_cache(function):
         numba.config.CACHE_DIR = before
 
 
-# "contract" allows fused multiply-add and no other change of the arithmetic: reordered sums would
-# be less accurate and slower. With "nogil" kernels release Python's global interpreter lock and run
-# in parallel in Python threads, without parallel compilation by numba. With the error model "numpy"
-# a division by zero gives infinity or NaN and raises nothing.
+# "contract" allows LLVM to fuse a multiplication with an addition. No other change of the
+# arithmetic is allowed. With "nogil" kernels release Python's global interpreter lock, so Python
+# threads can run them in parallel. With the error model "numpy" a division by zero gives infinity
+# or NaN and raises no error.
 CONTRACT = ("contract",)
 SETTINGS = {"cache": True, "nogil": True, "fastmath": set(CONTRACT), "error_model": "numpy"}
 
 
 def kernel(function, **options):
-    """Decorate a kernel; `no_cfunc_wrapper` saves a tenth of the compile time."""
+    """Decorate a function as a kernel. `options` of numba replace those in SETTINGS."""
     with own_cache(function):
         return numba.njit(no_cfunc_wrapper=True, **SETTINGS | options)(function)
 
@@ -95,7 +89,7 @@ inlined = partial(kernel, inline="always")
 
 @kernel
 def aligned(count):
-    """Return `count` zeros from the beginning of a cache line, so that vectors load fast."""
+    """Return an array of `count` zeros. It begins at a cache line, so that vectors load fast."""
     numbers = np.zeros(count + CACHE_LINE)
     before = -numbers.ctypes.data // 8 % CACHE_LINE
     return numbers[before : before + count]
@@ -103,9 +97,9 @@ def aligned(count):
 
 @intrinsic
 def pointer(typing, array):
-    """Return a pointer to the first element of an array, which the caller must keep alive.
+    """Return a pointer to the first element of an array. The caller must keep the array alive.
 
-    numba counts references to arrays with locked instructions, which are slower than some kernels.
+    Pointers save time: numba counts references to arrays, which takes longer than some kernels.
     """
 
     def generate(context, builder, signature, arguments):
@@ -122,18 +116,19 @@ def signature_of(function):
 
 @cache
 def compiled(function):
-    """Return the compiled cfunc of a kernel (see `signature_of`); `call_at` takes its `address`."""
+    """Return a kernel as a compiled C function. All arguments of the kernel must be pointers."""
     told = event.trigger_event(COMPILING, data={"dispatcher": function})
     with own_cache(function.py_func), told:
         return numba.cfunc(signature_of(function), **SETTINGS)(function.py_func)
 
 
 def by_address(function):
-    """Return a stand-in for a kernel; calls of the stand-in jump to the kernel's address.
+    """Return a stand-in for a kernel. A call of the stand-in jumps to the kernel's address.
 
-    Otherwise LLVM compiles a called kernel again as a part of each caller. A cached caller refers
-    to the kernel by name. The name must be bound to an address before the caller is loaded.
-    Therefore a module that the modules of all callers import calls `by_address` when imported.
+    Without the stand-in, LLVM would compile the kernel again as part of each caller. A compiled
+    caller refers to the kernel by a name, which this function binds to the address. The name must
+    be bound before the caller is loaded from the cache. Therefore this function is called at the
+    import of a module that the modules of all callers import.
     """
     name = f"{function.py_func.__module__}.{function.py_func.__name__}"
     llvmlite.binding.add_symbol(name, compiled(function).address)
@@ -142,7 +137,7 @@ def by_address(function):
 
 @intrinsic
 def call_at(typing, address, numbers):
-    """Call the kernel at `address`, an integer, with `numbers`, a pointer to float64."""
+    """Call the kernel at the integer `address`. Its argument is `numbers`, a pointer to float64."""
 
     def generate(context, builder, signature, arguments):
         address, numbers = arguments
@@ -154,11 +149,7 @@ def call_at(typing, address, numbers):
 
 
 class Progress(event.Listener):
-    """Adds up the time of compiling this package's kernels; prints MESSAGE once after PATIENCE.
-
-    The garbage collector is switched off during compilation, because it finds little garbage and
-    would take a fifth of the time.
-    """
+    """Prints MESSAGE when this package's kernels have taken more than PATIENCE to compile."""
 
     def __init__(self):
         self.depth, self.spent, self.written = 0, 0.0, False
@@ -167,6 +158,7 @@ class Progress(event.Listener):
         if _is_own(started):
             if self.depth == 0:
                 self.begun, self.collecting = time.perf_counter(), gc.isenabled()
+                # Garbage collection would take a fifth of the time and find little.
                 gc.disable()
             self._change(1)
 

@@ -2,8 +2,9 @@
 
     Z1'' = (F + U W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
-This is equation (3) of the paper with three more parameters k3, F and U of `Oscillator`. The text
-docs/explanation/series.md explains the recurrence and the names in the generated lines.
+This is equation (3) of the paper with three more parameters k3, F and U of `Oscillator`. Some
+functions yield lines of Python code, from which `instances` makes kernels. The text
+docs/explanation/series.md explains the recurrence in these lines and the names.
 """
 
 import math
@@ -29,7 +30,8 @@ from impact_damper.model.packed import (
 def forcing_amplitude(p, lane=0, lanes=1):
     """Return the amplitude F + U W^2 of the forcing per unit of primary mass.
 
-    `p` has a row of `lanes` numbers for each parameter. `lane` is the index of a trajectory.
+    Each row of `p` belongs to a parameter and has one number for each of `lanes` trajectories.
+    `lane` is the index of the trajectory whose amplitude is returned.
     """
     frequency = p[FREQUENCY * lanes + lane]
     return p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
@@ -39,26 +41,26 @@ def forcing_amplitude(p, lane=0, lanes=1):
 def external_force(p, t):
     """Return the force of the excitation at the time t, divided by the primary mass.
 
-    Without fast math the product is rounded before a sum, so a factor of 1 changes no digit.
+    Without fast math the product is rounded before it enters a sum.
     """
     return forcing_amplitude(p) * math.cos(p[FREQUENCY] * t)
 
 
 @kernel_only
 def spring(p, x, lane=0, lanes=1):
-    """Return the restoring force of the spring at Z1 = x; `lane` as in `forcing_amplitude`."""
+    """Return the restoring force of the spring at Z1 = x."""
     return (p[STIFFNESS * lanes + lane] + p[CUBIC * lanes + lane] * x * x) * x
 
 
 @kernel_only
 def spring_slope(p, x, lane=0, lanes=1):
-    """Return the derivative of `spring` with respect to x, with the same arguments."""
+    """Return the derivative of `spring` with respect to x."""
     return p[STIFFNESS * lanes + lane] + 3.0 * p[CUBIC * lanes + lane] * x * x
 
 
 @kernel
 def acceleration(p, y, t):
-    """Return Z1'' without wall and friction, at the state y = (Z1, Z1', Z2, Z2') and the time t."""
+    """Return Z1'' without wall and friction in the state y = (Z1, Z1', Z2, Z2') at the time t."""
     return external_force(p, t) - p[DAMPING] * y[1] - spring(p, y[0])
 
 
@@ -66,9 +68,10 @@ def acceleration(p, y, t):
 def no_return(p):
     """Return the |Z1| beyond which a primary mass that moves outward never comes back, or infinity.
 
-    There a softening spring pushes outward with at least the amplitude A of the forcing. Above
-    2 omega_l/sqrt(-k3) its force -k3 |Z1|^3 - omega_l^2 |Z1| is at least -3/4 k3 |Z1|^3, which is
-    at least A above (4 A/(-3 k3))^(1/3). The contact forces of the loose mass are neglected.
+    Beyond this |Z1| a softening spring (k3 < 0) pushes outward with at least the amplitude A of the
+    forcing. If |Z1| > 2 omega_l/sqrt(-k3), the outward force -k3 |Z1|^3 - omega_l^2 |Z1| is at
+    least -3/4 k3 |Z1|^3. If also |Z1| > (4 A/(-3 k3))^(1/3), the latter is at least A. The contact
+    forces of the loose mass are neglected.
     """
     if p[CUBIC] >= 0.0:
         return math.inf
@@ -78,13 +81,13 @@ def no_return(p):
 
 @kernel_only
 def has_escaped(p, x, v):
-    """Return whether Z1 = x moves outward beyond `no_return`, or is NaN with a softening spring."""
+    """Return whether Z1 = x moves outward beyond `no_return` or is NaN; False unless k3 < 0."""
     return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 
 @kernel_only
 def energy(p, y):
-    """Return the energy of masses, springs and gravity; without forcing this sum never grows."""
+    """Return the energy of masses, springs and gravity. A wall's spring counts while it pushes."""
     x, v = y[0], y[1]
     total = 0.5 * v * v + (0.5 * p[STIFFNESS] + 0.25 * p[CUBIC] * x * x) * x * x
     if p[INVERSE_MASS_RATIO] > 0.0:
@@ -99,13 +102,13 @@ def energy(p, y):
 def coefficients(at):
     """Yield the lines that load the coefficients of the spring's nonlinear terms.
 
-    `at(name)` returns the expression for the parameter with this name in `packed.NAMES`.
+    `at(name)` returns the expression for the parameter `name`, which is in `packed.NAMES`.
     """
     yield f"cubic = {at('CUBIC')}"
 
 
 def beginning(at):
-    """Yield lines that compute names for `motion` from x0; `at` is as in `coefficients`."""
+    """Yield the lines that compute from x0 further names, which the lines of `motion` need."""
     yield from coefficients(at)
     yield "double = 2.0 * cubic"
     yield "s0 = cubic * x0 * x0"
@@ -114,13 +117,14 @@ def beginning(at):
 
 
 def motion(order, phase, constants, across):
-    """Yield the lines for the series of a step up to `order`; `phase` is "flight" or "contact".
+    """Yield the lines that compute the series of a step up to `order`.
 
-    These names must have values before the lines: x0, x1, the names of `beginning`, the constant
-    acceleration `push`, `cosine` and `sine` of the forcing's phase, times the amplitude; in contact
-    q0, q1, `r1` and `mobility` = 1 + 1/rm; with `across` also `draw`, `base_cosine`, `base_sine`.
-    `constants(k)` returns the lines for the coefficients that are the same in all steps of a
-    trajectory: h/k and D/k (h and D for k = 0), and e[k] without the factor cosine or sine.
+    `phase` is "flight" or "contact". The lines need x0, x1, the names of `beginning` and the
+    constant acceleration `push`. They need `cosine` and `sine`, which are those of the forcing's
+    phase times the amplitude. In contact they also need q0, q1, `r1` and `mobility` = 1 + 1/rm,
+    and with `across` also `draw`, `base_cosine` and `base_sine`. `constants(k)` returns the lines
+    for coefficients that are the same in all steps of a trajectory: h/k, D/k (h, D if k = 0), and
+    the forcing's coefficient e[k] without its factor cosine or sine.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -139,9 +143,10 @@ def motion(order, phase, constants, across):
 
 
 def tangent(order, phase, constants):
-    """Yield the lines for the series of a tangent, whose x and q solve the variational equations.
+    """Yield the lines that compute the series of a tangent up to `order`.
 
-    The arguments are as in `motion`. The lines need values of u0, u1, ... (see `squares`).
+    A tangent is a solution of the variational equations. In the lines x and q are those of the
+    tangent, and u0, u1, ... those of `squares`. The other arguments are as in `motion`.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -153,10 +158,10 @@ def tangent(order, phase, constants):
 
 
 def squares(count):
-    """Yield the lines for the first `count` coefficients u0, u1, ... of 3 k3 x^2.
+    """Yield the lines that compute the first `count` coefficients u0, u1, ... of 3 k3 x^2.
 
-    The lines need values of x0, x1, ... and of the names of `coefficients`. Each product x[i] x[j]
-    with i < j is computed once and doubled.
+    The lines need x0, x1, ... and the names of `coefficients`. Each product x[i] x[j] with i < j is
+    computed once and doubled.
     """
     yield "triple = 3.0 * cubic"
     yield "sextuple = 6.0 * cubic"
@@ -168,10 +173,10 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Yield the lines that update s = k3 l^2 when the term x[n] is added to the polynomial l.
+    """Yield the lines that update the coefficients s of k3 l^2 when a polynomial l gets x[n].
 
-    With y = 2 k3 x[n] the product y x[j] is added to s[n+j] for each j < n. The s are updated in
-    pairs that begin at an even order. k3 x[n]^2 becomes s[2n].
+    With y = 2 k3 x[n] the lines add y x[j] to s[n+j] for each j < n, in pairs s[m], s[m+1] with
+    even m. The new coefficient s[2n] is k3 x[n]^2.
     """
     yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):
@@ -183,7 +188,7 @@ def _lower_squares(n):
 
 
 def _without_damping(k, drive):
-    """Yield the lines for c[k] = g[k] + h/k a[k-1], k > 1; `drive` is the expression for e[k]."""
+    """Yield the lines that compute c[k] = g[k] + h/k a[k-1] for k > 1; `drive` is the forcing."""
     n, odd = k // 2, k % 2
     last = k - n - 1
     if odd and last % 2 and last > 1:
@@ -208,7 +213,7 @@ def _without_damping(k, drive):
 
 
 def _accelerations(k, phase, loose):
-    """Yield lines that compute g[k] and x[k+2] from c[k], and in contact q[k+2] from `loose`[k]."""
+    """Yield the lines that compute g[k] and x[k+2], in contact also q[k+2], from c[k] or m[k]."""
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
     factor = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"

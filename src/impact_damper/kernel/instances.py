@@ -1,10 +1,10 @@
 """Generate modules with the integration step, for a number of lanes and orders of the series.
 
-Several trajectories can be stepped side by side, each in its lane. A generated kernel is a loop
-over the lanes: `equation` yields the lines of the loop, and `straight_lines` compiles them;
-`branches` compiles the templates. With one lane a kernel works on numbers and pairs, three times as
-fast as loops over arrays. With several lanes a kernel consists of vector instructions and is again
-three times as fast. A step's numbers stand in a flat array of rows with one number for each lane.
+Several trajectories can be stepped side by side, each in its lane. A module has kernels of the
+series and the templates. A kernel of the series is a loop over the lanes, compiled by
+`straight_lines`. With one lane its code works on numbers and pairs. With several lanes it works on
+vectors, and a trajectory takes a third of the time. `branches` compiles the templates. All numbers
+of a step stand in a flat array of rows. Each row has one number for each lane.
 """
 
 import importlib.util
@@ -30,20 +30,20 @@ from impact_damper.kernel.templates import (
 from impact_damper.model import packed
 from impact_damper.model.parameters import NONLINEAR
 
-# Orders of the Taylor series. At medium tolerances the integration is fastest with these orders.
+# Orders of the Taylor series. With these the integration is fastest at medium tolerances.
 FLIGHT_ORDER = 18
 CONTACT_ORDER = 23
-# Rows of a step, in this order (name of a group of rows, content):
+# Groups of rows of a step, in this order:
 # packed.NAMES    the packed parameters
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
-# STEP            further arguments of the step, and its results SIDE and LENGTH
-# SCRATCH         intermediate results
-# SERIES          coefficients of series: Z1 (X); depth Z2 -+ d0 in a wall (Q); Z1'' without
-#                 the force of the wall (G); slope of the spring's nonlinear force for tangents (U).
-#                 The coefficients of three series are the same in all steps: forcing without its
-#                 factor cosine or sine (E); h/k (H); D/k (D)
+# STEP            SIDE, TIME, LONGEST and TOLERANCE are arguments; SIDE and LENGTH are results
+# SCRATCH, FREE   intermediate results
+# SERIES          coefficients of Z1 (X); of the depth Z2 -+ d0 in a wall (Q); of Z1'' without the
+#                 force of the wall (G); for tangents, of the slope of the spring's nonlinear
+#                 force (U). Three series are the same in all steps: the forcing without its factor
+#                 cosine or sine (E); h/k (H); D/k (D)
 # Rows of a tangent: STATE; KEPT, its Z2 while the loose mass sticks; TANGENT_SERIES, the
-# coefficients of its Z1 (DX) and its penetration (DQ).
+# coefficients of its Z1 (DX) and of its depth (DQ).
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
@@ -53,7 +53,7 @@ SCRATCH = (
     "DRAW BASE_COSINE BASE_SINE ACROSS MOST SWAYS SWAY SWAY_SLOPE SWAY_CURVE SWAY_JERK JERK_BOUND "
     "APART PUSH ROUGH SLIDE BEND STICKS STUCK HELD_Z2 LIMIT TURN"
 ).split()
-# Parameters that `friction.hold` replaces while the loose mass sticks. FREE keeps the originals.
+# Parameters that `friction.hold` replaces if the loose mass sticks. FREE keeps the originals.
 HELD = ["DAMPING", "STIFFNESS", *map(str.upper, NONLINEAR), "CONTACT_STIFFNESS", "DASHPOT"]
 FREE = [f"FREE_{name}" for name in HELD]
 SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH + FREE
@@ -74,10 +74,7 @@ SINES = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9)]
 
 
 def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
-    """Return the module with the step for a number of lanes and the orders of the series.
-
-    The source of a new module is written to a file in the folder of the compiled kernels.
-    """
+    """Return the module with the step for a number of lanes and for the orders of the series."""
     name = f"impact_damper_step_{lanes}_{flight_order}_{contact_order}"
     if name in sys.modules:
         return sys.modules[name]
@@ -94,13 +91,13 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
 
 
 def _source(writer):
-    """Return the source of the module: constants, kernels of the series, and the templates."""
+    """Return the source of a module: constants, kernels of the series, and the templates."""
     constants = {
         "LANES": writer.lanes,
         "TANGENTS": writer.tangents,
         "FLIGHT_ORDER": writer.orders["flight"],
         "CONTACT_ORDER": writer.orders["contact"],
-        # Lowest order of the coefficients from which `step.predict_length` extrapolates.
+        # Order of the first of three coefficients from which `step.predict_length` extrapolates.
         "EARLY": 3 * (writer.orders["flight"] - 1) // 5 + 1,
         "SIZE": writer.rows["ROWS"] * writer.lanes,
         "TANGENT_SIZE": writer.rows["TANGENT_ROWS"] * writer.tangents,
@@ -112,7 +109,7 @@ def _source(writer):
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
     templates = forcing, root_search, across, friction, contact, separation, step
     text = "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])
-    # numba's kernels may call functions that take only pointers and that `branches` compiles.
+    # Functions of pointers that `branches` compiles are made callable from numba's kernels.
     pattern = r"^def (\w+)\((a|a, d)\):$(?!\n    for i in range\(\d+\):)"
     for name, arguments in re.findall(pattern, text, re.MULTILINE):
         text += f"\n\ndef call_{name}({arguments}):\n    {name}({arguments})\n"
@@ -121,9 +118,9 @@ def _source(writer):
 
 
 def rows(flight_order, contact_order):
-    """Return a dictionary that maps names of rows to their numbers, for series of these orders.
+    """Return a dictionary that maps the name of a row, or of a series, to its first row's number.
 
-    Further entries: PARTS, the first row for partial sums; ROWS and TANGENT_ROWS, numbers of rows.
+    PARTS is the first row of partial sums. ROWS and TANGENT_ROWS are the counts of all rows.
     """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
@@ -140,7 +137,7 @@ def rows(flight_order, contact_order):
 class Writer:
     """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
 
-    With one lane a trajectory has up to four tangents, with several lanes each has one tangent.
+    With one lane a trajectory has up to four tangents. With several lanes each has one tangent.
     """
 
     def __init__(self, lanes, flight_order, contact_order):
@@ -155,13 +152,13 @@ class Writer:
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return the expression for a tangent's entry in the k-th row after `row`, "" for row 0."""
+        """Return the expression for a tangent's entry in the k-th row after `row`; "" is row 0."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
         """Return the source of a kernel that executes `lines` for each lane.
 
-        The kernel first executes the lines `first`, on vectors of `side_by_side` numbers.
+        Before `lines` it executes the lines `first` on vectors of `side_by_side` numbers.
         """
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         text, calls = "", ""
@@ -174,11 +171,11 @@ class Writer:
         return f"{text}def {name}({arguments}):\n{calls}"
 
     def moving(self, phase):
-        """Return the names of the unknown series: X for Z1 and, in contact, Q for Z2 -+ d0."""
+        """Return the names of the unknown series: X for Z1, and in contact also Q for Z2 -+ d0."""
         return "XQ" if phase == "contact" else "X"
 
     def constant_series(self):
-        """Return a kernel that fills the series which are the same in all steps of a trajectory."""
+        """Return a kernel that fills the series that are the same in all steps of a trajectory."""
         lines = (self._computed(k, "EHD") for k in range(max(self.orders.values()) - 1))
         return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
 
@@ -195,9 +192,9 @@ class Writer:
             yield f"d{k} = {factor}{self.at('DASHPOT')}"
 
     def _constants(self, phase, tangent):
-        """Return a function that returns the lines for coefficient k of the constant series.
+        """Return a function of k that returns the lines for coefficient k of the constant series.
 
-        With one lane the lines load it; with several lanes they compute it, as trajectories change.
+        With one lane the lines load it. With several lanes they compute it, as trajectories change.
         """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
         if self.lanes > 1:
@@ -205,16 +202,16 @@ class Writer:
         return lambda k: [f"{name.lower()}{k} = {self.at(name, k)}" for name in names]
 
     def series(self, phase, across=False):
-        """Return a kernel that fills the series of a step: X and G, and in contact Q.
+        """Return a kernel that fills the series of a step: X and G, and in contact also Q.
 
-        With `across` an acceleration acts on the loose mass alone (template `across`).
+        If `across`, an acceleration acts on the loose mass alone (template `across`).
         """
         lines = [
             f"cosine = {self.at('COSINE')}",
             f"sine = {self.at('SINE')}",
             f"x0 = {self.at('Y0')}",
-            # Adding 0.0 keeps LLVM from loading x0 and x1 as one vector. That load would wait
-            # until both numbers have been stored.
+            # Without 0.0, LLVM would load x0 and x1 as one vector. That load would wait until both
+            # numbers have been stored.
             f"x1 = {self.at('Y1')} + 0.0",
             f"push = {self.at('PUSH')}",
             *equation.beginning(self.at),
@@ -245,7 +242,7 @@ class Writer:
         return self.function(f"{phase}_squares", lines)
 
     def tangent_series(self, phase):
-        """Return a kernel that computes the series of a tangent over a step from the series U."""
+        """Return a kernel that computes the series of a tangent from the series U."""
         order, names = self.orders[phase], self.moving(phase)
         lines = [
             *(f"u{k} = {self.at('U', k)}" for k in range(order - 1)),
@@ -268,7 +265,7 @@ class Writer:
             yield f"mobility = 1.0 + {self.at('INVERSE_MASS_RATIO')}"
 
     def _stored(self, lines, names, tangent=False):
-        """Yield `lines`, and after each coefficient of a series in `names` a line to store it."""
+        """Yield `lines`. After a line for a coefficient of a series in `names`, yield its store."""
         for line in lines:
             yield line
             target = line.split(" = ")[0]
@@ -283,7 +280,7 @@ class Writer:
 
 
 class Source(Writer):
-    """Writes the kernels that the templates call: for series, their sums, and bounds on values."""
+    """Writes the kernels that the templates call. They compute series, their sums, and bounds."""
 
     def text(self):
         """Return the source of all kernels, with their imports."""
@@ -306,12 +303,12 @@ class Source(Writer):
             self.sums("flight_early", "flight", "T", slope | curve, terms=early),
             self.sums("flight_curve", "flight", "T", jerk),
             self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
-            # Upper bounds on |g|, where g is Z1'' without the force of the wall.
+            # Upper bounds on |g| and |g'|, where g is Z1'' without the force of the wall.
             self.sums("flight_bound", "flight", "LENGTH", bound),
             self.sums("flight_jerk", "flight", "LENGTH", {"JERK_BOUND": "|G'|"}),
             self.sums("contact_jerk", "contact", "LENGTH", {"Z1_JERK": "|G'|"}),
             self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
-            # Upper bound on the change of Z1': the moduli of all terms after the first, summed.
+            # Upper bound on the change of Z1': the sum of the moduli of all terms but the first.
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         return f"{IMPORTS}\n\n" + "\n\n".join(functions)
@@ -319,10 +316,10 @@ class Source(Writer):
     def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
         """Return the source of a kernel that sums series at the time in the row `time`.
 
-        `results` maps the row of each result to its series: "X" for the sum of the series X, "X'"
-        for the derivative of the sum, "|X|" for the sum of the moduli of the terms. A sum begins at
-        the order `begin` and has at most `terms` terms; the lines `then` follow. A sum is computed
-        as four partial sums of every fourth term. The processor works on all four at the same time.
+        `results` maps the row of a sum to what is summed: "X" is the series X, "X'" its derivative,
+        "|X|" the moduli of its terms. A sum begins at the order `begin` and has at most `terms`
+        terms. After the sums the kernel executes the lines `then`. The terms are added in four
+        partial sums of every fourth term, because the processor computes four at the same time.
         """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
@@ -348,7 +345,7 @@ class Source(Writer):
         yield f"{_widened(parts[0])} = part"
 
     def circular(self):
-        """Return a kernel that sums COSINES and SINES at ANGLE into the rows COSINE and SINE."""
+        """Return a kernel that stores COSINES and SINES, summed at ANGLE, in COSINE and SINE."""
         cosine, sine = self.at("COSINE"), self.at("SINE")
         angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
         if self.lanes == 1:
@@ -368,7 +365,7 @@ class Source(Writer):
         return f"abs({number})" if series.startswith("|") else number
 
     def _wall(self):
-        """Yield lines for second (CURVE) and third (JERK) derivatives of Z1 and penetration.
+        """Yield lines for the second (CURVE) and third (JERK) derivatives of Z1 and of the depth.
 
         Before these lines Z1_CURVE and Z1_JERK must hold g and g', which lack the wall's force.
         """
@@ -385,7 +382,7 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """Yield lines that store in TAIL the largest modulus of the velocities' last two terms."""
+        """Yield lines that store in TAIL the largest of the last two terms of the velocities."""
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):
@@ -417,7 +414,7 @@ class Source(Writer):
 
 
 def _widened(number):
-    """Return the expression for the vector whose first entry is a number of the array."""
+    """Return the expression for the vector that begins at the array entry `number`."""
     return number.replace("]", " + i]")
 
 
@@ -433,10 +430,10 @@ def _paired(c, result):
 
 
 def _sum(c, result, parts, done):
-    """Yield lines that sum a series at t in four partial sums, and then add the partial sums.
+    """Yield lines that sum a series at t in four partial sums of every fourth term.
 
-    Each partial sum has every fourth term; `parts` already contain the first `done` terms. Terms
-    are added in rising order, because the last coefficients of a step are computed last.
+    `parts` are the partial sums of the first `done` terms. Terms are added in rising order, because
+    the last coefficients of a step are computed last.
     """
     for j in range(4):
         yield f"part{j} = {parts[j]}"

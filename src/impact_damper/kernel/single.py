@@ -1,6 +1,6 @@
-"""Integration of one trajectory in steps that end at events, such as the beginning of a contact.
+"""Integrate one trajectory in steps. An event, such as the beginning of a contact, ends a step.
 
-A state is (Z1, Z1', Z2, Z2') and `side`: -1 or 1 for the wall in contact, 0 in flight.
+The state is (Z1, Z1', Z2, Z2'). The wall in contact, `side`, is -1 or 1, and 0 in flight.
 """
 
 import numpy as np
@@ -39,20 +39,20 @@ DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 
 @kernel
 def workspace():
-    """Return an array for the rows of one trajectory and of its tangents (`instances.rows`)."""
+    """Return a workspace, an array for the rows of a trajectory and of its tangents in a step."""
     return aligned(BEHIND + TANGENT_SIZE)
 
 
 @kernel
 def assign(target, state):
-    """Copy a state of four numbers; numba takes three seconds to compile `target[:] = state`."""
+    """Copy a state into `target`. To compile `target[:] = state` would take three seconds."""
     for i in range(4):
         target[i] = state[i]
 
 
 @kernel
 def polynomial(c, order, t):
-    """Return value and first derivative at t of the polynomial c[0] + c[1] t + ..."""
+    """Return the value and the derivative at t of the polynomial c[0] + c[1] t + ..."""
     value = c[order]
     slope = 0.0
     for k in range(order - 1, -1, -1):
@@ -63,7 +63,7 @@ def polynomial(c, order, t):
 
 @kernel_only
 def write_trajectory(p, y, side, tolerance, a):
-    """Write parameters and state into a workspace, at indices valid for all orders of series."""
+    """Write a trajectory into a workspace. The indices are the same for all orders of series."""
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -75,7 +75,7 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel_only
 def load(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace, and fill the constant series if W, h or D is new."""
+    """Write a trajectory into a workspace. If W, h or D has changed, fill the constant series."""
     kept = True
     for i in (FREQUENCY, DAMPING, DASHPOT):
         kept = kept and a[PARAMETERS + i] == p[i]
@@ -86,7 +86,7 @@ def load(p, y, side, tolerance, a):
 
 @kernel_only
 def step_loaded(t, longest, a):
-    """Integrate one step as `step` does, with the trajectory in the workspace."""
+    """Step the trajectory in a workspace. Return the step's length, and `side` at its end."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:
@@ -105,14 +105,14 @@ def unload(y, a):
 
 @kernel
 def step(p, y, side, t, longest, tolerance, work):
-    """Integrate one step of at most `longest` from the time t; the step ends at the first event.
+    """Integrate one step, at most up to the first event and at most over the time `longest`.
 
-    `side` is the wall in contact at t. The state at the end of the step replaces y (4,). `work`, a
-    `workspace()`, receives the series of Z1 over the step from index X on, and in contact the
-    series of Z2 -+ d0 from index Q on. Return the step's length and the wall in contact at its end.
+    The step begins at the time t with `side`, the wall in contact. The state at its end replaces
+    y (4,). Return the step's length and the wall in contact at its end. `work` is a `workspace()`.
+    It receives the series of Z1 from index X on, and in contact that of Z2 -+ d0 from index Q on.
 
-    For a motion that has escaped (`equation.no_return`) the length is `longest`, because steps on
-    the way to infinity become ever shorter. y is then the state after the time `work[LENGTH]`.
+    If the motion has escaped (`equation.no_return`), the returned length is `longest`, because
+    steps on the way to infinity become ever shorter. The true length is `work[LENGTH]`.
     """
     a = pointer(work)
     load(p, y, side, tolerance, a)
@@ -123,7 +123,7 @@ def step(p, y, side, t, longest, tolerance, work):
 
 @kernel_only
 def state_in_step(work, side, y, t):
-    """Return the state at the time t within the step that `step` did from the state y."""
+    """Return the state at time t of the step in `work`, which began at time 0 in the state y."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     x, v = polynomial(work[X:], order, t)
@@ -142,7 +142,7 @@ def state_in_step(work, side, y, t):
 
 @kernel_only
 def series_of_loose_mass(work, side, y, c):
-    """Write the coefficients of Z2 over a step from the state y into c; return the order."""
+    """Fill c with the Taylor coefficients of Z2 over a step from the state y; return the order."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     for k in range(order + 1):
@@ -164,7 +164,7 @@ def series_of_loose_mass(work, side, y, c):
 
 @kernel
 def side_of(p, y):
-    """Return the wall that the loose mass presses or moves into, -1 or 1, or 0 in flight."""
+    """Return the wall with which the loose mass is in contact, -1 or 1, or 0 in flight."""
     wall = 1 if y[2] > 0.0 else -1
     depth = abs(y[2]) - p[CLEARANCE]
     if depth < 0.0 or (p[LAG] > 0.0 and depth + p[LAG] * wall * y[3] <= 0.0):

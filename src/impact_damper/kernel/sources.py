@@ -1,8 +1,8 @@
-"""Source files that a module depends on, found by following its imports.
+"""Find the source files on which a module depends, by following its imports.
 
-The digest of these files is the name of the folder with the compiled kernels. The workflow runs a
+A digest of these files is the name of the folder with the compiled kernels. The workflow runs a
 job again if one of these files was edited. This module imports neither numba nor NumPy, because
-every dry run of Snakemake imports it.
+every dry run of the workflow imports it.
 """
 
 import ast
@@ -18,7 +18,10 @@ ROOT = KERNEL.parents[1]
 
 
 def sources(*paths) -> set:
-    """Return the files `paths` and all files that they import from their packages and this one."""
+    """Return the files `paths` and all files that these import, directly or not.
+
+    Only imports from this package and from the packages of `paths` are followed.
+    """
     packages = {path.relative_to(ROOT).parts[0] for path in paths if path.is_relative_to(ROOT)}
     packages = frozenset(packages | {KERNEL.parent.name})
     found, new = set(), set(paths)
@@ -32,9 +35,9 @@ def sources(*paths) -> set:
 def _imports(path, packages):
     """Return the files of `packages` that a Python file imports directly.
 
-    The `__init__.py` of a subpackage is included only if a name is imported from it.
+    In `import a.b.c` the `__init__.py` of a and of a.b are left out.
     """
-    # Only statements that import from the packages are parsed; whole files take ten times as long.
+    # To parse whole files instead of these statements would take ten times as long.
     statement = re.compile(
         rf"^ *((?:from|import) (?:{'|'.join(packages)})\b(?:[^(\n]*\([^)]*\)|[^(\n]*$))",
         re.MULTILINE,
@@ -54,7 +57,7 @@ def _imports(path, packages):
 
 @cache
 def module_file(name) -> Path:
-    """Return the file of a module, or of the module from which a name is imported."""
+    """Return the file of a module. `name` is the module's, or that of an object in the module."""
     path = ROOT.joinpath(*name.split("."))
     for place in (path, path.parent):
         for file in (place.with_suffix(".py"), place / "__init__.py"):
@@ -65,10 +68,7 @@ def module_file(name) -> Path:
 
 @cache
 def kernel_digest(*paths) -> str:
-    """Return the digest of numba's version and of all sources that kernels in `paths` depend on.
-
-    The sources include all files of this subpackage.
-    """
+    """Return a digest of numba's version and all files on which kernels in `paths` can depend."""
     digest = hashlib.sha256(version("numba").encode())
     for path in sorted(sources(*paths, *KERNEL.rglob("*.py"))):
         name = path.relative_to(ROOT) if path.is_relative_to(ROOT) else path

@@ -1,8 +1,8 @@
-"""Compile arithmetic without branches ("straight lines"), bypassing numba's type inference.
+"""Compile arithmetic without branches ("straight lines"), without numba's type inference.
 
 A Taylor series of a step has thousands of operations, and numba's type inference takes a
-millisecond for each. Each lane holds one of several trajectories, and all lanes execute the same
-lines. With one lane an operation on a pair of numbers takes one instruction, not two.
+millisecond for each. Several trajectories are computed side by side, each in its lane. All lanes
+execute the same lines. With one lane an operation on a pair of numbers takes one instruction.
 """
 
 import ast
@@ -16,8 +16,7 @@ from numba.core import cgutils
 from impact_damper.kernel.branches import OPERATORS, Body
 from impact_damper.kernel.compiling import CONTRACT
 
-# Number of lanes in a vector, which fills one register, or two registers of 256 bits. Without
-# AVX-512 there are half as many registers, and two for each vector would be too few.
+# Number of lanes in a vector: twice as many with AVX-512, which has twice as many registers.
 WIDTH = 8 if get_host_cpu_features().get("avx512f") else 4
 FLOAT = ir.DoubleType()
 PAIR = ir.VectorType(FLOAT, 2)
@@ -25,13 +24,13 @@ INDEX, OFFSET = ir.IntType(32), ir.IntType(64)
 
 
 def straight(function):
-    """Decorate a function, a loop `for i in range(lanes)` with the same arithmetic for each lane.
+    """Decorate a function that is one loop `for i in range(lanes)` over assignments.
 
     The number of lanes is at most WIDTH, or a multiple of WIDTH. The left of `=`, `+=` or `-=` is a
     name, `a[1 + i]`, or, with one lane, `a[1]`. The right side consists of names, constants,
     `a[1 + i]`, `a[1]` (the same for all lanes), `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`,
     `*`, `/`, `abs(x)`, and `max(x, y)`, which means `x if x > y else y`. `(x, y)` is a pair, and
-    `x, y = ...` unpacks one. Operators act on both values of a pair, or combine them with a float.
+    `x, y = ...` unpacks a pair. An operator acts on each number of a pair.
     """
     function.write = write
     return function
@@ -46,7 +45,7 @@ def write(function, builder, pointers):
     lines.values = dict(zip([each.arg for each in lines.tree.args.args], pointers, strict=True))
     lines.arithmetic = Arithmetic(builder, width)
     rounds, step = (ir.Constant(OFFSET, count) for count in (lanes // width, width))
-    # One vector for all lanes needs no loop. LLVM would move the stores of a loop behind its end.
+    # If one vector holds all lanes, no loop is written, because LLVM would delay the loop's stores.
     with cgutils.for_range(builder, rounds) if lanes > WIDTH else nullcontext() as turn:
         lines.first = builder.mul(turn.index, step) if turn else None
         lines.run(loop.body)
@@ -58,7 +57,7 @@ def is_product(node):
 
 
 class _Lines(Body):
-    """Writes the LLVM code of assignments for `width` lanes, beginning with lane `first`."""
+    """Writes the LLVM code of assignments for the lanes of one vector, from lane `first` on."""
 
     def set(self, name, value):
         self.values[name] = value
@@ -135,7 +134,7 @@ class Arithmetic:
         return ir.Constant(self.type, value if self.width == 1 else [value] * self.width)
 
     def in_all_lanes(self, value):
-        """Return the number whose value is the double `value` in all lanes."""
+        """Return a number that is equal to the double `value` in all lanes."""
         return value if self.width == 1 else self._repeated(value, self.width)
 
     def pair(self, first, second):
@@ -152,7 +151,7 @@ class Arithmetic:
         return isinstance(value, tuple) or (self.width == 1 and value.type == PAIR)
 
     def part(self, pair, place):
-        """Return the number at the place 0 or 1 of a pair."""
+        """Return the first (place 0) or the second (place 1) number of a pair."""
         if self.width > 1:
             return pair[place]
         return self.builder.extract_element(pair, ir.Constant(INDEX, place))
@@ -166,7 +165,7 @@ class Arithmetic:
         return self.combined("fneg", value)
 
     def fused(self, first, second, third):
-        """Return first * second + third, rounded once if the processor has such an instruction."""
+        """Return first * second + third, rounded only once if the processor can do so."""
         return self._each(partial(self._intrinsic, "llvm.fmuladd"), first, second, third)
 
     def modulus(self, number):

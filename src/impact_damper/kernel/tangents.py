@@ -1,4 +1,4 @@
-"""Integration of one trajectory and of its tangents, solutions of the variational equations.
+"""Integrate one trajectory and its tangents. A tangent is a solution of the variational equations.
 
 The kernels of the tangents are compiled when this module is imported (`compiling.by_address`).
 Therefore a module that integrates no tangents imports `single` only.
@@ -46,7 +46,7 @@ def step_all(count, t, longest, a, d):
 
 @kernel
 def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
-    """Integrate y as `single.step` does, and the `tangents` (m, 4), m from 0 to 4, in place."""
+    """Step y as `single.step` does, and its `tangents` (m, 4), m <= 4. New values replace both."""
     a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, side, tolerance, a)
     load_tangents(tangents, d)
@@ -58,10 +58,11 @@ def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
 
 @kernel
 def advance(p, y, tangents, side, t, end, tolerance, work):
-    """Integrate from time t to time `end`, with the arguments of `step_with_tangents`.
+    """Integrate from time t to time `end`. `step_with_tangents` describes the other arguments.
 
-    Return the side at the end, the number of contacts begun and the time in contact. If the motion
-    escapes (`equation.no_return`), the integration stops, and y is the state at the escape.
+    Return three numbers: the side at the end, how many contacts began, and the time in contact. If
+    the motion escapes (`equation.no_return`), the integration stops. y is then the state at the
+    escape.
     """
     contacts = 0
     touching = 0.0

@@ -1,6 +1,7 @@
 """Plots of results, such as `impact_damper.plot.response(data)`.
 
-All but `conclusion` draw on `axes` (`axes.legend()` adds a legend), or on new axes with a legend.
+All but `conclusion` draw on the given `axes`, to which `axes.legend()` adds a legend. Without
+`axes` they make a figure with a legend.
 """
 
 from impact_damper.plot.basin_plane import basins

@@ -8,10 +8,10 @@ from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.plot import style
 from impact_damper.plot.sheets import dataset_in, sheet
 
-# Colours of attractors by ascending displacement, in turn. The last is for the largest of several.
+# Colours of attractors by ascending displacement: three in turn, then one for the last of several.
 COLOURS = (style.SKY, style.VERMILION, style.PURPLE, "#F7E7A6")
 CHAOS = style.ORANGE
-# Colours of the labels -6 (quasi-periodic) to -1 (unresolved) of states without an attractor.
+# Colours of states that lead to no attractor, for the labels -6 to -1 (`BASIN_LABEL`).
 WITHOUT_ATTRACTOR = (style.GREY, style.GREY, style.WHITE, CHAOS, style.WHITE, style.PALE)
 AREA = {"edgecolor": style.BLACK, "linewidth": 0.4}
 POINTS = {"linestyle": "none", "marker": "o", "markeredgecolor": style.BLACK, "markersize": 4.5}
@@ -21,8 +21,8 @@ SADDLES = style.markers("unstable orbit", style.BLACK, "x", markersize=5)
 def basins(data, axes=None):
     """Draw basins of attraction: the motion to which each state of a plane leads.
 
-    With a damper the motion also depends on the place of the loose mass. For several places the
-    shade is the share of places that lead to the smallest motion. The legend is below the axes.
+    With a damper the motion also depends on the place of the loose mass. If several places were
+    computed, the shade is the share of places that lead to the smallest motion.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def _fill(axes, data, values, **look):
 
 
 def _name(axes, data):
-    """Label the axes. The title has frequency, phase and, for data without units, the damper."""
+    """Label the axes. The title gives frequency, phase, and for data without units the damper."""
     frequency = data["frequency"]
     if frequency.attrs["units"] == "1":
         names = ("mass_ratio", "clearance") if has_damper(data) else ()
@@ -111,7 +111,7 @@ def _name(axes, data):
 
 
 def _attractor_words(data):
-    """Return period, size and share of each attractor as text."""
+    """Return a text for each attractor with its period, size and share."""
     units = f" {data['attractor_displacement'].attrs['units']}".removesuffix(" 1")
     names = ("attractor_period", "attractor_displacement", "attractor_share")
     return [

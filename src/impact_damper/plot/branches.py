@@ -16,7 +16,7 @@ EVENTS = {
     "grazing": ("change of contact", "P", style.SKY),
     "merging": ("change of contact", "P", style.SKY),
 }
-# Ends beyond which a branch continues, and their marker.
+# Kinds of ends beyond which a branch goes on inside the range of the parameter, and their marker.
 OPEN_ENDS = ("lost", "point_limit", "unstable")
 OPEN = {"marker": "x", "color": style.BLACK, "markersize": 4.5, "linestyle": "none", "zorder": 3.1}
 # Columns: label, colour, opacity of unstable orbits, test of the period.
@@ -25,7 +25,7 @@ PERIODS = [
     ("period 3", style.PURPLE, 1.0, lambda period: period == 3),
     ("other periods", style.ORANGE, 0.4, lambda period: period not in (1, 3)),
 ]
-# Columns: keys in `style.ROLES` of stable and unstable orbits without a damper, test of the period.
+# Columns, for orbits without a damper: role if stable, role if unstable, test of the period.
 FREE = [
     ("free_stable", "free_unstable", lambda period: period == 1),
     ("subharmonic_free", "subharmonic_unstable", lambda period: period == 3),
@@ -36,8 +36,8 @@ FREE = [
 def branch(data, axes=None):
     """Draw the largest displacement in periodic orbits against the parameter that varies.
 
-    Stable orbits are solid lines, unstable ones dotted lines. Colours distinguish periods.
-    Markers show bifurcations and changes of contact beside stable orbits.
+    Stable orbits are solid lines, and unstable orbits dotted lines. Colours distinguish periods.
+    Markers show the bifurcations and changes of contact that are next to stable orbits.
 
     Parameters
     ----------
@@ -87,10 +87,7 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield parameter values, displacements and stability of each part of branches.
-
-    `chosen` maps the period of a branch to True if the branch is wanted.
-    """
+    """Yield the parts (`parts_by_stability`) of all branches with a period that is `chosen`."""
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     value, size = data["followed_value"].values, data["orbit_displacement"].values
     for branch, period in enumerate(data["branch_period"].values):
@@ -100,7 +97,7 @@ def runs(data, chosen):
 
 
 def parts_by_stability(value, size, stable):
-    """Split a branch where its stability changes; yield values, sizes, stability of each part."""
+    """Split a branch where its stability changes. Yield values, sizes, stability of each part."""
     edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
     for first, last in zip(edges, edges[1:], strict=False):
         if last > first:
@@ -110,14 +107,14 @@ def parts_by_stability(value, size, stable):
 
 
 def draw_free_orbits(axes, data):
-    """Draw orbits without a damper. Colour and line depend on period and stability."""
+    """Draw orbits without a damper. Their look depends on period and stability."""
     for role, unstable, chosen in FREE:
         for value, size, stable in runs(data, chosen):
             style.draw(axes, value, size, **style.ROLES[role if stable else unstable])
 
 
 def _mark_open_ends(axes, data):
-    """Mark with a cross each end beyond which a branch continues but was not computed."""
+    """Mark each end beyond which a branch goes on, but was not computed."""
     chosen = [flag("branch_end", name) for name in OPEN_ENDS]
     number = data["orbit_branch"].values
     for each, ends in enumerate(data["branch_end"].values):
@@ -126,7 +123,7 @@ def _mark_open_ends(axes, data):
 
 
 def _mark_events(axes, data):
-    """Mark the events at which the orbit or one of its neighbours is stable."""
+    """Mark the events at which the orbit, or a neighbouring orbit of the branch, is stable."""
     number, branches = data["orbit_branch"].values, data["event_branch"].values
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     place = np.searchsorted(number, branches) + data["event_place"].values

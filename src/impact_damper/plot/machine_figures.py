@@ -10,7 +10,7 @@ from impact_damper.data.datasets import decode, is_settled, parameters_of
 from impact_damper.plot import style
 from impact_damper.plot.branches import parts_by_stability
 
-# Least displacement, mm, that stands for a motion that escapes.
+# A displacement of this size (mm) or more stands for a motion that escapes.
 ENDLESS = 1e9
 BARE = style.line("without damper", style.BLACK, linewidth=1.2)
 TUNED = style.line("tuned absorber", style.GREEN, linewidth=1.1, linestyle=style.DASHED)
@@ -35,7 +35,7 @@ ESCAPED = style.markers("escapes", style.GREY, "^", markersize=5, clip_on=False)
 
 @style.context()
 def draw_answer(data):
-    """Return a figure of displacements over frequency and gap."""
+    """Return the figure of displacements against frequency and against the gap."""
     drawn = style.figure("double", 2.9)
     left, right = drawn.subplots(1, 2)
     frequency_panel(left, data)
@@ -45,7 +45,7 @@ def draw_answer(data):
 
 
 def frequency_panel(axes, data):
-    """Draw displacements against the forcing frequency: curves, and points for single motions."""
+    """Draw displacements against the forcing frequency, with points for single motions."""
     frequency = data["promise_frequency"].values
     plot_sizes(axes, frequency, data["promise_bare_displacement"].values, **BARE)
     if "competitor_displacement" in data:
@@ -68,9 +68,9 @@ def frequency_panel(axes, data):
 
 
 def over_frequency(data) -> tuple:
-    """Return promised displacements over frequency: with nominal values, and largest of all sets.
+    """Return two arrays of displacements: with nominal values, and the largest of all sets.
 
-    Displacements of each set of values are interpolated between the frequencies that were run.
+    A set gives values of the parameters. Its displacements are interpolated over the frequency.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []
@@ -81,7 +81,7 @@ def over_frequency(data) -> tuple:
 
 
 def gap_panel(axes, data):
-    """Draw displacements against the gap: as searched, within the tolerance, of the quiet orbit."""
+    """Draw displacements against the gap: those found by the search, and the quiet orbit's."""
     gap = float(data["design_gap"])
     tolerance = parameters_of(data)["tolerances"].get("gap", 0.0)
     axes.axvspan(gap * (1 - tolerance), gap * (1 + tolerance), **TOLERATED)
@@ -115,7 +115,7 @@ def gap_panel(axes, data):
 
 @style.context()
 def draw_forces(data):
-    """Return a figure of displacement over excitation for damper, absorber, neither; or None."""
+    """Return the figure of displacements against excitation, or None if data are missing."""
     if not {"force_map_displacement", "competitor_displacement"} <= set(data):
         return None
     drawn = style.figure("double", 2.8)
@@ -143,7 +143,7 @@ def draw_forces(data):
 
 @style.context()
 def draw_transients(data):
-    """Return a figure of largest displacements in cycles of two sweeps and a decay; or None."""
+    """Return the figure of two sweeps and a decay, or None if data are missing."""
     if "sweep_envelope" not in data:
         return None
     drawn = style.figure("double", 2.8)
@@ -175,7 +175,7 @@ def draw_transients(data):
 
 @style.context({"axes.labelsize": 8.0, "lines.markersize": 2.6})
 def draw_machines(*, machines):
-    """Return a figure of displacements over frequency and gap, with a row for each machine."""
+    """Return the figure of several machines, whose rows are like the figure of `draw_answer`."""
     drawn = style.figure("double", 1.0 + 1.75 * len(machines))
     panels = drawn.subplots(len(machines), 2, squeeze=False)
     for (left, right), data, letter in zip(panels, machines, ascii_lowercase, strict=False):
@@ -227,5 +227,5 @@ def name_numbers(axis, low, high):
     axis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:.0e}"[0] in digits else "")
 
 
-# Figure on the page of a machine -> function that draws it, or returns None if data are missing.
+# Figure on the page of a machine -> function that returns the figure or None.
 FIGURES = {"answer": draw_answer, "forces": draw_forces, "transients": draw_transients}

@@ -1,4 +1,4 @@
-"""Parts of maps over two parameters: coloured or hatched cells, contour lines, legend entries."""
+"""Maps over two parameters: coloured cells, hatched cells, and the map of migration."""
 
 import numpy as np
 from matplotlib.colors import Normalize
@@ -10,7 +10,7 @@ from impact_damper.plot import style
 
 
 def mesh(axes, x, y, values, norm, absent=None):
-    """Draw and return cells coloured by value. NaN is hatched; the legend calls it `absent`."""
+    """Draw and return cells coloured by `values`. NaN is hatched, with the label `absent`."""
     back = {"facecolor": style.PALE, "hatch": "////", "edgecolor": style.GREY}
     axes.patch.set(linewidth=0, **back)
     if absent:
@@ -20,7 +20,7 @@ def mesh(axes, x, y, values, norm, absent=None):
 
 
 def hatch(axes, x, y, where, **look):
-    """Hatch the cells of a mask as a single path, because one path per cell is slow."""
+    """Hatch the cells of a mask. They form one path, because one path for each cell is slow."""
     x, y = edges_of(x), edges_of(y)
     cells = [
         Path.unit_rectangle().transformed(
@@ -33,7 +33,7 @@ def hatch(axes, x, y, where, **look):
 
 
 def edges_of(centres):
-    """Return the edges of at least two cells, midway between their centres, shape (n + 1,)."""
+    """Return the n + 1 edges of n > 1 cells. Inner edges are midway between the centres."""
     middles = (centres[1:] + centres[:-1]) / 2
     return np.concatenate([[2 * centres[0] - middles[0]], middles, [2 * centres[-1] - middles[-1]]])
 

@@ -16,7 +16,7 @@ SWITCHED = {
     "on_time": style.line("switched on", style.VERMILION),
     "off_time": style.line("switched off", style.BLUE, linestyle=(0, (3, 1.5))),
 }
-# Lines of a run of migration control. A run with MANY or more samples has the thin line.
+# Line of a run of migration control: THIN if at least MANY samples are drawn, otherwise LINE.
 MANY = 2500
 LINE, THIN = {"linewidth": 0.8}, {"linewidth": 0.3, "alpha": 0.7, "rasterized": True}
 
@@ -73,7 +73,7 @@ def _time_panel(axes, run):
 
 
 def _in_contact(run, wall):
-    """Return the mask of times in contact with a wall. A contact whose end is NaN lasts on."""
+    """Return the mask of times in contact with a wall. A contact whose end is NaN never ends."""
     contacts = run[["contact_begin", "contact_end"]].isel(
         contact=run["contact_wall"].values == wall
     )

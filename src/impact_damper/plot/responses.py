@@ -7,9 +7,9 @@ from impact_damper.plot import style
 from impact_damper.plot.branches import draw_free_orbits, followed_label, runs
 from impact_damper.plot.sheets import datasets_in, sheet
 
-# Settled motions of a branch are joined by a thin line.
+# Look of the line that joins the settled motions of a branch.
 JOINED = {"linestyle": "-", "linewidth": 0.5}
-# Looks of motions that have not settled on an orbit with contacts, by outcome.
+# Outcome of a motion that has not settled on an orbit with contacts -> look.
 DAMPED = {name: style.ROLES[name] for name in ("chaotic", "chaotic_transient", "quasi_periodic")}
 DAMPED |= {name: style.ROLES["non_colliding"] for name in ("non_colliding", "drifting")}
 DAMPED["unresolved"] = style.ROLES["unresolved"]
@@ -87,7 +87,7 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw orbits. With a damper: unstable ones of period 1 and, if `stable`, all stable ones."""
+    """Draw orbits. With a damper, draw unstable ones of period 1, and stable ones if `stable`."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return
@@ -114,7 +114,7 @@ def _draw_balance(axes, balance, free):
 
 
 def _draw_solutions(axes, amplitude, role):
-    """Draw amplitudes, shape (frequency, solution). A solution of NaN only is left out."""
+    """Draw amplitudes, shape (frequency, solution). A solution that is all NaN is left out."""
     for branch in np.abs(amplitude.values).T:
         if np.isfinite(branch).any():
             style.draw(axes, amplitude["frequency"], branch, **style.ROLES[role])
@@ -134,7 +134,7 @@ def _draw_unstable(axes, balance):
 
 
 def _draw_motions(axes, motions):
-    """Draw motions from random starts: settled motions joined by lines, other motions as points."""
+    """Draw motions from random starts. Lines join settled motions. Other motions are points."""
     period, settled = motions["period"].values, is_settled(motions)
     if has_damper(motions):
         settled = settled & (motions["contacts"].values > 0)
@@ -154,7 +154,7 @@ def _draw_motions(axes, motions):
 
 
 def _branch_lines(motions, chosen):
-    """Yield frequencies and displacements for each branch and period, with the branch's ends."""
+    """Yield frequencies and displacements of each branch and period, the branch's ends included."""
     branch, period = motions["branch"].values, motions["period"].values
     names = ("end_branch", "end_direction", "end_value", "end_displacement")
     ends = list(zip(*(motions[name].values for name in names), strict=True))
@@ -171,7 +171,7 @@ def _branch_lines(motions, chosen):
 
 
 def _draw_unsettled(axes, motions, looks):
-    """Draw unsettled motions as points. Chaos is a transient if it ended in one of its runs."""
+    """Draw unsettled motions as points. Chaos that ended in one of its runs is a transient."""
     for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)
@@ -198,7 +198,7 @@ def _draw_steady(axes, motions):
 
 
 def _label(axes, given):
-    """Label the axes. The ordinate is an amplitude only if no dataset has largest displacements."""
+    """Label the axes. The vertical axis is named by the first of SIZES that a dataset has."""
     first = given[0]
     axes.set_xlabel(
         style.axis_label(first["frequency"])

@@ -14,8 +14,8 @@ from impact_damper.plot import style
 def datasets_in(data, takes, words) -> list[xr.Dataset]:
     """Return one or several datasets as a list.
 
-    A TypeError is raised unless `takes` accepts each dataset, and all are of one machine or without
-    units. `words` are the names of the functions that return such datasets.
+    `takes` returns whether a dataset is allowed. `words` names the functions that return such
+    datasets. TypeError is raised for others, and unless all are of the same machine or of none.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:
@@ -39,9 +39,9 @@ def dataset_in(data, takes, words) -> xr.Dataset:
 
 @contextmanager
 def sheet(axes, count=1, height=3.6, columns=3):
-    """Return a context that yields the given axes, or axes of a new figure in the common style.
+    """Return a context that yields the given axes, or `count` axes of a new figure.
 
-    A new figure is `height` inches high. Its legend has `columns` columns; 0 means no legend.
+    A new figure is `height` inches high. Its legend has `columns` columns. 0 means no legend.
     """
     if axes is not None:
         given = list(np.ravel(np.array(axes, object)))
@@ -55,6 +55,6 @@ def sheet(axes, count=1, height=3.6, columns=3):
         yield list(panels[0])
         if columns:
             style.legend(drawn, columns)
-        # In a notebook the first figure turns on interactive mode, which must stay on afterwards.
+        # In a notebook the first figure turns on interactive mode. It must stay on afterwards.
         interactive = matplotlib.is_interactive()
     matplotlib.interactive(interactive)

@@ -10,7 +10,7 @@ from impact_damper.plot import style
 from impact_damper.plot.maps import edges_of
 from impact_damper.plot.sheets import dataset_in, sheet
 
-# Kind of motion, from bottom to top -> colour, hatching.
+# Kind of motion -> colour, hatching. The kinds stand in their order from bottom to top.
 LOOKS = {
     "period 1": (style.BLUE, ""),
     "period 2": (style.GREEN, "////"),
@@ -29,17 +29,17 @@ OUTCOMES = {
     "drifting": "no contact",
     "chaotic": "chaotic",
 }
-# Fractions of white mixed into the colours of the first, second, third ... motion of a kind.
+# Fraction of white in the colour of the first, the second, and any further motion of a kind.
 PALER = (0.0, 0.45, 0.7)
 EDGE = {"fill": True, "edgecolor": style.WHITE, "linewidth": 0.4}
 INTERVAL = {"color": style.BLACK, "linewidth": 0.6}
 
 
 def shares(data, axes=None):
-    """Draw the shares of random starts that lead to each motion, stacked, with 95 % intervals.
+    """Draw the stacked shares of random starts that lead to each motion, with 95 % intervals.
 
-    A motion has one colour at all frequencies or clearances. Further motions of the same kind are
-    paler. Further motions of period 1 are also hatched.
+    A motion has one colour at all frequencies or clearances. Of each kind of motion, the one with
+    most starts has the full colour, and further ones are paler.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def _look(kind, rank):
 
 
 def _ranked_motions(data):
-    """Return kind, rank in this kind (0 for most starts) and mask of each motion, by kind."""
+    """Return (kind, rank, mask) of each motion, by kind. Rank 0 has most starts of its kind."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:
@@ -107,7 +107,7 @@ def _ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Return the mask of a motion by kind. Chaos is a transient if it ended in one of its runs."""
+    """Return a motion's masks by kind. Chaos that ended in one of its runs is a transient."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0

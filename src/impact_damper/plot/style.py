@@ -1,6 +1,6 @@
 """Common look of all figures: fonts, colours, roles of curves, labels, legends, files.
 
-The palette is by Okabe and Ito. The roles of curves also differ in marker or line style.
+The palette is by Okabe and Ito. Curves of different roles also differ in marker or line style.
 """
 
 import re
@@ -32,7 +32,7 @@ STYLE = {
     "legend.frameon": False,
     "legend.handlelength": 2.4,
     "legend.columnspacing": 1.4,
-    # A fixed height of titles. To search for a free height takes a fifth of the drawing time.
+    # Titles have a fixed height. The search for a free height takes a fifth of the drawing time.
     "axes.titley": 1.0,
     "axes.linewidth": 0.6,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
@@ -119,7 +119,7 @@ MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
 
 
 def context(*changes):
-    """Return a context manager, also a decorator, that applies the common style with changes."""
+    """Return a context manager (also a decorator) for the common style with changes."""
     return matplotlib.style.context(["default", STYLE, *changes])
 
 
@@ -129,7 +129,7 @@ def figure(column, height) -> Figure:
 
 
 def grid(count, row, rest, columns=2, **shared):
-    """Return a figure and its lettered axes. A row is `row` inches high, the rest `rest` inches."""
+    """Return a figure and its lettered axes. Each row adds `row` inches to a height of `rest`."""
     columns = min(columns, count)
     rows = -(-count // columns)
     drawn = figure("double", rest + row * rows)
@@ -207,8 +207,8 @@ def legend(figure, columns) -> None:
 def save_figure(figure, path) -> None:
     """Write `path`.pdf and `path`.png, each complete or not at all, reproducible to the byte.
 
-    The layout is computed once, so that both files show the same picture. The layout engine is
-    then None. With the engine "none", matplotlib would draw each file twice.
+    The layout is computed once, so that both files show the same picture. Then the layout engine is
+    set to None, because matplotlib draws each file twice with the engine "none".
     """
     with context():
         if figure.get_layout_engine() is not None:

@@ -27,8 +27,8 @@ VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 def sweep(data, axes=None):
     """Draw the largest displacement of the quiet motion against clearance, and its minimum.
 
-    Points show the exact motion. Lines show the amplitude by harmonic balance. Without an optimum
-    by harmonic balance, as for inelastic contact, the lines join the points.
+    Points show the exact motion. Lines show the amplitude by harmonic balance. If harmonic balance
+    gives no optimum, as for inelastic contact, the lines join the points.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def _balanced(sweep):
 
 
 def _draw_sweep(axes, sweep, index):
-    """Draw a sweep: points, a line with the optimum inserted, and clearances near the optimum."""
+    """Draw a sweep: points, a line through the optimum, and the clearances near the optimum."""
     clearance, size = sweep["clearance"].values, sweep["quiet_displacement"].values
     best, least = float(sweep["optimum_clearance"]), float(sweep["optimum_displacement"])
     color = {"color": style.curve(index)["color"], "label": None}
@@ -94,14 +94,14 @@ def _draw_sweep(axes, sweep, index):
 
 
 def _titles(sweeps):
-    """Return legend texts: the damper's mass, and all parameters that differ between sweeps."""
+    """Return the legend texts: the damper's mass, and parameters that differ between sweeps."""
     *others, masses = zip(*map(_parameters, sweeps), strict=True)
     different = [texts for texts in others if len(set(texts)) > 1]
     return [", ".join(words) for words in zip(*different, masses, strict=True)]
 
 
 def _parameters(sweep):
-    """Return the parameters that may differ between sweeps as texts. The damper's mass is last."""
+    """Return texts for the parameters that may differ between sweeps, the damper's mass last."""
     values = parameters_of(sweep)
     if "machine" not in sweep.attrs:
         return [style.parameter_label(values, name) for name in VARIED]

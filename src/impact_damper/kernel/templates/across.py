@@ -1,8 +1,9 @@
 """Template (see `step`): acceleration across, which is Z2'' - Z1'' without the force of a wall.
 
-The acceleration across is DRAW - BASE A cos(W T). DRAW is gravity along the gap plus the friction
-of a sliding mass. The other term is due to a moving base, from which Z1 is measured. SWAY is the
-double integral of the acceleration across, from the beginning of the step.
+The acceleration across is DRAW - BASE A cos(W T), with the amplitude A of the forcing. DRAW is
+gravity along the gap plus the friction of a sliding loose mass. The other term appears if the base
+moves, because Z1 is measured from the base. SWAY is the double integral of the acceleration across
+from the beginning of the step.
 """
 
 # Phase angle (rad) below which (x - sin x) / x^3 is computed from its series.
@@ -10,18 +11,21 @@ SMALL = 0.5
 
 
 def is_outside(a, i):
-    """Return whether a loose mass that does not stick begins a flight behind an unloaded wall."""
+    """Return whether a flight begins behind a wall's surface, and the loose mass does not stick."""
     return abs(a[Y2 + i]) > a[CLEARANCE + i] and a[STUCK + i] == 0.0
 
 
 def load_across(a):
-    """Compute ACROSS as the step begins, its bound MOST, and SWAYS, which is 0 if nothing acts."""
+    """Compute the acceleration ACROSS when the step begins, and a bound MOST on its modulus.
+
+    SWAYS is 0 if no acceleration across acts in any lane.
+    """
     acting = 0
     rough = 0
     for i in range(LANES):
         acting += 1 if abs(a[GRAVITY + i]) + a[BASE + i] + a[FRICTION + i] > 0.0 else 0
         rough += 1 if a[FRICTION + i] > 0.0 else 0
-    # If nothing acts in this step, and nothing in the last step, the rows are 0 already.
+    # If nothing acts, and nothing acted in the last step, the rows are 0 already.
     if acting > 0 or a[SWAYS] > 0.0:
         for i in range(LANES):
             a[DRAW + i] = a[GRAVITY + i]
@@ -41,7 +45,7 @@ def load_across(a):
 
 
 def find_sway(a):
-    """Compute SWAY and its three derivatives at T, in steps in which the acceleration acts."""
+    """Compute SWAY and its first three derivatives at T, if an acceleration across acts."""
     if a[SWAYS] > 0.0:
         for i in range(LANES):
             t = a[T + i]
@@ -65,25 +69,25 @@ def find_sway(a):
 
 
 def flight_values(a):
-    """Compute Z1 and SWAY with their derivatives at T; Z2 and its derivatives follow from both."""
+    """Compute Z1, SWAY and their derivatives at T. From these Z2 follows (`contact.loose_mass`)."""
     flight_slope(a)
     flight_curve(a)
     find_sway(a)
 
 
 def penetration_values(a):
-    """Compute SWAY, then Z1 and the depth Z2 -+ d0, with their derivatives at T."""
+    """Compute SWAY, Z1, the depth Z2 -+ d0 and the derivatives of all three at T."""
     find_sway(a)
     contact_values(a)
 
 
 def find_return(a):
-    """Find the contact within [0, T] of lanes whose loose mass begins behind the wall's surface.
+    """Find the first contact in [0, T] in lanes whose loose mass begins behind a wall's surface.
 
-    The wall pushes again once f = q + LAG q' rises to zero at a depth q > 0. Without such a time a
+    The wall pushes again once f = q + LAG q' rises to zero at a depth q > 0. If f does not, a
     contact begins at q = 0 as usual. MODE, WALL, T and the rows END_ are set as by `find_contact`,
-    except that MODE becomes MET_DEEP for a contact at a depth. No search is needed if f certainly
-    falls, as -q' exceeds LAG times a bound on |q''|, and if the other wall is out of reach.
+    but MODE becomes MET_DEEP for a contact at a depth. No search is needed if the other wall is out
+    of reach and f certainly falls. f does so if -q' exceeds LAG times a bound on |q''|.
     """
     flight_bound(a)
     flight_jerk(a)
@@ -117,7 +121,7 @@ def find_return(a):
 
 
 def step_outside(a, i, t):
-    """Return the next time and mode of a search of `find_return` that is in mode MARCH."""
+    """Return the next time and mode of the search of `find_return` in lane i, in mode MARCH."""
     wall, lag, bound = a[WALL + i], a[LAG + i], a[BOUND + i]
     clearance = a[CLEARANCE + i]
     z, w = loose_mass(a, i, t)
@@ -125,15 +129,15 @@ def step_outside(a, i, t):
     slope = wall * w
     f = q + lag * slope
     rise = slope + lag * wall * (a[Z1_CURVE + i] + a[SWAY_CURVE + i])
-    # Z2 and Z2' are computed from Z1 and Z1'. The rounding errors of these may exceed d0's error.
+    # Z2 and Z2' follow from Z1 and Z1', whose rounding errors may exceed that of the clearance.
     fine = abs(a[Y0 + i]) + clearance + lag * (abs(a[Y1 + i]) + abs(slope))
     fine *= ROUNDING
     bent = bound + lag * a[JERK_BOUND + i]
-    # A contact with this wall needs both q and f to reach 0.
+    # A contact with this wall cannot begin while q or f is negative.
     deep = safe_advance(-q, slope, bound) if q <= fine else 0.0
     pressed = safe_advance(-f, rise, bent) if f <= fine else 0.0
     across = safe_advance(2.0 * clearance + q, -slope, bound)
-    # As a flight begins, a positive f that falls is the error of the separation before it.
+    # At t = 0 a positive f that falls is a rounding error of the separation before this flight.
     pushes = rise > 0.0 or (f > fine and t > 0.0)
     here = q >= -fine and f >= -fine and (q > fine or slope > 0.0) and pushes
     other = 2.0 * clearance + q <= fine and slope < 0.0

@@ -5,14 +5,14 @@ SAG = 0.13
 
 
 def loose_mass(a, i, t):
-    """Return Z2 and Z2' at time t of a flight, in which Z2 - Z1 is a linear function plus SWAY."""
+    """Return Z2 and Z2' at time t of a flight. Z2 - Z1 is a linear function of t plus SWAY."""
     drift = a[Y3 + i] - a[Y1 + i]
     place = a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t
     return place + a[SWAY + i], a[Z1_SLOPE + i] + drift + a[SWAY_SLOPE + i]
 
 
 def first_guess(a, i):
-    """Estimate the time of the contact from the first three terms of the distance's series."""
+    """Return an estimate of the contact's time from three terms of the series of the distance."""
     distance = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
     speed = abs(a[Y3 + i])
     bend = a[WALL + i] * (a[G + i] + a[ACROSS + i])
@@ -20,9 +20,9 @@ def first_guess(a, i):
 
 
 def distance_ahead(a, i, t):
-    """Return the distance f to the WALL at t, the Newton step -f/f' to its root, and f''/f'.
+    """Return three numbers at time t: the distance f to WALL, the Newton step -f/f', and f''/f'.
 
-    Before the call the rows of Z1 and of SWAY, up to CURVE, must hold their values at t.
+    Before the call Z1, SWAY and their first two derivatives at t must be in their rows.
     """
     z, w = loose_mass(a, i, t)
     closing = a[WALL + i] * w
@@ -34,8 +34,8 @@ def distance_ahead(a, i, t):
 def expect_contact(a):
     """Move T from LENGTH to the expected time of a contact, in lanes that expect a contact.
 
-    Three terms of the series decide whether a contact is expected. Half of all terms give its time,
-    so the processor need not wait for the last coefficients.
+    Three terms of the series decide whether a contact is expected. Half of all terms give its time.
+    So the processor need not wait for the last coefficients.
     """
     expected = 0
     for i in range(LANES):
@@ -51,7 +51,10 @@ def expect_contact(a):
 
 
 def guess_contact(a):
-    """Move T to a contact expected before LENGTH, in mode BRACKET only; otherwise to LENGTH."""
+    """Move T to the expected contact if MODE is BRACKET and the contact lies before LENGTH.
+
+    In all other lanes move T to LENGTH.
+    """
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
     flight_early(a)
@@ -67,17 +70,19 @@ def find_contact(a):
     """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
 
     If there is such a time, MODE becomes MET, and WALL is the wall that is met. If there is
-    certainly none, or if APART > 0, MODE becomes MISSED, and T keeps its value. END_Z1 and
-    END_Z1_SLOPE must hold Z1 and Z1' at T before the call; they are updated with T. If T is below
-    LENGTH, `expect_contact` expects a contact at T; the contact may lie slightly later.
+    certainly none, MODE becomes MISSED, and T keeps its value. MODE also becomes MISSED if
+    APART > 0: the loose mass sticks, or it begins behind a wall's surface. Before the call END_Z1
+    and END_Z1_SLOPE must hold Z1 and Z1' at T. They are updated with T. If T is below LENGTH, a
+    contact is expected at T (`expect_contact`). It may lie slightly later.
 
-    Bounds decide most flights without a search, for any spring. `change` is a bound on
-    the change of Z2', from the terms of Z1' and MOST. At first Z2' points to the wall ahead.
+    Bounds decide most flights without a search. `change` is a bound on the change of Z2' in the
+    flight. The wall ahead is the wall to which Z2' points at the beginning.
 
-    - `clear`: Z2 deviates from its chord, the straight line between the ends of the flight, by at
-      most SAG `change` T. The wall ahead is not met if both ends are further from this wall.
-    - `left`: the chord gives a lower bound on the distance to the wall behind, and the first speed
-      minus `change` gives another. If the mean of both bounds is positive, this wall is not met.
+    - `clear`: the chord is the straight line between Z2 at both ends of the flight. Z2 deviates
+      from it by at most SAG `change` T. If both ends are further from the wall ahead, Z2 does not
+      meet this wall.
+    - `left`: the chord gives a lower bound on the distance to the wall behind. The speed at the
+      beginning minus `change` gives another. If their mean is positive, this wall is not met.
     - `certain`: the speed at each end gives a lower bound on the speed. If the mean of both bounds
       is positive, the velocity keeps its sign: only the wall ahead can be met, and only once.
     """
@@ -111,10 +116,7 @@ def find_contact(a):
 
 
 def meet_expected(a):
-    """Do one iteration, which mostly suffices, in lanes that expect a contact at T.
-
-    Return the number of lanes that are still undecided.
-    """
+    """Do one iteration in lanes that expect a contact at T. Return the count of undecided lanes."""
     flight_curve(a)
     find_sway(a)
     undecided = 0
@@ -164,11 +166,11 @@ def search_contact(a):
                 upper = safe_advance(clearance - z, w, bound)
                 lower = safe_advance(clearance + z, -w, bound)
                 wall = 1.0 if upper < lower else -1.0
-                # Next to a receding wall the distance is a rounding error for a time `shortest`.
+                # If Z2 leaves a wall, the distance is a rounding error for the time `shortest`.
                 shortest = math.sqrt(8.0 * fine / (bound + TINY))
                 receding = max(shortest, ROUNDING * t) if wall * w <= 0.0 else 0.0
                 ahead = max(min(upper, lower), receding)
-                # For a mass at rest on the wall `closing` is false, so a later time decides.
+                # A mass at rest on the wall does not close in, so a later time decides.
                 t, mode = march_step(
                     t, clearance - wall * z, wall * w > 0.0, ahead, a[LENGTH + i], fine
                 )

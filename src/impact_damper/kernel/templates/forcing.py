@@ -1,17 +1,17 @@
 """Template (see `step`): cosine and sine of the forcing's phase at the beginning of a step."""
 
-# pi/2 as the sum of two numbers. QUARTER has few digits, so its multiples are exact.
+# pi/2 as the sum of two numbers. QUARTER has few digits, so that multiples of QUARTER are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
-# Largest change of phase (rad) for which COSINE and SINE follow from known values by the addition
-# theorem. The series of cos and sin of the change are used up to third order.
+# Largest change of phase (rad) for which COSINE and SINE follow from earlier ones by the addition
+# theorem. It uses the series of cos and sin of the change up to third order.
 NEAR = 1e-4
 
 
 def find_forcing(a):
     """Compute COSINE and SINE of the forcing's phase at the time KNOWN, times the amplitude.
 
-    Quarter turns are subtracted, because the series converge fast up to an eighth of a turn.
+    Quarter turns are subtracted from the phase, because the series converge fast up to 1/8 turn.
     """
     for i in range(LANES):
         angle = a[FREQUENCY + i] * a[KNOWN + i]
@@ -36,7 +36,7 @@ def find_forcing(a):
 def forcing(a):
     """Compute COSINE and SINE of the forcing's phase at TIME, times the amplitude.
 
-    With one lane `look_ahead` may have computed both for a time KNOWN close to TIME.
+    With one lane both are corrected if `look_ahead` has computed them for a time close to TIME.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:
@@ -53,7 +53,7 @@ def forcing(a):
 def look_ahead(a):
     """With one lane, compute COSINE and SINE at T, the expected end of the step.
 
-    The processor does this while it would wait for other results of the step.
+    The processor does this while it waits for other results of the step.
     """
     if LANES == 1:
         a[KNOWN] = a[TIME] + a[T]

@@ -1,19 +1,19 @@
 """Template (see `step`): Coulomb friction of the loose mass on its floor.
 
-On a loose mass that slides in the direction SLIDE = sign(Z2'), friction adds -FRICTION SLIDE to the
-acceleration across (template `across`) and PUSH to Z1''. If the loose mass sticks (STUCK), both
-masses move together,
+SLIDE is the sign of Z2'. While the loose mass slides, friction adds -FRICTION SLIDE to the
+acceleration across (template `across`) and PUSH to Z1''. While it sticks (STUCK), both masses move
+together. g is Z1'' without the loose mass:
 
-    (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T)),
+    (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T))
 
-while the friction that holds them together, per unit of loose mass, has a modulus below FRICTION.
+The friction per unit of loose mass that holds the masses together has a modulus below FRICTION.
 """
 
 
 def load_friction(a):
     """Decide at the beginning of a step whether the loose mass sticks, or which way it slides.
 
-    After a turn, and while the loose mass sticks, Z2' is exactly 0.
+    The loose mass can stick only if Z2' is exactly 0, as `end_turn` sets it.
     """
     a[STICKS] = 0.0
     for i in range(LANES):
@@ -37,7 +37,7 @@ def load_friction(a):
 
 
 def wall_force(a, i):
-    """Return the force of the wall on the loose mass at the beginning of a step."""
+    """Return the force of the wall on the loose mass when a step begins, 0 in flight."""
     wall = a[SIDE + i]
     depth = a[Y2 + i] - wall * a[CLEARANCE + i]
     force = a[CONTACT_STIFFNESS + i] * depth + a[DASHPOT + i] * a[Y3 + i]
@@ -45,10 +45,10 @@ def wall_force(a, i):
 
 
 def hold(a):
-    """In lanes whose loose mass sticks, replace parameters by parameters of both masses together.
+    """In lanes whose loose mass sticks, replace parameters by those of both masses as one body.
 
     Damping and spring act on both masses, so their parameters are scaled. The last two of HELD_ROWS
-    belong to the wall, whose force is constant; they become 0.
+    belong to the wall. They become 0, because the force of the wall is constant.
     """
     for k in range(len(HELD_ROWS)):
         row, free = HELD_ROWS[k], FREE_ROWS[k]
@@ -101,7 +101,7 @@ def find_turn(a, touching):
     """Find the first turn or slip before T.
 
     At a turn Z2' of a sliding loose mass is 0. At a slip a sticking mass begins to slide. In lanes
-    with a turn or a slip, MODE becomes TURNED, and T and the rows END_ receive time and state.
+    with a turn or a slip, MODE becomes TURNED, T its time, and the rows END_ receive the state.
     """
     if touching:
         contact_jerk(a)
@@ -177,10 +177,7 @@ def wall_force_held(a, i):
 
 
 def end_turn(a):
-    """Set Z2' to 0 after a turn and while the mass sticks, and to TINY SLIDE after a slip.
-
-    A loose mass that has stuck during the step keeps its Z2.
-    """
+    """Set Z2' to 0 after a turn or while the loose mass sticks, and to TINY SLIDE after a slip."""
     for i in range(LANES):
         slipped = a[STUCK + i] > 0.0 and a[MODE + i] == TURNED
         held = a[STUCK + i] > 0.0 and not slipped
@@ -191,7 +188,7 @@ def end_turn(a):
 
 
 def keep_tangents(a, d):
-    """Replace parameters for tangents as `hold` does, and store the tangents' Z2 in KEPT."""
+    """Replace parameters by `hold`, and store the Z2 of the tangents in KEPT."""
     hold(a)
     for i in range(TANGENTS):
         d[KEPT + i] = d[2 * TANGENTS + i]
@@ -200,8 +197,9 @@ def keep_tangents(a, d):
 def friction_jump(a, d):
     """Multiply tangents by the saltation matrix of a turn, and undo `keep_tangents`.
 
-    At a turn friction jumps by J, and Z2'' before the turn is b. With w for Z2' of the tangent, the
-    tangent's Z1' jumps by -rm w J/b, and w by -(1 + rm) w J/b. If the mass sticks, w becomes 0.
+    Let J be the jump of friction at the turn, b be Z2'' before the turn, and w be the tangent's
+    Z2'. The tangent's Z1' jumps by -rm w J/b, and w jumps by -(1 + rm) w J/b. If the loose mass has
+    stuck during the step, w becomes 0.
     """
     for i in range(TANGENTS):
         j = i % LANES

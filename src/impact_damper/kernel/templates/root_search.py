@@ -6,7 +6,7 @@ In contact f is q + LAG q' (`separation`), and its root is the separation. Modes
     MARCH     several roots are possible. A bound on |f''| gives a time within which f cannot
               vanish. The search advances by such times, so that it never passes the first root.
     BRACKET   at most one root is possible. A safeguarded iteration of third order finds it.
-    ENDING    the search is at the end of the step, and there is no root before.
+    ENDING    the search has reached the end of the step without a root.
     MET       the root has been found.
     MISSED    the step certainly contains no root.
     MET_DEEP  a contact begins at a depth behind the wall's surface (`across.find_return`).
@@ -15,8 +15,8 @@ In contact f is q + LAG q' (`separation`), and its root is the separation. Modes
 
 # Relative rounding error of an event function, 4 units in the last place.
 ROUNDING = 2.0**-50
-# Largest ratio of the first neglected term to the tolerance at which the iteration for a root ends.
-# The size of this term is (move / bending time)^3. The bending time is at most |f'/f''|.
+# The iteration for a root ends if the neglected term is at most LAST_MOVE times the tolerance. The
+# size of this term is (move / bending time)^3. The bending time is at most |f'/f''|.
 LAST_MOVE = 0.01
 MARCH, BRACKET, ENDING, MET, MISSED, MET_DEEP, TURNED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0
 # TINY prevents divisions by zero. FAR replaces infinity, because 0 times infinity is NaN.
@@ -25,9 +25,10 @@ FAR = 1e200
 
 
 def safe_advance(f, closing, bound):
-    """Return a time before which the event function f cannot vanish, given its present value `f`.
+    """Return a time before which the event function f, now equal to `f`, cannot vanish.
 
-    The time is the first root of f - closing t - bound t^2/2; `closing` is -f', `bound` >= |f''|.
+    `closing` is -f', and `bound` is at least |f''|. The time is the first root of
+    f - closing t - bound t^2/2.
     """
     f = max(f, 0.0)
     root = math.sqrt(closing * closing + 2.0 * bound * f)
@@ -37,10 +38,10 @@ def safe_advance(f, closing, bound):
 
 
 def march_step(t, f, closing, ahead, length, fine):
-    """Return the next time and mode of a search in mode MARCH; f is positive until t + `ahead`.
+    """Return the next time and mode of a search in mode MARCH. f is positive until t + `ahead`.
 
-    The root is at t if f decreases (`closing` is true), and either f is below its rounding error
-    `fine` or `ahead` is too short to change t.
+    The root is at t if f decreases (`closing` is true), and if either f is at most its rounding
+    error `fine` or `ahead` is too short to change t.
     """
     met = closing and (f <= fine or t + ahead == t)
     ends = not t + ahead < length
@@ -49,12 +50,12 @@ def march_step(t, f, closing, ahead, length, fine):
 
 
 def chebyshev(first, bend):
-    """Return a step of Chebyshev's method, of third order, from -f/f' and `bend`, f''/f'."""
+    """Return a step of Chebyshev's method of third order. `first` is -f/f', `bend` is f''/f'."""
     return first * (1.0 - 0.5 * bend * first)
 
 
 def is_last_move(a, i, move, rate):
-    """Return whether terms neglected in a move are below LAST_MOVE x tolerance or ROUNDING."""
+    """Return whether the neglected term is at most LAST_MOVE times the tolerance, or ROUNDING."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -62,9 +63,9 @@ def is_last_move(a, i, move, rate):
 def bracketed_step(a, i, t, f, first, bend, rate, fine):
     """Return the next move and mode of a search in mode BRACKET, by one safeguarded iteration.
 
-    The event function is positive at LOW and not positive at HIGH, with one root between them. HIGH
-    is FAR while no such time is known; at most one root then lies between LOW and the end of the
-    step. Bisection replaces a move that would leave the bracket.
+    The event function f is positive at LOW and not positive at HIGH, with one root between them.
+    While no time is known at which f is not positive, HIGH is FAR. At most one root then lies
+    between LOW and the end of the step. Bisection replaces a move that would leave the bracket.
 
     `first` is an estimate of the move to the root, such as a Newton step. `bend` is the part of f''
     that this estimate neglects, divided by f'. `is_last_move` gets the larger of `rate` and
@@ -89,9 +90,9 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
 
 def store_end(a, i, row, end, move, going):
-    """If `going`, store the value after a move in the row `end`, and the slope in the next row.
+    """If `going`, store a function after a move in the row `end`, and its slope in the next row.
 
-    The four rows from `row` on hold the value and three derivatives before the move.
+    The four rows from `row` on hold the function and its three derivatives before the move.
     """
     value, slope = a[row + i], a[row + LANES + i]
     curve, jerk = a[row + 2 * LANES + i], a[row + 3 * LANES + i]
@@ -102,7 +103,7 @@ def store_end(a, i, row, end, move, going):
 
 
 def store_search(a, i, mode, t, move):
-    """Store T, MODE, END_Z1 and the slope after a move; return 1 if the search goes on, else 0."""
+    """Store T, MODE, Z1 and Z1' after a move. Return 1 if the search goes on, else 0."""
     going = a[MODE + i] <= ENDING
     a[T + i] = t
     a[MODE + i] = mode

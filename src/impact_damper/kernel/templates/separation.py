@@ -1,14 +1,15 @@
 """Template (see `step`): search for the separation, at which a contact ends.
 
-A contact ends when q + LAG q' falls to zero, where q is the penetration. With LAG = 0 this is the
-paper's rule: the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the wall's force is then 0.
+A contact ends when q + LAG q' falls to zero, where q is the penetration. LAG = 0 is the paper's
+rule: the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the wall's force falls to zero.
 """
 
-# Longest step, in natural periods of the contact: DEEPENING while q grows, RETURNING while q falls.
+# Longest step, in natural periods of the contact, if q grows at its beginning (DEEPENING) or falls
+# (RETURNING).
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
-# Largest relative deviation of the rate at which a contact's phase turns (`find_separation`).
-# With this margin the phase turns by less than 0.55 * 1.25 < 3/4 of a turn while the penetration
-# grows, and by less than 0.4 * 1.25 = 1/2 while it shrinks. So a step has at most one separation.
+# Largest relative deviation of the rate at which a contact's phase turns (`find_separation`). With
+# this margin the phase turns by less than 0.55 * 1.25 < 3/4 of a turn in a step that begins with
+# growing q, and by less than 0.4 * 1.25 = 1/2 in others. So a step has at most one separation.
 PHASE_MARGIN = 0.25
 
 
@@ -21,16 +22,16 @@ def fast_exp2(y):
 
 
 def time_to_zero(f, slope, natural):
-    """Return the time when a harmonic oscillation is 0, about arctan(-natural f/slope)/natural."""
+    """Return about arctan(-natural f/slope)/natural, the time when a harmonic oscillation is 0."""
     u = natural * f * (natural * f)
     v = slope * slope
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
 
 
 def predict_separation(a):
-    """Predict the time T of separation, at most LENGTH; compute the NATURAL frequency and LENGTH.
+    """Compute LENGTH, the NATURAL frequency, and T, a prediction of the time of separation.
 
-    The prediction needs only the state, so that the processor need not wait for the series.
+    T is at most LENGTH. It follows from the state, so the processor need not wait for the series.
     """
     for i in range(LANES):
         wall = a[SIDE + i]
@@ -44,8 +45,8 @@ def predict_separation(a):
         loss = a[DASHPOT + i] * mobility
         longest = (LONGEST_DEEPENING if w >= 0.0 else LONGEST_RETURNING) * 2.0 * math.pi / natural
         length = min(a[LONGEST + i], longest)
-        # A contact that has just begun (q = 0) lasts half a damped natural period plus a correction
-        # by the mean of the acceleration g without the wall. Otherwise g is neglected.
+        # A contact that has just begun (q = 0) lasts half a damped natural period, corrected by the
+        # mean of the acceleration g without the wall. If q is not 0, g is neglected.
         g = a[COSINE + i] - spring(a, x, i, LANES) - h * v
         slope = spring_slope(a, x, i, LANES)
         drift = -a[FREQUENCY + i] * a[SINE + i] - slope * v - h * g
@@ -65,15 +66,15 @@ def find_separation(a):
     """Move T to the first time in [0, LENGTH] at which q + LAG q' falls to zero.
 
     Before the call T is a guess. If there is a separation, MODE becomes MET. If there is certainly
-    none, T becomes LENGTH and MODE becomes MISSED. END_Z1, END_DEPTH and the rows of their slopes
-    receive Z1, the depth Z2 -+ d0 (q with the sign of the wall) and both slopes at T.
+    none, T becomes LENGTH and MODE becomes MISSED. END_Z1 receives Z1 at T, and END_DEPTH the depth
+    Z2 -+ d0, which is q with the sign of the wall. The rows behind them receive both slopes.
 
     The penetration obeys q'' = g - w^2 q - D q' with the natural frequency w of the contact and
     D = DASHPOT (1 + 1/rm). |g| is at most G, the sum of the moduli of the terms of g. The radius
     R = (q'^2 + w^2 q^2)^(1/2) grows at most at the rate G and falls at most at the rate G + D R.
     The largest R gives a bound on |q''|. The phase of (w q, q') turns at the rate w, with a
     deviation of at most G/R + D/2. q + LAG q' is zero twice in a turn. If the deviation is below
-    PHASE_MARGIN w, there is at most one root in the step, and the search begins in mode BRACKET.
+    PHASE_MARGIN w, the step has at most one root. The search then begins in mode BRACKET.
     """
     penetration_values(a)
     uncertain = 0

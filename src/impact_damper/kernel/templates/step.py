@@ -1,32 +1,32 @@
 """One Taylor step of the integration, for one trajectory or several side by side.
 
-The trajectories of a step are all in flight or all in contact. The step integrates each to its next
-event (a contact begins or ends, the mass turns or slips), or over the longest admitted time.
+The trajectories of a step are all in flight or all in contact. The step integrates each at most to
+its next event: a contact begins or ends, or the loose mass turns or begins to slide.
 
 The files in this folder are templates. `instances.instance` joins them into one module for a number
-of lanes (trajectories side by side) and orders of the Taylor series in flight and in contact. The
-module begins with imports, constants, and the functions that `instances.Source` writes. All numbers
-stand in flat arrays, `a` for trajectories and `d` for tangents. A name in capitals, such as Y0, is
-the index at which a row begins (`instances.rows`): a[Y0 + i] belongs to lane i.
+of lanes (trajectories side by side) and for two orders of the Taylor series, in flight and in
+contact. The module begins with imports, constants, and the functions that `instances.Source`
+writes. All numbers stand in flat arrays, `a` for trajectories and `d` for tangents. A name in
+capitals, such as Y0, is the index at which a row begins: a[Y0 + i] belongs to lane i.
 """
 
 # Bits of the float 1.0.
 ONE = 1023 << 52
-# Largest ratio of the last terms of a series to the tolerance. Contacts amplify local errors; with
+# Largest ratio of the last terms of a series to the tolerance. Contacts amplify errors, but with
 # this ratio the error of settled motions stays below 10 times the tolerance.
 SAFETY = 0.05
-# Ratio of the last terms to `largest_tail` above which a flight is shortened. Lengths are
-# predicted, so with a ratio of 1 many flights would be computed twice.
+# A flight is shortened if its last terms exceed EXCESS times `largest_tail`. With EXCESS = 1 many
+# flights would be computed twice, because their lengths are predicted.
 EXCESS = 4.0
-# Longest flight that begins behind the surface of the unloaded wall (`across.is_outside`), in units
-# of LAG, the time in which an unloaded wall returns to 1/e of its penetration.
+# Longest flight, in units of LAG, that begins behind the surface that a wall has at rest
+# (`across.is_outside`). In the time LAG an unloaded wall returns to 1/e of its penetration.
 OUTSIDE = 2.0
-# Largest distance from the wall, over the clearance, at which a flight of length 0 ends in contact.
+# Largest distance from a wall, over the clearance, at which a flight of length 0 ends in contact.
 NEAREST = 1e-9
 
 
 def largest_tail(a, i):
-    """Return the largest allowed modulus of the last terms of the velocities' series."""
+    """Return the largest modulus that the last terms of the velocities' series may have."""
     return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
 
 
@@ -34,8 +34,8 @@ def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a series' derivative stay below `largest_tail`.
 
     Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. The new LENGTH is an
-    n-th root of the ratio of `largest_tail` to a coefficient. The root is computed from the bits of
-    both numbers, nearly linear functions of their logarithms. Its error is a few per cent.
+    n-th root of the ratio of `largest_tail` to a coefficient. The root is computed, with an error
+    of a few per cent, from the bits of both numbers, which nearly tell the logarithms.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
@@ -50,9 +50,9 @@ def limit_length(a, series, order, excess):
 def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
-    The coefficients of Z1 are assumed to decay geometrically from SCALE; three coefficients from
-    order EARLY on give the rate. At LENGTH the last terms of Z1' reach `largest_tail`. So
-    the processor can begin the next step before the last coefficients are computed.
+    The coefficients of Z1 are assumed to decay geometrically from SCALE. Three coefficients from
+    order EARLY on give the rate. The last terms of Z1' then reach `largest_tail` at LENGTH. Thanks
+    to the prediction the processor can begin the next step before the last coefficients are known.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -71,7 +71,7 @@ def predict_length(a):
 
 
 def end_flight(a):
-    """Compute END_Z1 and END_Z1_SLOPE at T; T is reduced where the last terms are too large."""
+    """Reduce T where the last terms are too large, and compute END_Z1 and END_Z1_SLOPE at T."""
     flight_slope(a)
     beyond = 0
     for i in range(LANES):
@@ -87,7 +87,7 @@ def end_flight(a):
 
 
 def flight_step(a):
-    """Step trajectories in flight; SIDE becomes the wall at which a contact begins, or 0."""
+    """Step trajectories in flight. SIDE becomes the wall at which a contact begins, or 0."""
     forcing(a)
     load_across(a)
     if a[STICKS] > 0.0:
@@ -119,7 +119,7 @@ def flight_step(a):
     find_sway(a)
     for i in range(LANES):
         t = a[T + i]
-        # Within rounding errors of a wall the bounds on the distance can give a step of length 0.
+        # Within rounding errors of a wall a step can be too short to change the time.
         near = 1.0 if a[Y2 + i] > 0.0 else -1.0
         stuck = a[TIME + i] + t == a[TIME + i] and t < a[LONGEST + i] and near * a[Y3 + i] > 0.0
         stuck = stuck and near * a[Y2 + i] > (1.0 - NEAREST) * a[CLEARANCE + i]
@@ -142,7 +142,7 @@ def flight_step(a):
 
 
 def shorten_outside(a):
-    """Shorten LENGTH and T in lanes whose loose mass begins behind an unloaded wall."""
+    """Shorten LENGTH and T in lanes whose loose mass begins behind a wall's surface."""
     for i in range(LANES):
         shorter = min(a[LENGTH + i], OUTSIDE * a[LAG + i])
         a[LENGTH + i] = shorter if is_outside(a, i) else a[LENGTH + i]
@@ -182,9 +182,9 @@ def contact_tangents(a, d):
 def dashpot_jump(a, d, direction):
     """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
 
-    The dashpot's force begins (direction -1) or ends (direction +1). Only this force jumps.
-    Therefore the tangent's velocities jump in proportion to its Z2, and the matrix has determinant
-    1. A wall's force that begins or ends at a depth is 0 there and does not jump.
+    At this event the force of the wall's dashpot begins (direction -1) or ends (direction +1). No
+    other force jumps. Therefore the tangent's velocities jump in proportion to the tangent's Z2. A
+    contact that begins or ends at a depth needs no matrix, because no force jumps there.
     """
     for i in range(TANGENTS):
         j = i % LANES
@@ -197,7 +197,7 @@ def dashpot_jump(a, d, direction):
 
 
 def contact_step(a):
-    """Step trajectories in contact; SIDE becomes 0 where the contact ends."""
+    """Step trajectories in contact. SIDE becomes 0 if the contact ends."""
     forcing(a)
     load_across(a)
     predict_separation(a)

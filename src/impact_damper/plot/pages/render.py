@@ -34,7 +34,7 @@ def conclusion(data) -> list[str]:
 def check_folder(folder, machine, force) -> None:
     """Raise OSError unless files can be written into a folder.
 
-    Without `force` the folder must hold no foreign `index.html` and no data of another machine.
+    Unless `force`, the folder must have no `index.html` from elsewhere and no other machine's data.
     """
     probe = folder / "index.html.check"
     with whole(probe) as part:
@@ -61,8 +61,8 @@ def check_folder(folder, machine, force) -> None:
 def write_page(name, data, folder, file=None, date="", figures=FIGURES) -> None:
     """Write `index.html`, the page of the machine `name`, into a folder.
 
-    `file` is the name of the file of `data`, by default `name`.nc. `figures` maps names to
-    functions that return a figure of `data` or None.
+    `file` is the name of the file with `data`, by default `name`.nc. `figures` maps the name of a
+    figure to a function of `data` that returns the figure or None.
     """
     drawn, pictures = {each: draw(data) for each, draw in figures.items()}, {}
     for each, figure in drawn.items():
@@ -119,11 +119,12 @@ def _one_line(text):
     return Markup(joined) if isinstance(text, Markup) else joined
 
 
-# Fraction of the first displacement to which an unforced vibration falls in the decay time.
+# In the decay time an unforced vibration falls to this fraction of its first displacement.
 DECAY = 0.1
-# Largest relative distance at which a range of gaps and a tolerance are said to end at one gap.
+# An end of the gaps that keep the promise counts as an end of the tolerance if it is at most this
+# fraction further out.
 NEAR = 0.01
-# Names on the page of additions to the decision and of quantities.
+# Names that the page uses for additions to the decision, and for quantities.
 ADDITIONS = {
     "response": "motions and forces at the gap",
     "orbits": "the quiet orbit over the gap",
@@ -143,9 +144,10 @@ QUANTITIES = {
     "damping": "damping",
     "force": "excitation",
 }
-HARDLY = 0.2  # impacts in a cycle, below which the loose mass is only ballast
-# Columns of tables: name of a variable or key; description; unit; factor that divides (in GIVEN) or
-# multiplies (in COSTS) the value; in GIVEN also the key of the tolerance, or None.
+# With fewer impacts in a cycle the loose mass is only ballast.
+HARDLY = 0.2
+# Columns of GIVEN: key of the machine, description, unit, divisor, key of the tolerance or None.
+# Columns of COSTS: name of a variable, description, unit, factor.
 TABLES = {
     "GIVEN": (
         ("mass", "mass without the loose mass", "kg", 1, None),
@@ -185,7 +187,7 @@ def size(value, unit="mm", digits=3) -> str:
 
 
 def numbers_of(data) -> dict:
-    """Return all numbers of a design, keyed by the names that the templates use."""
+    """Return all that the templates show of a design, keyed by their names in the templates."""
     asked = parameters_of(data)
     gap, tolerances = float(data["design_gap"]), asked["tolerances"]
     tolerance = tolerances.get("gap", 0.0)
@@ -252,7 +254,7 @@ def _hits(data) -> float:
 
 
 def _peak(data, name) -> SimpleNamespace:
-    """Return the largest value of a variable over the band and its frequency, or NaN for both."""
+    """Return a variable's largest value over the band, and its frequency; NaN if unknown."""
     if name not in data or np.isnan(data[name]).all():
         return SimpleNamespace(size=np.nan, frequency=np.nan)
     k = int(np.nanargmax(data[name].values))
@@ -260,7 +262,7 @@ def _peak(data, name) -> SimpleNamespace:
 
 
 def _worst_values(data):
-    """Return texts of the deviations of the values that lead to the promised displacement."""
+    """Return texts such as "gap +5 %" for the deviations that lead to the promised displacement."""
     factors = data["promise_factor"].values[int(data["promised_set"])]
     return [
         f"{QUANTITIES[str(name)]} {'+' if factor > 1 else '-'}{percent(abs(factor - 1))}"
@@ -270,7 +272,7 @@ def _worst_values(data):
 
 
 def _shocks(data):
-    """Return numbers of the impulses on the machine, or None if they were not computed."""
+    """Return the effects of impulses on the machine, or None if they were not computed."""
     if "shock_return" not in data:
         return None
     impulses, cycles = np.abs(data["shock_impulse"].values), data["shock_return"].values
@@ -331,7 +333,7 @@ def _worse(data, nominal):
 
 
 def _other_mass(data, asked):
-    """Return another loose mass that does what this one does not, or None (see `conclusion`)."""
+    """If this loose mass is not good enough, return another that is. Otherwise return None."""
     missed = named(data, "limit_status") == "missed"
     fails = missed or named(data, "decision") == "do_not_build"
     if "other_mass" not in data or not fails:
@@ -347,7 +349,7 @@ def _other_mass(data, asked):
 
 
 def _masses(data, asked):
-    """Return the table rows of this damper and of a heavier one, [] if there is no heavier one."""
+    """Return the table rows of this damper and of a heavier damper; [] if none was computed."""
     if "other_mass" not in data:
         return []
     names = ("other_mass", "other_gap", "other_displacement", "other_force")
@@ -359,7 +361,7 @@ def _masses(data, asked):
 
 
 def _transients(data, asked):
-    """Return largest displacements in sweeps through the band, and decay times."""
+    """Return the largest displacements in sweeps (`swept`), and the decay times (`rung`)."""
     if "sweep_envelope" not in data:
         return {"swept": [], "rung": None}
     low, high = asked["band"]
