@@ -1,8 +1,8 @@
-"""Basins of attraction in a plane of states, without or with a damper; robustness of attractors.
+"""Basins of attraction in a plane of states, and the robustness of attractors against shocks.
 
 Without a damper the boundaries of basins are stable manifolds of unstable orbits. A manifold is
-computed backwards in time, so that nearby curves approach it: errors decrease. It is followed
-within the half widths `reach` of Z1 and Z1'. The parts within the half widths `window` are stored.
+computed backwards in time, because nearby curves then approach it and errors decrease. It is
+followed where |Z1| and |Z1'| are below `reach`, and stored where they are below `window`.
 The names *convergence time*, *finite-time basin stability* and *minimal critical shock* come from
 Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
@@ -35,21 +35,23 @@ from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits.shooting import find_orbit
 
-# Default half widths of the plane, divided by the size of the motions without a damper.
+# Default half widths of the plane, divided by the largest |Z1| and |Z1'| without a damper.
 WIDTH = 1.5
 # Number of states on each axis of the grid of first guesses for unstable orbits.
 NEWTON = 16
-# From TRIED to 2 TRIED unresolved states, or all if fewer, further attractors are searched for.
+# Further attractors are searched for from TRIED to 2 TRIED unresolved states, from all if fewer.
 TRIED = 64
-# Z2, divided by the clearance. By default every state of the plane is run with each value.
+# Default places Z2/d0 of the loose mass. Each state of the plane is run from each place.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
 CELLS_RANGE = {"least": 2, "most": 10**4}
 
 
 class Labelled(NamedTuple):
-    """Labels (m, n) of n plane states with m states of the loose mass, and attractors' `records`.
+    """Labels of the n states of a plane, each run with m states of the loose mass.
 
-    `periods` (m, n): cycles until a label is known. `label` finds both for states (k, 4).
+    labels: Index of an attractor in `records`, or a flag of `basin_label`; shape (m, n).
+    periods: Forcing cycles until the label is known, shape (m, n).
+    label: Function that returns the labels and periods of other states, shape (k, 4).
     """
 
     labels: np.ndarray
@@ -87,19 +89,20 @@ def basins(
     frequency : float
         Forcing frequency W, or Hz for a machine.
     displacement, velocity : float or (float, float), optional
-        Half widths of the plane of Z1 and Z1', or its least and greatest values. The default is a
-        half width of 1.5 times the largest displacement and speed of the motions without a damper.
+        Range of Z1 and of Z1'. A number is the half width of a range around 0, a pair is the least
+        and the greatest value. The default half widths are 1.5 times the largest displacement and
+        the largest speed of the motions without a damper.
     cells : int
-        States on each axis.
+        Number of states on each axis.
     phase : float
-        Phase W T of the forcing at which the states are given, radian.
+        Phase W T of the forcing at which the motions begin, radian.
     loose : sequence of float, optional
-        With a damper: Z2 and Z2' of all states. By default each state is run five times, with the
-        loose mass at relative rest at five places in the gap. The result then includes the share
-        of places that lead to each attractor.
+        Z2 and Z2' of all states, only with a damper. By default each state is run five times, with
+        the loose mass at relative rest at five places in the gap. In this case the result includes
+        the share of places that lead to each attractor.
     shock : float, optional
-        Impulse on the primary mass, N s for a machine, otherwise divided by the primary mass. The
-        result then includes the time after which motions have returned to their attractor.
+        Impulse on the primary mass: in N s for a machine, otherwise divided by the primary mass. If
+        a shock is given, the result includes the time in which motions return to their attractor.
     within : int
         Time limit of the finite-time basin stability, in forcing cycles.
     settling : Settling, optional
@@ -111,17 +114,18 @@ def basins(
     Returns
     -------
     xarray.Dataset
-        For each state of the grid: the number of its attractor, or a negative flag with the reason
-        why there is none; and the convergence time: forcing cycles until the attractor is known, or
-        -1. For each attractor: period, size, points at the phase of the plane, share of the states,
-        and (in the terms of Attractors.jl)
+        For each state of the grid: the number of the attractor, or a negative flag that says why
+        there is none; and the convergence time: forcing cycles until the attractor is known, or -1.
+        For each attractor: the period, the largest displacement, the points at the phase of the
+        plane, and
 
-        - the median convergence time, and the longest after `shock`, infinite without a return;
-        - the finite-time basin stability: the share of states that converge in `within` cycles;
+        - the share of states that lead to the attractor, and their median convergence time;
+        - the longest convergence time after `shock`, infinite if a motion does not return;
+        - the finite-time basin stability: the share of states that lead there in `within` cycles;
         - the minimal critical shock: the smallest impulse at the phase of the plane after which the
           motion does not return. The search begins with 256 steps to the plane's largest speed.
 
-        Without a damper: unstable orbits with the periods of the attractors, and the stable
+        Without a damper also: unstable orbits with the periods of the attractors, and the stable
         manifolds of these orbits, which are the boundaries of basins.
 
     Raises
@@ -187,7 +191,7 @@ def _sides(scales, sizes, displacement, velocity):
 
 
 def _free(p, plane, window, reach, phase, cells, settling, running):
-    """Return the variables of the plane without a damper, and a `Labelled` of its states."""
+    """Return the dataset's variables without a damper, and the plane's states as `Labelled`."""
     attractors = free_attractors(p, reach / 2, settling)
     limits = settling.tolerance, settling.limit
     labels, periods = label_states(p, plane, phase, attractors, *limits, **running)
@@ -242,7 +246,7 @@ def boundary_data(p, attractors, window, reach, phase, cells, settling):
 
 
 def _damped(p, plane, damper, phase, cells, loose, settling, running):
-    """Return the variables of the plane with a damper, and a `Labelled` of its states."""
+    """Return the dataset's variables with a damper, and the plane's states as `Labelled`."""
     if loose is None:
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:
@@ -287,8 +291,8 @@ def _attractor_data(p, found, phase):
 
 # Distance from the saddle at which a manifold begins, in units of Z1 and Z1'.
 NEAR = 1e-5
-# Largest numbers on each side of a saddle: periods, points within the window, points within the
-# reach, and halvings of an interval between neighbouring points.
+# Limits for one side of a manifold. MOST_PERIODS: forcing cycles. MOST_POINTS: points within the
+# window. MOST_IN_ALL: points within the reach. MOST_HALVINGS: halvings of an interval in one cycle.
 MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
 # Largest distance of neighbouring points outside the window, divided by the reach.
@@ -316,9 +320,9 @@ def saddles(p, states, periods, phase):
 
 
 def run_backwards(p, states, phase, tolerance, reach):
-    """Return states one forcing cycle before given states, NaN where these lie beyond the reach.
+    """Return the states one forcing cycle before `states`, NaN for `states` beyond the reach.
 
-    Backwards in time, with the velocity reversed, the equation is the same with negative damping.
+    If time runs backwards, the velocity and the damping change their signs in the equation.
     """
     reverse = p.copy()
     reverse[DAMPING] = -p[DAMPING]
@@ -337,7 +341,7 @@ def run_backwards(p, states, phase, tolerance, reach):
 
 
 def stable_manifold(orbit, tolerance, window, spacing, reach):
-    """Return a saddle's stable manifold in a window, in pieces, and whether it is complete."""
+    """Return a list of the pieces of a saddle's stable manifold, and whether they are complete."""
     values, vectors = np.linalg.eig(orbit.monodromy[:2, :2])
     k = int(np.argmin(np.abs(values)))
     direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)
@@ -351,7 +355,7 @@ def stable_manifold(orbit, tolerance, window, spacing, reach):
 
 
 def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
-    """Return the pieces of one side of a stable manifold, and whether it is complete."""
+    """Return a list of pieces as `stable_manifold` does, on one side, and if they are complete."""
 
     def earlier(states):
         return run_backwards(orbit.p, states, orbit.phase, tolerance, reach)
@@ -383,10 +387,7 @@ def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
 
 
 def _wide(states, window, spacing, reach):
-    """Return the mask of the pairs of neighbouring states that are too far apart.
-
-    A pair with one unknown state (NaN) is too far apart if the other lies in or near the window.
-    """
+    """Return a mask of the pairs of neighbouring states between which a state is missing."""
     apart = np.abs(np.diff(states, axis=0))
     inside = np.all(np.abs(states) <= window + 2 * spacing, axis=1)
     near = np.all(np.abs(states) <= reach, axis=1)
@@ -396,13 +397,13 @@ def _wide(states, window, spacing, reach):
     return np.where(lost, inside, near & np.any(apart > allowed, axis=1))
 
 
-# Search for the smallest shock of one sign: number of parts into which an interval is divided in
-# each round. The next interval is the first part at whose end the shock leads away.
+# Search for the smallest shock: number of parts into which each round divides its interval. The
+# next interval is the first part whose larger shock leads away from the attractor.
 SHOCKS = (256, 64, 64, 64)
 
 
 def robustness(p, found, phase, widest, shock, within) -> dict:
-    """Return the variables of the robustness of attractors; shocks are changes of Z1'."""
+    """Return the variables of the robustness of attractors. A shock is a jump of Z1'."""
     rows = []
     for index, record in enumerate(found.records):
         own, states, returned = found.labels == index, orbit_states(p, record, phase), np.nan
@@ -418,7 +419,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock if it leads away from an attractor, and cycles until this is known."""
+    """Return for each shock whether it leads away from an attractor, and the cycles to know it."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))
@@ -426,7 +427,7 @@ def _after(found, index, states, shocks):
 
 
 def _critical(found, index, states, most):
-    """Return the size of the smallest shock up to `most` that leads away, or infinity."""
+    """Return the size of the smallest shock between 0 and `most` that leads away, or infinity."""
     low, high = 0.0, most
     for parts in SHOCKS:
         shocks = np.linspace(low, high, parts + 1)

@@ -1,4 +1,7 @@
-"""Locate bifurcations (zeros of test functions) and changes of contact on a step of a branch."""
+"""Locate bifurcations (zeros of test functions) and changes of contact on a step of a branch.
+
+The place of an event is its distance along the step's first tangent or, in a grazing, its height.
+"""
 
 from functools import partial
 from typing import NamedTuple
@@ -9,20 +12,19 @@ from scipy.optimize import brentq
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.orbits.continuation import Point, point_at_distance
 
-# The place of an event is a distance along a step's first tangent or, through a grazing, a height.
 # Largest tolerance of the place of a bifurcation, divided by the length of the step.
 FINE = 1e-3
-# Tolerance of the place of a change of contact, divided by the larger of 1 and the step's length.
+# Tolerance of the place of a change of contact, divided by max(1, length of the step).
 PLACE = 1e-12
-# Smallest imaginary part of a complex multiplier.
+# A multiplier counts as complex if the modulus of its imaginary part exceeds COMPLEX.
 COMPLEX = 1e-6
-# Largest modulus of a multiplier at a bifurcation, minus 1, for which one side may be stable.
+# If all multipliers at a bifurcation have moduli below 1 + NEAR_CIRCLE, one side may be stable.
 NEAR_CIRCLE = 1e-3
-# Longest flight, in forcing cycles, between two contacts with one wall that merge.
+# Longest flight, in forcing cycles, between two merging contacts with the same wall.
 MERGED = 1e-3
 # Largest number of changes of contact that are located on one step.
 MOST_CHANGES = 8
-# Indices i, j of all pairs i < j of 2 or 4 multipliers, keyed by the number of multipliers.
+# Indices i < j of all pairs of multipliers, for 2 and for 4 multipliers.
 PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 
 
@@ -40,30 +42,30 @@ class Event(NamedTuple):
 
 
 def _reversal(point, symmetric):
-    """Return the `_product` of mu + 1 over the `cycle_multipliers` mu.
+    """Return the `_product` of mu + 1 over all `cycle_multipliers` mu of the orbit.
 
-    The cycle of a symmetric orbit is half its period. At mu = -1 a symmetric orbit loses its
-    symmetry, and an asymmetric one doubles its period. Return 1 if `symmetric` does not fit.
+    At mu = -1 a symmetric orbit (`sign` -1) loses its symmetry, and any other orbit doubles its
+    period. `symmetric` selects one kind of orbits. For orbits of the other kind, return 1.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0
 
 
 def _pairs(point):
-    """Return the `_product` of mu_i mu_j - 1 over pairs, 0 if a conjugate pair has modulus 1."""
+    """Return the `_product` of mu_i mu_j - 1 over all pairs of multipliers."""
     values = point.orbit.multipliers[: point.orbit.active]
     first, second = PAIRS[len(values)]
     return _product(values[first] * values[second] - 1)
 
 
 def _product(values):
-    """Return the real product of complex numbers, each divided by its modulus if that exceeds 1."""
+    """Return the real part of the product of `values`; moduli above 1 are first reduced to 1."""
     return float((values / np.maximum(1, np.abs(values))).prod().real)
 
 
-# For each kind of bifurcation: a function of points, which is zero at the bifurcation, and the
-# largest tolerance of the place of the zero. The tolerance is larger at a fold: Newton's method is
-# nearly singular there, and the parameter changes with the square of the distance.
+# For each kind of bifurcation: a function of a point, which is zero at the bifurcation; and the
+# largest tolerance of the place. The tolerance is larger at a fold: Newton's method is nearly
+# singular there, and the parameter changes only with the square of the distance from the fold.
 TESTS = {
     "fold": (lambda point: point.tangent[-1], 1e-7),
     "symmetry_breaking": (partial(_reversal, symmetric=True), 1e-11),
@@ -73,7 +75,7 @@ TESTS = {
 
 
 def bifurcations_between(point_at, start, end, first, last):
-    """Locate bifurcations between two points; return pairs (place, event) and how many are lost."""
+    """Return pairs (place, event) of bifurcations between two points, and how many are missed."""
     located, lost = [], 0
     for kind, (test, precision) in TESTS.items():
         if test(start) * test(end) >= 0:
@@ -104,7 +106,7 @@ def bifurcations_between(point_at, start, end, first, last):
 
 
 def events_between(start, end, length):
-    """Locate the events on a step; return a list of events, and the number of lost events."""
+    """Return a list of the events on a step, and the number of events that were not located."""
 
     known = {0.0: start, length: end}
 
@@ -127,7 +129,7 @@ def events_between(start, end, length):
 
 
 def _is_complex_pair(multipliers):
-    """Return whether the two multipliers whose product is nearest to 1 are a conjugate pair."""
+    """Return whether the two multipliers with the product nearest to 1 are complex conjugates."""
     values = multipliers[np.isfinite(multipliers)]
     first, second = PAIRS[len(values)]
     k = np.argmin(np.abs(values[first] * values[second] - 1))
@@ -159,7 +161,7 @@ def _changes_of_contact(point_at, start, end, length):
 
 
 def _contact_event(orbit):
-    """Return the kind of event at which the slowest contact of an orbit appears (see MERGED)."""
+    """Return the kind of the event at which the slowest contact of an orbit appears."""
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))
     period = 2 * np.pi / orbit.p[FREQUENCY]

@@ -13,22 +13,24 @@ from impact_damper.orbits.segments import NUDGE
 
 # Largest number of orbits in one direction.
 MOST_POINTS = 10_000
-# Largest difference at W T = pi/2 between states of equal orbits.
+# Largest difference between the states of equal orbits at W T = pi/2.
 SAME = 1e-5
-# A step may hold an orbit if their max |Z1| differ by at most NEARBY plus the change on the step.
+# A step may hold an orbit only if the orbit's max |Z1| differs from that at the step's beginning by
+# at most NEARBY plus the change of max |Z1| on the step.
 NEARBY = 0.02
-# Largest distance beyond the range of the parameter to which packed parameters are extrapolated.
+# Packed parameters are extrapolated at most by EXTENDED beyond the range of the parameter.
 EXTENDED = 1e-3
-# Largest speed at which a contact begins on the last orbit of a branch that loses its contacts.
+# A branch has lost its contacts if all contacts of its last orbit begin at speeds below WEAK.
 WEAK = 0.02
-# Largest ratio of `Orbit.deviation` at a fold to the deviation at the point before, if the branch
-# meets a branch of more symmetry (symmetric orbits, or half the period) at the fold.
+# At a fold a branch meets a branch of more symmetry (symmetric orbits, or half the period) if
+# `Orbit.deviation` is below VANISHED times the deviation at the point before.
 VANISHED = 0.5
-# CLOSE_STEP: longest failed step after which a grazing is searched for, and longest accepted step
-# that changes contacts. REACH: reach of the search, divided by the length of the step.
+# A grazing is searched for after a step that changes contacts, or that fails and is shorter than
+# CLOSE_STEP. If none is found, a longer step that changes contacts is halved. REACH: reach of the
+# search, divided by the length of the step.
 CLOSE_STEP, REACH = 2e-3, 8.0
-# Longest step that is accepted although an event was not located, or although the step may contain
-# two folds or cross another branch. A longer step of this kind is halved.
+# A step longer than CLEAR_STEP is halved if an event on it was not located, or if the step may
+# contain two folds or cross another branch.
 CLEAR_STEP = 1e-4
 
 
@@ -36,11 +38,11 @@ CLEAR_STEP = 1e-4
 class Branch:
     """A branch of orbits. The function `family` maps the parameter to packed parameters.
 
-    `events` are pairs of the index of a point and an event. `ends` are the reasons why the branch
-    ends at its first and at its last point: range_ends; closed (curve); symmetry_breaking or
-    period_doubling, where it meets a branch of more symmetry; contact_lost; lost, where Newton's
-    method fails; point_limit (MOST_POINTS); or unstable, after too many unstable orbits in a row.
-    The number `lost` counts the events that could not be located.
+    Each of `events` is a pair: the index of a point, and its event. `ends` are the reasons why the
+    branch ends at its first and at its last point: range_ends (of the parameter); closed (curve);
+    symmetry_breaking or period_doubling, if the branch meets a branch of more symmetry;
+    contact_lost; lost, if Newton's method fails; point_limit (MOST_POINTS); or unstable, after too
+    many unstable orbits in a row. `lost` is the number of events that could not be located.
     """
 
     family: Callable[[float], np.ndarray]
@@ -77,14 +79,14 @@ class Branch:
 
 
 def between(point, ahead, value):
-    """Return the point at a value between two points of a branch; None if Newton's method fails."""
+    """Return the point between two points of a branch where the parameter is `value`, or None."""
     if np.array_equal(point.problem.phases, ahead.problem.phases):
         return continuation.point_at_value(point, ahead, value)
     return point.problem.at_value(point, value)
 
 
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
-    """Follow a branch both ways from an orbit, to at most `beyond` + 1 unstable points in a row."""
+    """Follow a branch both ways, to where more than `beyond` orbits in a row are unstable."""
     family = _extended(family, span)
     problem = continuation.Problem.of(family, orbit)
     x, walks = problem.unknowns(orbit, value), []
@@ -107,7 +109,7 @@ def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
 
 
 def _extended(family, span):
-    """Return the family, continued linearly by up to EXTENDED beyond bounds of the parameter."""
+    """Return a function like `family` that extrapolates linearly to parameters beside `span`."""
 
     def extended(value):
         try:
@@ -125,7 +127,7 @@ def _extended(family, span):
 
 
 def _walk(problem, first, span, beyond) -> Branch:
-    """Follow a branch from `first` along its tangent; return a `Branch` whose first end is ""."""
+    """Follow a branch from `first` along its tangent; return a `Branch` with "" as `ends[0]`."""
     points, events, lost, end, idle = [first], [], 0, "", 0
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
         outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0
@@ -171,10 +173,10 @@ def _walk(problem, first, span, beyond) -> Branch:
 
 
 def _next_pieces(point, span, length, search):
-    """Return the pieces (`_through_grazing`) of the next step, [] if the step must be shorter.
+    """Return the pieces of the next step (see `_through_grazing`), [] if the step must be shorter.
 
-    Also return the factor from the length of this step to the next attempt, and whether a grazing
-    was searched for. `search` allows this search.
+    Also return the factor from the length of this step to that of the next attempt, and whether a
+    grazing was searched for. If `search` is false, no grazing is searched for.
     """
     ahead, factor = continuation.next_point(point, span, length)
     changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
@@ -192,7 +194,7 @@ def _next_pieces(point, span, length, search):
         return [], 0.5, search
     along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
     located, missed = events_between(point, ahead, along)
-    # A branch that meets a branch of more symmetry has a fold there.
+    # Where a branch meets a branch of more symmetry, it has a fold.
     crosses = point.orbit.deviation @ ahead.orbit.deviation < 0
     unseen = crosses and not any(event.kind == "fold" for event in located)
     if length > CLEAR_STEP and (missed or unseen):
@@ -201,9 +203,10 @@ def _next_pieces(point, span, length, search):
 
 
 def _ending(piece, first, span):
-    """Return why a branch ends on a piece, or ""; the events before; whether a meeting is lost.
+    """Return why a branch ends on a piece ("" if it goes on), and the events before this end.
 
-    `first` is the first point of a branch that may be closed, otherwise None.
+    Also return whether a meeting with a branch of more symmetry was not located. `first` is the
+    first point of the branch, or None if the branch has too few points to be closed.
     """
     start, ahead, located, missed = piece
     met = None
@@ -222,9 +225,9 @@ def _ending(piece, first, span):
 
 
 def _through_grazing(point, reach):
-    """Return the pieces of a branch through the grazing within `reach`, [] without a grazing.
+    """Return the pieces of a branch through the next grazing within `reach`, [] without a grazing.
 
-    A piece is a point, the next point, the events between them, and the number of lost events.
+    A piece is a point, the next point, the events between both, and the number not located.
     """
     passage = through_grazing(point, reach)
     if passage is None:
@@ -244,8 +247,8 @@ def _through_grazing(point, reach):
 def _meeting(events, orbit):
     """Return the index of the event at which a branch meets a branch of more symmetry, or None.
 
-    The meeting is a fold of the branch at which the deviation vanishes. The deviation can also
-    reverse without a meeting. If there is no fold, the meeting is lost: return len(events).
+    The meeting is a fold of the branch at which `Orbit.deviation` vanishes. The deviation can also
+    reverse without a meeting. If no fold was located, the meeting is lost: return len(events).
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))
@@ -256,10 +259,7 @@ def _meeting(events, orbit):
 
 
 def _passes(point, ahead, first):
-    """Return the point between two points that has the same orbit as the point `first`, or None.
-
-    The parameter must change on the step in the same direction as at the beginning of the branch.
-    """
+    """Return the point between two points with the same orbit as the point `first`, or None."""
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
         return None

@@ -47,28 +47,30 @@ def clearance_sweep(
     ----------
     system : Oscillator or Machine
     damper : dict, Damper or MachineDamper
-        Its clearance is ignored. With an `Oscillator` it may be a dictionary of arguments of
-        `Damper` without the clearance.
+        The clearance of the damper is ignored. With an `Oscillator`, the damper may be a dictionary
+        of arguments of `Damper` without the clearance.
     frequency : float
         Forcing frequency W, or Hz for a machine.
     clearances : sequence of float
-        Increasing clearances d0 on each side of the loose mass. For a machine full play in m, as in
-        `Machine.damper`; the clearances of the result are then full play, too.
+        Increasing clearances d0 on each side of the loose mass. For a machine they are values of
+        the full play in m, like `gap` in `Machine.damper`, and so are the clearances of the result.
     method : str
-        "simulated" finds the motions. "harmonic_balance" returns only the amplitude and the optimum
-        by (7), and the clearances by the rules.
+        "simulated" finds the motions. "harmonic_balance" finds none: the result has only the
+        amplitude and the optimum by equation (7), and the clearances by rules (18) and (19).
     starts, radius, whole_gap, seed, settling, workers, progress
         As in `frequency_response`, for each clearance.
 
     Returns
     -------
     xarray.Dataset
-        For each (clearance, motion): a motion, as in a frequency response. For each `clearance`:
-        max |Z1| of the quiet motion, and of all motions to which starts lead; the amplitude of the
-        smallest stable solution of (7). Scalars: the optimum of the quiet motion, its kind, and the
-        optimum of (7); the clearances by rules (18) and (19), NaN for (19) if the response without
-        damper has no peak; rm W^2 d0/f at the optimum, and for straight flight. For each `edge`: an
-        end of the clearances at which max |Z1| of the quiet motion is within 10 % of its minimum.
+        For each (clearance, motion): a motion, as in `frequency_response`. For each `clearance`:
+        max |Z1| of the quiet motion (period 1, symmetric, two contacts), max |Z1| of all motions to
+        which starts lead, and the amplitude of the smallest stable solution of (7). Scalars: the
+        optimum clearance of the quiet motion and its kind; the optimum by (7); the clearances by
+        rules (18) and (19), of which (19) is NaN if the response without a damper has no peak; the
+        ratio rm W^2 d0/f at the optimum, and the ratio that the theory of straight flight gives.
+        For each `edge`: the least and the greatest clearance around the optimum at which max |Z1|
+        of the quiet motion is within 10 % of its minimum.
 
     Raises
     ------
@@ -157,10 +159,10 @@ def _peak_rule(oscillator, mass_ratio):
 
 
 def _quiet_motions(data, clearances, rule):
-    """Return states and max |Z1| (NaN if absent) of quiet motions by clearance; an index or None.
+    """Return the state and max |Z1| of the quiet motion at each clearance, and an index or None.
 
-    A quiet motion has period 1, is symmetric and has two contacts in a cycle. The index is of the
-    clearance nearest to `rule` with a quiet motion. The other quiet motions lie on its branch.
+    The index is that of the clearance with a quiet motion that is closest to `rule`. At other
+    clearances only motions of the same branch are quiet. Without a quiet motion max |Z1| is NaN.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -176,7 +178,7 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return clearances and max |Z1| of the stable part of a branch, and max |Z1| as a function."""
+    """Return clearances of a branch's stable part, max |Z1| there, and max |Z1| as a function."""
 
     def family(clearance):
         changed = p.copy()
@@ -200,8 +202,8 @@ def _stable_part(p, state, span):
 
 # Ratio of max |Z1| to its minimum at the ends of the range of clearances near the minimum.
 NEAR_MINIMUM = 1.1
-# DIFFERENCE: step of the difference quotient. WIDE: largest distance of its zero from the numerical
-# minimum. Both are divided by the clearance.
+# DIFFERENCE: step of the difference quotient of max |Z1|. WIDE: largest distance of the quotient's
+# zero from the minimum that was found before. Both are divided by the clearance.
 DIFFERENCE, WIDE = 3e-5, 1e-4
 
 
@@ -237,7 +239,7 @@ def minimum_table(values, sizes, size_at, span):
 
 
 def _stationary(size_at, best):
-    """Return the zero of the derivative of max |Z1| beside the minimum `best`, or else `best`."""
+    """Return the zero of the derivative of max |Z1| near `best`, or `best` if no zero is found."""
     step, reach = DIFFERENCE * best, WIDE * best
 
     def slope(clearance):
@@ -249,19 +251,19 @@ def _stationary(size_at, best):
 
 
 def _kind(size_at, best, least, longest):
-    """Return "smooth" or "kink" for a minimum, from the rise of max |Z1| after a step away from it.
+    """Return "smooth" or "kink", the kind of the minimum of max |Z1| at the clearance `best`.
 
-    After half the step, the rise is only a quarter at a smooth minimum, and half at a kink.
+    If the distance from the minimum is halved, the rise falls to a quarter (smooth) or half (kink).
     """
     rises = [
         size_at(best + step) + size_at(best - step) - 2 * least for step in (longest, longest / 2)
     ]
-    # 0.36 is close to the geometric mean of a quarter and a half.
+    # 0.36 lies between a quarter and a half.
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
 
 
 def _near(values, sizes, size_at, best, least):
-    """Return the clearance at which max |Z1| is NEAR_MINIMUM times `least`, else `values[-1]`."""
+    """Return the clearance at which max |Z1| is NEAR_MINIMUM times `least`, or `values[-1]`."""
     level = NEAR_MINIMUM * least
     inside = best
     for value, size in zip(values, sizes, strict=True):

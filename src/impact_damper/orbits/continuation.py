@@ -1,7 +1,4 @@
-"""Pseudo-arclength continuation of periodic orbits in one parameter: its equations and its steps.
-
-The unknowns are the states at the beginnings of the orbit's segments, and the parameter.
-"""
+"""Pseudo-arclength continuation of periodic orbits in one parameter: equations and steps."""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -20,38 +17,39 @@ from impact_damper.orbits.orbit import TURN, Orbit, integrate
 from impact_damper.orbits.segments import FINE_NUDGE, NUDGE, slopes_of_ends
 from impact_damper.orbits.shooting import AMPLIFYING
 
-# Newton's method: largest number of corrections, and largest change of an unknown by a correction.
+# Newton's method makes at most NEWTON corrections, each of which changes unknowns by up to LARGEST.
 NEWTON, LARGEST = 10, 0.5
-# Newton's method has converged if the residual is a rounding error and in addition
-# - the derivative by the parameter is new, and the last correction is below CLOSE, or is below
-#   ROUNDING and more than half as large as the correction before; or
-# - the correction before the last one is below SURE.
+# Newton's method has converged if the residual is a rounding error and one of these is true:
+# - The correction before the last one is below SURE.
+# - The derivative by the parameter is new, and the last correction is below CLOSE.
+# - The derivative is new. The last correction is below ROUNDING and above half the one before.
 # With a larger residual it fails if a correction exceeds SURE and SHRINKING times the one before.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
-# The derivative by the parameter is expensive. It is updated only after a correction below REFINED,
-# if the corrections since the last update add up to more than UNMOVED.
+# The derivative by the parameter is expensive. It is updated only if the last correction is below
+# REFINED and the sum of the corrections since the last update exceeds UNMOVED.
 REFINED, UNMOVED = 1e-4, 5e-6
 # A linear system is nearly singular if the ratio of solution to right side exceeds SINGULAR^-0.5.
-# In this case singular values below SINGULAR times the largest one are set to zero.
+# In this case singular values below SINGULAR times the largest singular value count as zero.
 SINGULAR = 1e-8
-# First and shortest step along a branch, as a distance in the metric of `Problem`.
+# Lengths of the first and of the shortest step along a branch, in the metric of `Problem`.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# LONGEST (for symmetric or stable orbits), LONGEST_UNSTABLE (for others): longest step, divided by
-# the length of the vector of unknowns or, if this is larger, by SMALLEST.
+# Longest step: the length of the vector of unknowns, or SMALLEST if this is larger, times LONGEST
+# for symmetric or stable orbits, and times LONGEST_UNSTABLE for other orbits.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
-# Largest distance of the first guess of `Problem.at_value` from the given point.
+# Largest distance of the first guess of `Problem.at_value` from the given point. A farther guess
+# near a fold could be a state so large that its integration takes minutes.
 FARTHEST_GUESS = 0.08
-# Largest sum of corrections, divided by the step. A larger sum may lead to another branch. Newton's
-# method stops if the first correction exceeds FAILING times the largest sum.
+# ASIDE: largest distance of a point from its first guess, divided by the step. Farther points may
+# lie on another branch. The first correction must be below FAILING times this distance.
 ASIDE, FAILING = 0.2, 2.0
 
 
 class Point(NamedTuple):
     """A point of a branch; vectors have the shape (m n + 1,) for m segments.
 
-    The unknowns `x` are the n = 4 components of the state at the beginning of each segment (without
-    a damper n = 2: Z1, Z1'), and the parameter. The `tangent` has the length 1 in the metric of the
-    problem. `bend` and `twist` are the tangent's first and second derivative by the length.
+    The unknowns `x` are the first states of the segments, each with n = 4 components (without a
+    damper n = 2: Z1, Z1'), and the parameter `value`. The `tangent` has the length 1 in the metric
+    of the `problem`. `bend` and `twist` are its first and second derivative along the branch.
     """
 
     value: float
@@ -67,13 +65,13 @@ class Point(NamedTuple):
 class Problem:
     """The equations for the orbits of a branch: each segment ends where the next one begins.
 
-    The metric: the square of the distance of two points is the mean over the segments of the
-    squared distance of their states, plus the squared difference of the parameter.
+    In the metric, the squared distance of two points is the sum of the squared distance of their
+    states, averaged over the segments, and the squared difference of the parameter.
 
     The function `family` maps the parameter to packed parameters. `loose` is Z2 - Z1 and Z2' - Z1',
     constant without a damper. If `symmetric`, the segments cover half the period and all orbits are
-    symmetric. Such equations are regular where an orbit loses its symmetry. `rough` is the
-    largest norm of a segment's derivative after the last `recut`; 0 before, and for one segment.
+    symmetric. Such equations are regular where an orbit loses its symmetry. `rough` is the largest
+    norm of a segment's derivative after the last `recut` into several segments, otherwise 0.
     """
 
     family: Callable[[float], np.ndarray]
@@ -117,7 +115,7 @@ class Problem:
 
     @cached_property
     def metric(self):
-        """Weights of squared differences of unknowns in a squared distance, shape (m n + 1,)."""
+        """Weights w, shape (m n + 1,); the squared distance is the sum of w (difference of x)^2."""
         m = len(self.phases) - 1
         return np.append(np.full(m * self.size, 1 / m), 1.0)
 
@@ -136,7 +134,7 @@ class Problem:
         return np.concatenate([x[:2], x[:2] + self.loose])[None]
 
     def shoot(self, x):
-        """Return the orbit at the unknowns x, without iteration."""
+        """Return the `Orbit`, periodic or not, that has the unknowns x."""
         states = self.states(x)
         return integrate(self.family(x[-1]), self.periods, self.phases, states, self.sign)
 
@@ -149,7 +147,7 @@ class Problem:
         )
 
     def rows(self, x, orbit):
-        """Return the derivative of the defects by the unknowns, shape (m n, m n + 1)."""
+        """Return the derivative of `Orbit.defects` by the unknowns, shape (m n, m n + 1)."""
         return self._matrix(orbit, self._slopes(orbit, self.rate(x[-1])))
 
     def _slopes(self, orbit, rate):
@@ -213,11 +211,7 @@ class Problem:
         return None if point is None or self.length(point.x - x) > aside else point
 
     def at_value(self, point, value):
-        """Return the point near `point` at a close value of the parameter, or None.
-
-        The first guess lies on the tangent, at most FARTHEST_GUESS away. Without this limit, the
-        guess near a fold would be a large state, whose integration takes minutes.
-        """
+        """Return the point near `point` at which the parameter is `value`, or None."""
         length = (value - point.x[-1]) / (point.tangent[-1] or np.inf)
         x = point.x + np.clip(length, -FARTHEST_GUESS, FARTHEST_GUESS) * point.tangent
         x[-1] = value
@@ -229,7 +223,7 @@ class Problem:
 
 
 def point_at_distance(origin, point, ahead, distance):
-    """Return the point at a distance from `origin` between two points, or None on failure."""
+    """Return the point between two points at a distance along the tangent of `origin`, or None."""
     row = origin.problem.metric * origin.tangent
     first, last = (row @ (end.x - origin.x) for end in (point, ahead))
     x = _cubic(point, ahead, (distance - first) / (last - first))
@@ -238,13 +232,13 @@ def point_at_distance(origin, point, ahead, distance):
 
 
 def point_at_value(point, ahead, value):
-    """Return the point at a value between two points of the same problem, or None on failure."""
+    """Return the point between two points of one problem with `value` as parameter, or None."""
     problem, chord = point.problem, ahead.x - point.x
 
     def beyond(fraction):
         return _cubic(point, ahead, fraction)[-1] - value
 
-    # A value at an end of the step may lie beyond the end by a rounding error.
+    # If the value belongs to one of both points, a rounding error may put it beyond this point.
     ends = beyond(0.0), beyond(1.0)
     inside = ends[0] * ends[1] < 0
     fraction = brentq(beyond, 0.0, 1.0) if inside else float(np.argmin(np.abs(ends)))
@@ -258,9 +252,9 @@ def point_at_value(point, ahead, value):
 
 
 def _cubic(point, ahead, fraction):
-    """Return the unknowns on the cubic curve through two points with the tangents there.
+    """Return the unknowns on the cubic curve that touches the branch at two points.
 
-    `fraction` is the projection on the tangent at the first point: 0 there, 1 at the second point.
+    `fraction` is the distance along the first tangent: 0 at the first point, 1 at the second point.
     """
     row = point.problem.metric * point.tangent
     chord = ahead.x - point.x
@@ -271,16 +265,17 @@ def _cubic(point, ahead, fraction):
     return point.x + fraction * length * point.tangent + bent
 
 
-# A step beyond these bounds may lead to another branch and is not accepted: largest angle between
-# the tangents at both ends; largest difference between the unit vectors of chord and mean tangent.
+# A step beyond one of these bounds may lead to another branch and is not accepted. TURNED: angle,
+# radian, between the tangents at both points. SKEW: length of the difference between the unit
+# vectors along the chord and along the mean tangent.
 TURNED, SKEW = 0.5, 0.03
-# Length of the next step: fraction of TURNED and SKEW that the step aims at; largest ratio to the
-# step before; smallest ratio to a step that was not accepted.
+# AIM: a step aims at AIM TURNED and AIM^2 SKEW. GROWTH: largest ratio of a step to the step before.
+# SHRINKAGE: smallest ratio of a step to the step before, if that was not accepted.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
-    """Return the next point within `span` (or None), and the factor for the next step's length."""
+    """Return the next point within `span`, or None, and the factor for the next step's length."""
     problem = point.problem
     bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
     ahead = problem.near(point.x + length * point.tangent + bent, point.tangent, length)
@@ -310,7 +305,7 @@ def with_bend(point, ahead):
 
 
 def folds_twice(point, ahead):
-    """Return whether the cubic curve of the step between two points has two folds."""
+    """Return whether the cubic curve between two points of a branch has two folds."""
     length = point.problem.length(ahead.x - point.x)
     first, last = length * point.tangent[-1], length * ahead.tangent[-1]
     chord = ahead.value - point.value
@@ -321,9 +316,9 @@ def folds_twice(point, ahead):
     return first * (first - middle**2 / (4 * bend)) < 0
 
 
-# Bounds of an orbit that keeps its several segments: smallest distance of a segment's edge from a
-# contact, radian; largest norm of a segment's derivative, divided by `Problem.rough`; smallest
-# `Orbit.amplification`, divided by AMPLIFYING.
+# Bounds within which an orbit keeps its several segments. NEAR_SECTION: smallest distance of a cut
+# from a contact, radian. ROUGHER: largest norm of a segment's derivative, divided by
+# `Problem.rough`. MILD: smallest `Orbit.amplification`, divided by AMPLIFYING.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
@@ -340,7 +335,7 @@ def holds_still(point):
 
 
 def recut(point, between=()):
-    """Return the point with one segment or new ones (`segments.cut`), unchanged if this fails."""
+    """Return the point with new segments or a single one, unchanged if Newton's method fails."""
     before, orbit = point.problem, point.orbit
     phases, rough = segments.cut(orbit, before.cycle, between), 1.0
     if not between and orbit.amplification <= AMPLIFYING:

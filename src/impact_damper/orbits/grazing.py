@@ -1,7 +1,7 @@
 """Follow a branch through a grazing, at which a contact appears, vanishes, or parts in two.
 
 At a grazing an extremum of Z2 reaches its wall, and the branch turns sharply. The height of the
-extremum is |Z2| - d0. As functions of the height, orbits are smooth except for a term of power 3/2.
+extremum is |Z2| - d0. Except for a term of the power 3/2, an orbit depends smoothly on the height.
 """
 
 from typing import NamedTuple
@@ -14,21 +14,21 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
 from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
-# Moduli of the heights of points on the side with more contacts: ratio of successive moduli,
-# smallest modulus, largest modulus.
+# Moduli of heights on the side with more contacts: ratio of neighbours, the least, the largest.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# Largest number of divisions of failed steps: on a way through a grazing, and between two points.
+# Most divisions of failed steps: on the way through a grazing, and between two points of the way.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# A step in which `Orbit.deviation` falls below FALLEN times its value leads to another branch.
+# A step that reduces `Orbit.deviation` to less than FALLEN times its size leads to another branch.
 FALLEN = 0.01
 # Heights of points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
-# Newton's method: LARGEST correction. The height's largest error is CLOSE times it plus ROUNDING.
+# Newton's method fails if a correction changes an unknown by LARGEST. At its end the error of the
+# height is below CLOSE times the height plus ROUNDING.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction):
-    """Return the point near x at which an extremum has a height, and the extremum; or None."""
+    """Return the point near x at which an extremum has a height, and the `Turn` there; or None."""
     x = x.copy()
     for _ in range(NEWTON):
         orbit = problem.shoot(x)
@@ -53,7 +53,7 @@ def at_height(problem, x, turn, height, direction):
 
 
 class Passage(NamedTuple):
-    """Points of a branch through a grazing, with heights and `Turn`s of the extremum there.
+    """Points of a branch through a grazing, with height and `Turn` of the extremum at each point.
 
     `grazing` is the index of the point closest to the grazing, on the side with more contacts.
     `kind` is "grazing", or "merging" if a contact parts in two or two contacts become one.
@@ -66,7 +66,7 @@ class Passage(NamedTuple):
     kind: str
 
     def between(self, k):
-        """Return a function of the height that finds the point between points k and k + 1."""
+        """Return a function that finds the point of a given height between points k and k + 1."""
         known = [(self.heights[end], self.points[end], self.turns[end]) for end in (k, k + 1)]
         direction = np.sign(self.heights[k + 1] - self.heights[k])
 
@@ -116,7 +116,7 @@ def through_grazing(point, reach):
 
 
 def _along(point, turn, targets, direction, contacts):
-    """Follow a branch from height to height, as far as possible; return points, heights, turns."""
+    """Follow a branch from height to height as far as possible; return points, heights, turns."""
     points, heights, turns = [point], [turn.height], [turn]
     pending, halvings = targets[::-1], 0
     while pending and halvings <= HALVINGS:
@@ -139,7 +139,7 @@ def _along(point, turn, targets, direction, contacts):
 
 
 def _before(height, target):
-    """Return the height that divides a failed step: geometric mean, or nearer 0 if signs differ."""
+    """Return a height that divides a failed step: the geometric mean if both signs are equal."""
     if height * target > 0:
         return height * (target / height) ** 0.5
     return height / 2 if abs(height) > abs(target) else target / RATIO
@@ -158,7 +158,7 @@ def _targets(height, sharp, direction):
 SHIFT = 1e-10
 # First size of the list of extrema, divided by the number of segments.
 TURNS = 256
-# Largest difference of phase, radian, of the same extremum on two orbits.
+# Largest difference, radian, between the phases of the same extremum on two neighbouring orbits.
 MOVED = 0.1
 
 
@@ -189,7 +189,7 @@ def turns_of(orbit):
 def with_gradient(problem, x, orbit, turn):
     """Return an extremum with its gradient; x are the unknowns of the orbit in the `problem`.
 
-    Z2' is zero at the extremum, so the height changes as Z2 does at a constant phase.
+    Z2' is zero at the extremum, so a small shift of its phase does not change the height.
     """
     k, rate = turn.segment, problem.rate(x[-1])
     phases, begin = np.array([orbit.phases[k], turn.phase]), orbit.states[k]

@@ -22,12 +22,12 @@ from impact_damper.orbits.segments import flow_all
 
 # Length of a forcing cycle as a phase, radian.
 TURN = 2 * math.pi
-# Largest residual of a converged orbit, divided by its largest state, at least 1. With contacts the
-# bound may rise to STIFF_RESIDUAL times their natural frequency, which multiplies rounding errors.
+# Largest residual of a converged orbit, divided by max(1, largest component of its states). With
+# contacts it is at least STIFF_RESIDUAL times their frequency, which multiplies rounding errors.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # Smallest distance of the first phase of an orbit from a contact, radian.
 MARGIN = 0.15
-# Half the first size of the log of contacts, divided by the sum of forcing cycles and segments.
+# The log of contacts begins with 2 CONTACTS rows for each forcing cycle and for each segment.
 CONTACTS = 64
 
 
@@ -35,13 +35,15 @@ CONTACTS = 64
 class Orbit:
     """A periodic orbit, or an approximation of one, in m segments whose ends should lie in flight.
 
-    p, periods: Packed parameters, and period n in forcing cycles.
-    phases: Phases W T at the beginnings of segments and at the last end, shape (m + 1,).
-    states, ends: States at the beginnings and, by integration, at the ends of segments, (m, 4).
+    p: Packed parameters.
+    periods: Period n in forcing cycles.
+    phases: Phases W T at the beginnings of segments and at the end of the last, shape (m + 1,).
+    states: States at the beginnings of segments, shape (m, 4).
     sign: -1 if the segments cover half the period of a symmetric orbit, otherwise 1.
+    ends: States at the ends of segments, by integration, shape (m, 4).
     factors: Derivatives of `ends` by `states`, (m, 4, 4); the last is multiplied by `sign`.
     contact_time: Total time in contact in all segments.
-    maps: Number of integrations over all segments by Newton's method.
+    maps: How often all segments were integrated to find the orbit.
     """
 
     p: np.ndarray
@@ -71,7 +73,7 @@ class Orbit:
 
     @cached_property
     def defects(self):
-        """End of each segment minus beginning of the next, shape (m, 4); zero if periodic."""
+        """End state of each segment minus first state of the next, (m, 4); zero if periodic."""
         defects = np.empty_like(self.ends)
         defects[:-1] = self.ends[:-1] - self.states[1:]
         defects[-1] = self.sign * self.ends[-1] - self.states[0]
@@ -93,7 +95,7 @@ class Orbit:
 
     @cached_property
     def matrix(self):
-        """Product of the `factors`, shape (4, 4); its eigenvalues are inexact, see `segments`."""
+        """Product of the `factors`, (4, 4). Its eigenvalues are less exact than `multipliers`."""
         return reduce(lambda product, factor: factor @ product, self.factors)
 
     @property
@@ -153,7 +155,7 @@ class Orbit:
         """Contacts of a cycle, largest |Z1|, and complex first harmonics of Z1 and Z2."""
         states, phases = self.states.copy(), self.phases
         if side_of(self.p, states[0]) != 0:
-            # A contact at the first state begins in the cycle before, so survey two cycles.
+            # The contact at the first state began in the cycle before, so survey two cycles.
             phases = self.phases[0] + np.array([0.0, 2 * self.cycle])
         times = phases / self.p[FREQUENCY]
         room, sums = 2 * CONTACTS * (self.periods + len(states)), np.empty((2, 2))
@@ -177,13 +179,13 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls touched in the order of time, such as "+-": the cyclic shift that sorts first."""
+        """Walls touched in the order of time, such as "+-", from the beginning that sorts first."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
     @property
     def least_speed(self):
-        """Smallest |Z2'| at which a contact begins, small near a grazing, NaN without contacts."""
+        """Smallest |Z2'| at which a contact begins, NaN without contacts."""
         return np.min(np.abs(self.contacts[:, 3]), initial=np.inf) if self.touching else np.nan
 
     @property
@@ -193,8 +195,8 @@ class Orbit:
         return np.min(after / before, initial=np.inf) if self.touching else np.nan
 
     def at(self, phase):
-        """Return the state, shape (4,), at a phase W T, radian, from the first phase on."""
-        # Beyond the end of a single segment the motion is integrated on, instead of repeated.
+        """Return the state, shape (4,), at a phase W T, radian, not before the first phase."""
+        # A single segment is integrated beyond its end. Several segments are repeated.
         turns = int((phase - self.phases[0]) // self.cycle) if len(self.states) > 1 else 0
         local = phase - turns * self.cycle
         k = min(max(int(np.searchsorted(self.phases, local, "right")) - 1, 0), len(self.states) - 1)
@@ -204,7 +206,7 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """State minus (for odd n: plus) the state half a period later, shape (4,).
+        """First state minus the state half a period later (if n is odd, their sum), shape (4,).
 
         The deviation changes its sign where a branch meets a branch of symmetric orbits or of half
         the period. If `sign` is -1, all entries are 1.
@@ -248,7 +250,7 @@ class Orbit:
         return any(shift[k] < tolerance for k in range(1, self.periods) if self.periods % k == 0)
 
     def margin(self, phases):
-        """Return the distances of phases from the nearest contact, radian; -1 during a contact."""
+        """Return each phase's distance from the nearest contact, radian; -1 during a contact."""
         begins, ends = (self.p[FREQUENCY] * self.contacts[:, k] for k in (1, 2))
         cycle, phases = self.periods * TURN, np.asarray(phases)[..., None]
         ahead, behind = (begins - phases) % cycle, (phases - ends) % cycle
@@ -257,7 +259,7 @@ class Orbit:
         return np.min(distances, axis=-1, initial=np.inf)
 
     def flight_phase(self):
-        """Return the first phase, or the middle of the longest flight if a contact is near."""
+        """Return the first phase or, if it is near a contact, the middle of the longest flight."""
         if not self.touching or self.margin(self.phase) > MARGIN:
             return self.phase
         ends = self.p[FREQUENCY] * self.contacts[:, 2]

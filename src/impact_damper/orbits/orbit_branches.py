@@ -21,8 +21,8 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import follow_others, met_by
 
-# Largest sum of the periods, in forcing cycles, of unstable orbits in a row on a branch of a period
-# above 1. Stable parts of the branch beyond this sum are narrower than 0.01 in W.
+# A branch of a period above 1 ends when the periods of unstable orbits in a row exceed BEYOND
+# forcing cycles together. Stable parts of the branch farther on are narrower than 0.01 in W.
 BEYOND = 300
 
 
@@ -47,9 +47,9 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     Returns
     -------
     xarray.Dataset
-        The variables of each `point` of `orbit_branches`, for this orbit. The phase of the state
-        lies in a flight. For each `contact`: the wall, and the times and the relative velocities
-        Z2' at the beginning and the end.
+        The variables that `orbit_branches` has for each `point`, for this orbit. The state is given
+        at a phase in a flight. For each `contact`: the wall, and the time and the relative velocity
+        Z2' at the beginning and at the end.
 
     Raises
     ------
@@ -100,12 +100,16 @@ def orbit_branches(
     """Follow branches of periodic orbits over a parameter, stable or not.
 
     With a frequency and a state, the function follows the branch of the orbit near the state. With
-    datasets of motions, it follows every branch over frequency through a settled motion. It also
-    follows the branches that leave a branch of period 1 or 3, at a period doubling only next to
-    stable orbits. From branches of other periods it follows branches of a period up to 9 that begin
-    stable, next to stable orbits. It follows the branch of more symmetry at which a branch of a
-    period up to 4 ends. It stops a branch of a period above 1 when the periods of unstable orbits
-    in a row exceed 300 forcing cycles together.
+    `motions`, it follows over the frequency every branch through a settled motion, and in addition
+
+    - from a branch of period 1 or 3: branches that leave at a loss of symmetry, or at a period
+      doubling next to stable orbits;
+    - from other branches: branches of a period up to 9 that leave next to stable orbits and begin
+      stable;
+    - the branch of more symmetry (or half the period) at which a branch of a period up to 4 ends.
+
+    With `motions`, a branch of a period above 1 ends when the periods of unstable orbits in a row
+    exceed 300 forcing cycles together.
 
     Parameters
     ----------
@@ -134,18 +138,17 @@ def orbit_branches(
         residual, and the error of the determinant by Liouville's theorem. `orbit_status` says how
         reliable these numbers are. For each `event`: its kind, which is fold, symmetry breaking,
         period doubling, Neimark-Sacker bifurcation, grazing (a contact appears or vanishes in
-        flight) or merging (two contacts with a wall become one). For each (branch, edge): the
-        reason why the branch ends. With `motions`: the number `seeds` of settled motions (with a
-        damper: of settled motions with contacts), and the number `seeds_lost` of seeds for which no
-        orbit was found. A branch and its mirror image are one branch.
+        flight) or merging (two contacts with one wall become one, or one contact becomes two). For
+        each (branch, edge): the reason why the branch ends. With `motions`: `seeds`, the number of
+        settled motions (with a damper, of those with contacts); and `seeds_lost`, the number of
+        seeds without an orbit of their period. A branch and its mirror image are one branch.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is of another type or out of range.
     ArithmeticError
-        If Newton's method finds no orbit near the state, or an orbit that repeats sooner, after a
-        divisor of the period.
+        If Newton's method finds no orbit near the state, or finds an orbit that repeats sooner.
 
     Examples
     --------
@@ -183,7 +186,7 @@ def orbit_branches(
 
 
 def _all_branches(system, damper, span, motions, progress):
-    """Return a dataset of branches through all settled motions, and of branches that leave them."""
+    """Return the dataset of `orbit_branches` with `motions`."""
     model = read_system(system, damper)
     damper = model.damper
     span = read_span(model.scales, "span", span, "frequency", **bounds.FREQUENCY_RANGE)
@@ -231,7 +234,7 @@ def _checked_orbit(model, state, period, phase):
 
 
 def _seeds(motions, damper):
-    """Yield period, frequency, max |Z1| and state of settled motions; damped ones have contacts."""
+    """Yield period, frequency, max |Z1| and state of settled motions (damped: with contacts)."""
     for data in motions:
         chosen = data["outcome"].values == flag("outcome", "settled")
         if damper is not None:
@@ -246,8 +249,8 @@ def _seeds(motions, damper):
             )
 
 
-# Largest |Z2'| at the beginning of a contact near grazing. Multipliers are valid there only for
-# very small disturbances d, because the coefficient of a term d^(3/2) grows near grazing.
+# An orbit is near a grazing if a contact begins with |Z2'| below SLOW. Multipliers are then valid
+# only for very small disturbances d, because the coefficient of a term d^(3/2) is large.
 SLOW = 0.01
 
 
@@ -260,7 +263,7 @@ def _status(orbit):
 
 
 def orbit_variables(pairs):
-    """Return the variables with the dimension `point`, from pairs of a value and an `Orbit`."""
+    """Return the variables with the dimension `point`, from pairs (parameter, `Orbit`)."""
     values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
     records = np.array([orbit.record for orbit in orbits], MOTION)
     first, second = records["harmonic_displacement"], records["harmonic_relative"]

@@ -1,6 +1,7 @@
 """Multiple shooting: the division of an orbit into segments, and the algebra of their derivatives.
 
-A strongly unstable orbit is accurate if each of its segments amplifies rounding errors little.
+A strongly unstable orbit is accurate if each of its segments amplifies rounding errors little. The
+derivative of a segment is that of its last state by its first. A segment begins at each cut.
 """
 
 from functools import reduce
@@ -25,12 +26,12 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
 # Smallest ratio of the moduli of two multipliers that orthogonal iteration separates.
 APART = 30.0
-# Orthogonal iteration: largest number of sweeps; change of the basis below which iteration ends;
-# change of the basis in the last sweep from which on multipliers are not separated.
+# Orthogonal iteration makes at most SWEEPS sweeps, and ends when a sweep changes the basis by less
+# than SETTLED. Multipliers are separated only if the last sweep changed it by less than COUPLED.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # Largest norm of the derivative of a segment, if possible.
 AMPLIFIED = 30.0
-# Smallest distance of an edge of a segment from contacts, radian.
+# Smallest distance of a cut from contacts, radian, if possible.
 CLEAR = 0.05
 
 
@@ -78,10 +79,10 @@ def multipliers(factors):
 
 @kernel
 def sweep(factors, basis, triangles):
-    """Compute the QR factors in A_k Q_(k-1) = Q_k R_k of matrices A_k, by Gram-Schmidt.
+    """Compute the QR decompositions A_k Q_(k-1) = Q_k R_k of matrices A_k, by Gram-Schmidt.
 
-    `triangles` receives the R_k. `basis` is Q_0 and receives the last Q_k. Each vector is made
-    orthogonal twice, because rounding errors remain after the first time.
+    `triangles` receives the R_k. `basis` holds Q_0 at first, and the last Q_k at the end. Each
+    vector is made orthogonal twice, because rounding errors remain after the first time.
     """
     m, n = factors.shape[:2]
     moved = np.empty((n, n))
@@ -114,7 +115,7 @@ def cut(orbit, cycle, between=()):
 
     An orbit without contacts is one segment. Otherwise the phases lie in the middle of flights, and
     the norm of a segment's derivative is below AMPLIFIED if possible. The phases `between` divide
-    flights into parts; each part longer than 2 CLEAR is cut.
+    flights into parts. Each part longer than 2 CLEAR is cut in its middle.
     """
     if not orbit.touching:
         return np.array([orbit.phase, orbit.phase + cycle])
@@ -132,7 +133,7 @@ def cut(orbit, cycle, between=()):
 
 
 def _sections(orbit, cycle, between):
-    """Return phases of possible cuts, the first in the longest flight, and of forced cuts."""
+    """Return two lists of phases: possible cuts, from the longest flight on, and forced cuts."""
     log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
     following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)
@@ -147,8 +148,8 @@ def _sections(orbit, cycle, between):
                 forced += [middle] * (len(marks) > 2)
             longest = max(longest, (high - low, middle))
     start = longest[1]
-    # If the cycle is half the period, each phase occurs twice. With the shift by 1e-9, `start`
-    # remains first in spite of rounding errors.
+    # If the cycle is half the period, flights half a period apart give the same phase modulo
+    # `cycle`. The shift by 1e-9 keeps `start` first in spite of rounding errors.
     places = np.sort(start + (np.array([*middles, start]) - start + 1e-9) % cycle - 1e-9)
     places = places[np.append(True, np.diff(places) > 1e-6)]
     places = places[places < start + cycle - 1e-6]
@@ -156,8 +157,8 @@ def _sections(orbit, cycle, between):
     return places, [place for place in places if np.min(np.abs(forced - place), initial=1) < 1e-6]
 
 
-# Change of the parameter in central differences: NUDGE, or FINE_NUDGE where a contact appears or
-# vanishes. There the difference of the one-sided differences exceeds BENT times their sum.
+# Central differences change the parameter by NUDGE. If the two one-sided differences differ by more
+# than BENT times their sum, a contact appears or vanishes, and the change is FINE_NUDGE.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 
@@ -210,10 +211,10 @@ def flow_all(p, states, tangents, times, tolerance):
 
 @kernel
 def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
-    """Compute the derivatives of the end states of segments by a parameter (central differences).
+    """Compute the derivatives of the segments' end states by a parameter, by central differences.
 
-    `rate` (COUNT,) holds the derivatives of the packed parameters by this parameter. `sign` is -1
-    if the segments cover half a symmetric orbit. `slopes` (m, n) receives the first n components.
+    `rate` (COUNT,) holds the derivatives of the packed parameters by this parameter. `sign` is
+    `Orbit.sign`. `slopes` (m, n) receives the first n components of each derivative.
     """
     work, none = workspace(), np.empty((0, 4))
     ahead, behind, moved = np.empty(4), np.empty(4), np.empty(COUNT)

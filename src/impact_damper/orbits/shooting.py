@@ -8,14 +8,14 @@ from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
 
-# Newton's method: largest number and largest size of corrections.
+# Newton's method: largest number of corrections, and largest correction of a component of a state.
 ITERATIONS, FAR = 20, 10.0
-# Largest residual of an approximate orbit whose state can be integrated to another phase.
+# With a residual below NEAR, an orbit is exact enough to be integrated to another phase.
 NEAR = 1e-6
-# Norm of the derivative over a cycle, above which multiple shooting is used.
+# Largest `Orbit.amplification` of an orbit that is found without multiple shooting.
 AMPLIFYING = 100.0
-# Largest number of divisions of an orbit; norm of a segment's derivative, divided by
-# `segments.AMPLIFIED`, above which the orbit is divided again.
+# An orbit is divided into segments at most CUTS times. It is divided again if the norm of a
+# segment's derivative is ROUGH times `segments.AMPLIFIED` or more.
 CUTS, ROUGH = 4, 4.0
 
 
@@ -31,8 +31,8 @@ def shoot(p, state, periods, phase, *, symmetric=False) -> Orbit:
 def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
     """Find the orbit near a state at a phase W T by Newton's method; see `Orbit.converged`.
 
-    Without contacts only Z1 and Z1' are unknown, and the loose mass keeps its state. The phase of
-    an orbit that is found lies in a flight.
+    Without contacts only Z1 and Z1' are unknown, and the loose mass keeps its state. The first
+    phase of a converged orbit lies in a flight.
     """
     orbit = newton(shoot(p, state, periods, phase))
     if orbit.amplification > AMPLIFYING:
@@ -51,7 +51,7 @@ def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
 def newton(orbit, reach=None) -> Orbit:
     """Return the orbit with the smallest residual among the iterates of Newton's method.
 
-    With `reach` the method ends at the first converged orbit or at this distance from the guess.
+    With `reach` the method ends at the first converged orbit, or before it moves as far as `reach`.
     """
     states, best, maps = orbit.states, orbit, 1
     for _ in range(ITERATIONS):
@@ -77,7 +77,7 @@ def newton(orbit, reach=None) -> Orbit:
 
 
 def polish(orbit) -> Orbit:
-    """Return the orbit that multiple shooting finds near an approximate one."""
+    """Return the orbit that multiple shooting finds near an approximate orbit."""
     maps = orbit.maps
     for _ in range(CUTS):
         phases = segments.cut(orbit, orbit.cycle)

@@ -15,21 +15,21 @@ from impact_damper.orbits.continuation import Point, Problem
 from impact_damper.orbits.grazing import at_height, through_grazing, turns_of, with_gradient
 from impact_damper.orbits.shooting import shoot
 
-# Distances from the bifurcation at which orbits of the other branch are searched for; largest
-# distance of such an orbit from the first guess, divided by its distance from the bifurcation.
+# DISTANCES of first guesses of the other branch from the bifurcation. ASIDE: largest distance of an
+# orbit from its first guess, divided by the guess's distance from the bifurcation.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
-# Search for an orbit of the other branch close to a grazing: relative changes of the height;
-# largest relative error and largest value of the distance from the bifurcation; largest number of
-# orbits from which the branch is followed through the grazing.
+# Search for the other branch near grazing. SHARES: relative changes of the height. MISSED: largest
+# relative error of the distance from the bifurcation. REACH: largest distance. PASSAGES: largest
+# number of orbits from which the branch is followed through the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch leaves.
 LEAVING = ("symmetry_breaking", "period_doubling")
-# Largest distance of the last orbit of a branch from the orbit of the branch that it meets there.
+# Largest distance between the last orbit of a branch and the orbit of the branch that it meets.
 MEETING = 1e-3
 
 
 def other_branch(event, *, stable=False) -> Point | None:
-    """Return a point (stable if `stable`) of the branch that leaves at a bifurcation, or None."""
+    """Return a point, a stable one if `stable`, of the branch that leaves at an event; or None."""
     leaving = _leaving(event)
     doubled = event.kind == "period_doubling"
 
@@ -50,10 +50,10 @@ def other_branch(event, *, stable=False) -> Point | None:
 
 
 def _leaving(event):
-    """Return the `Problem` of the other branch, and its unknowns and direction at an event."""
+    """Return `Problem`, unknowns and direction of the branch that leaves at an event."""
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
-    # After `problem.cycle` the state is `sign` times, the deviation -`sign` times itself.
+    # After `problem.cycle` the state is multiplied by `sign`, and the deviation by -`sign`.
     sign, size = (1 if doubled else -1), 4 if problem.damped else 2
     factors = point.orbit.factors[:, :size, :size].copy()
     factors[-1] *= -1
@@ -80,7 +80,7 @@ def _at_distance(leaving, distance):
 
 
 def _at_heights(leaving):
-    """Yield points of the other branch, at several heights of the extremum nearest to a grazing."""
+    """Yield points of the other branch, at several heights of the extremum that grazes first."""
     problem, x, direction = leaving
     # Search only the first half of the segments. The second half has the same extrema.
     half = (len(problem.phases) - 1) // 2 if problem.damped else 0
@@ -105,8 +105,9 @@ def _at_heights(leaving):
             yield found[0]
 
 
-# WHOLE: periods of branches from which unstable branches are followed too. STABLE: longest period
-# of a branch from other branches. MET: longest period of a branch followed to one of more symmetry.
+# From a branch with a period in WHOLE unstable branches are followed too. From other branches only
+# stable branches of a period up to STABLE are followed. MET: longest period of a branch from whose
+# ends a branch of more symmetry is followed.
 WHOLE, STABLE, MET = (1, 3), 9, 4
 # Largest differences of the parameter and of max |Z1| between an event and the end of the branch
 # that leaves there. The end is a fold, whose error is 1e-7 in branch length.
@@ -116,10 +117,7 @@ NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Append the branches that leave at events or are met at ends, as the functions below select.
-
-    The function `follow` returns the `Branch` of an orbit at a value of the parameter.
-    """
+    """Append to `branches` those that leave at their events, or that they meet at their ends."""
     for branch in branches:
         for edge in (0, -1):
             point = _more_symmetric(branches, branch, edge)
@@ -132,7 +130,7 @@ def follow_others(branches, follow):
 
 
 def _more_symmetric(branches, branch, edge):
-    """Return the point of a new branch of more symmetry that a branch meets at its end, or None."""
+    """Return the point where the end of a branch meets a new branch of more symmetry, or None."""
     kind, point = branch.ends[edge], branch.points[edge]
     orbit, symmetric = point.orbit, kind == "symmetry_breaking"
     if kind not in LEAVING or orbit.periods > MET:
@@ -150,7 +148,7 @@ def _more_symmetric(branches, branch, edge):
 def _new_branch(branches, branch, place, event):
     """Return a point of a new branch that leaves at an event, or None.
 
-    If the first branch has a period in WHOLE, a period doubling must lie next to stable orbits.
+    If the period of `branch` is in WHOLE, a period doubling must lie next to stable orbits.
     Otherwise the new branch must begin stable, next to stable orbits, with a period up to STABLE.
     """
     ends = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
@@ -196,7 +194,7 @@ def met_by(branches, number, edge):
 
 
 def _passes(branch, kind, point):
-    """Return whether a branch passes the orbit of a point, or has an event of a kind there."""
+    """Return whether a branch passes through a point, or has an event of a kind at this point."""
     periods = point.orbit.periods
     there = [each.point for _, each in branch.events if each.kind == kind]
     near = any(abs(each.value - point.value) < NEAR for each in there)

@@ -12,12 +12,12 @@ from numpy.polynomial import Polynomial
 from impact_damper.model.bounds import check_frequency
 from impact_damper.theory.roots import polynomial_roots
 
-# Largest relative excess over a bound, of an amplitude or its square, that rounding may cause.
+# Rounding may lift an amplitude, or its square, above its bound by this fraction of the bound.
 ROUNDING = 1e-9
 
 
 class FreeSolutions(NamedTuple):
-    """Ascending amplitudes a, phases t1 at one frequency, shape (count,); zeros without forcing."""
+    """Amplitudes a, ascending, and phases t1 of solutions at one frequency, shape (count,)."""
 
     amplitude: np.ndarray
     phase: np.ndarray
@@ -31,7 +31,7 @@ class Point(NamedTuple):
 
 
 class Resonance(NamedTuple):
-    """Amplitude and phase of the free resonance branch; beyond the fold its amplitude and None."""
+    """Amplitude and phase at one frequency on the free resonance branch (see `resonance`)."""
 
     amplitude: float
     phase: float | None
@@ -64,7 +64,7 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def balance_amplitudes(oscillator, frequency):
-    """Return the amplitudes of `main_solutions`; the smallest if a softening spring has no peak."""
+    """Return the amplitudes of `main_solutions`, or the least if a softening spring has no peak."""
     try:
         return main_solutions(oscillator, frequency).amplitude
     except ValueError:
@@ -74,7 +74,8 @@ def balance_amplitudes(oscillator, frequency):
 def resonance(oscillator, frequency) -> Resonance:
     """Return amplitude and phase on the branch of the response curve that has the peak.
 
-    The branch ends at the upper fold; with a softening spring, at the fold next to the peak.
+    The branch ends at the upper fold or, with a softening spring, at the fold next to the peak.
+    Beyond this fold, return the amplitude at the fold, and None as the phase.
     """
     free = main_solutions(oscillator, frequency)
     folds = free_folds(oscillator)
@@ -90,7 +91,7 @@ def maximum_response(oscillator) -> Point:
     """Return the maximum of the free response curve over W.
 
     The curve has the amplitude a at the roots W of (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2
-    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. At maxima the discriminant, quadratic in a^2, is 0.
+    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. At a maximum the discriminant is 0.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening

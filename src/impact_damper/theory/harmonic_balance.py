@@ -24,15 +24,15 @@ from impact_damper.theory.single_harmonic import (
     stability,
 )
 
-# Largest distance of neighbouring solutions of a branch, divided by the largest solution's size.
+# Largest distance of neighbouring solutions of a branch, divided by the largest component of all.
 JUMP = 0.25
 
 
 def branches_over(rows) -> list[np.ndarray]:
-    """Return the branch number of each solution in `rows`, with a row for each parameter value.
+    """Return the branch numbers of solutions, an array for each row of solutions.
 
-    Solutions in neighbouring rows are on one branch if each is nearest to the other, and their
-    distance is below JUMP times the size of the largest solution.
+    Neighbouring rows belong to neighbouring values of a parameter. Two solutions in such rows are
+    on one branch if each is the nearest to the other and their distance is small (see JUMP).
     """
     sizes = [np.max(np.abs(row)) for row in rows if len(row)]
     reach = JUMP * max(sizes, default=1.0)
@@ -71,15 +71,14 @@ def harmonic_balance(system, damper, frequencies):
     xarray.Dataset
         Variables over (frequency, free_solution) describe motions without the damper. With a
         damper, variables over (frequency, solution) describe solutions of (7) and motions in which
-        the loose mass rests; variables over (frequency, root) describe roots of (14). Each index of
+        the loose mass rests. Variables over (frequency, root) describe roots of (14). Each index of
         `free_solution`, `solution` or `root` is a branch, continuous over frequency from fold to
-        fold, so `amplitude.plot.line(x="frequency")` draws the curves. Where a branch does not
-        exist, entries are NaN or flagged absent.
+        fold. Where a branch does not exist, entries are NaN or flagged absent.
 
         The suppression band is the range of frequencies around the peak Wp of the free response in
-        which (7) has exactly one stable solution, smaller than the free resonance branch; with a
-        hardening spring this branch ends at the upper fold. The dataset has the frequency of each
-        `edge` (lower, upper), NaN if it is not found, the band's width, and the reduction at Wp.
+        which (7) has exactly one stable solution, and this solution is smaller than the free
+        resonance branch. Beyond the fold of this branch there is no band. The dataset has the
+        frequency of each `edge` (lower, upper; NaN if not found), the width, the reduction at Wp.
 
     Raises
     ------
@@ -183,7 +182,7 @@ def _rigid_table(oscillator, damper, frequencies):
     }
 
 
-# Search for a band's edge: SEARCHED range of W/Wp, STEP of W/Wp, TOLERANCE of the frequency.
+# Search for the edges of the band: range of W/Wp, step of W/Wp, and tolerance of W.
 SEARCHED = (0.2, 2.0)
 SEARCH_STEP = 0.005
 EDGE_TOLERANCE = 1e-10
@@ -192,7 +191,7 @@ SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "r
 
 
 def _band(oscillator, damper):
-    """Return the variables of the suppression band; gaps shorter than SEARCH_STEP are not seen."""
+    """Return the variables of the suppression band. The search misses gaps below SEARCH_STEP."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,
@@ -223,7 +222,7 @@ def _band(oscillator, damper):
 
 
 def _look(oscillator, damper, frequency):
-    """Return the `band_status` at one frequency, and the ascending |a| of stable solutions."""
+    """Return the `band_status` at one frequency, and |a| of the stable solutions, ascending."""
     stable = np.sort(np.abs(_stable_amplitudes(oscillator, damper, frequency)))
     free = resonance(oscillator, frequency)
     if len(stable) != 1:
@@ -260,7 +259,7 @@ ZERO_AMPLITUDE = 1e-6
 
 
 def _smallest(oscillator, damper, frequency):
-    """Return a of the smallest stable solution of (7), NaN if none, and `analytical_status`."""
+    """Return the smallest stable amplitude `a` of (7), or NaN, and the `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     if beyond_closed_forms(oscillator, damper):
@@ -273,7 +272,7 @@ def _smallest(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return variables: |a| by (7) for dampers of ascending clearance; the clearance for a = 0."""
+    """Return variables of (7): |a| for dampers of ascending clearance; the clearance with a = 0."""
     found = [_smallest(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best = np.nan

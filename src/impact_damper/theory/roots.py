@@ -9,10 +9,10 @@ from numpy.polynomial.polynomial import polyder, polyroots, polyval
 from scipy.optimize import brentq
 
 EPSILON = np.finfo(float).eps
-# Largest value treated as 0, divided by the sum of the moduli of the function's terms.
+# Largest modulus of a function treated as 0, divided by the sum of the moduli of its terms.
 ROUNDING = 16 * EPSILON
 LARGEST_DEGREE = 512
-# Largest ratio of the sums of moduli at two points of an interval; above it the interval is halved.
+# An interval is halved if the sums of moduli at two of its points have a larger ratio.
 LARGEST_RANGE = 1e6
 
 
@@ -56,7 +56,7 @@ def smooth_roots(function, size, lower, upper) -> np.ndarray:
 
 
 def _between(function, size, extrema, lower, upper):
-    """Return the roots of `function` in [lower, upper], given its `extrema`, complex numbers."""
+    """Return the roots of `function` in [lower, upper]; `extrema` are zeros of its derivative."""
     points = np.unique(np.clip(np.concatenate([[lower, upper], np.real(extrema)]), lower, upper))
     values = function(points)
     if not np.isfinite(values).all():

@@ -1,8 +1,9 @@
 """Single-term harmonic balance with the damper: (6), (7), (13), (14), and stability by (17).
 
 Z1 = a cos(W T + t1) and Z2 = b cos(W T + t1) with b > 0; a < 0 means antiphase. Contact is elastic.
-The slow flow (17) in A = a exp(i t1) and C = b exp(i t2) is regular at a = 0, the design point;
-the polar equations of the paper are singular there. Elsewhere both have the same eigenvalues.
+The slow flow (17) is written here in A = a exp(i t1) and C = b exp(i t2) with the phase t2 of Z2.
+This form is regular at a = 0, the design point, where the polar equations of the paper are
+singular. Elsewhere both forms have the same eigenvalues.
 """
 
 from typing import NamedTuple
@@ -26,7 +27,7 @@ class Solutions(NamedTuple):
 
 
 def contact_amplitude(relative_amplitude, clearance) -> tuple:
-    """Return the first harmonic B(b) of the contact force divided by r1, equation (6e), and dB/db.
+    """Return B(b) by (6e), the first harmonic of the contact force divided by r1, and dB/db.
 
     B = b (2/pi)(p - sin p cos p) with the contact angle p, cos(p) = d0/b. B is 0 for b <= d0.
     """
@@ -37,7 +38,7 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 
 
 def rigid_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return the solutions of (13), with b = d0, by ascending real roots D of (14).
+    """Return the solutions of (13), with b = d0, in the order of the ascending real roots of (14).
 
     Solutions with a > d0 need walls that pull; (7) has no such solution. For a forcing amplitude f
     other than 1, the equations hold with d0/f, k3 f^2 and a/f in place of d0, k3 and a.
@@ -69,7 +70,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
         G(p) = (a wl^2 - a W^2 + g a^3 + rm W^2 (b - a))^2 + (h a W)^2 - f^2 = 0.
 
-    `smooth_roots` finds all roots of the entire function cos^6(p) G(p) up to rounding.
+    `smooth_roots` finds all roots of cos^6(p) G(p), which has no poles, up to rounding.
     """
     check_elastic(oscillator, damper)
     balance = _Balance(oscillator, damper, check_frequency(frequency))
@@ -82,7 +83,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 def resting_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return the free solutions with a < d0, in which the loose mass is at rest and Z2 = Z1."""
+    """Return the free solutions with a < d0; the loose mass is at rest in them, so Z2 = Z1."""
     check_closed_form(oscillator, damper)
     free = free_solutions(oscillator, frequency)
     inside = free.amplitude < damper.clearance
@@ -90,10 +91,7 @@ def resting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 class _Balance:
-    """The terms of (7) with (6e) as functions of the contact angle p, times powers of cos(p).
-
-    These powers remove the poles that a and b have at p = pi/2.
-    """
+    """Terms of (7) with (6e) over the contact angle p, times powers of cos(p) that remove poles."""
 
     def __init__(self, oscillator, damper, frequency):
         self.clearance = damper.clearance
@@ -138,7 +136,7 @@ class _Balance:
         )
 
     def angle_range(self):
-        """Return the least and the greatest p within the bounds on |a|; if equal, there is none.
+        """Return the least and the greatest p within bounds on |a|; if equal, there is no solution.
 
         (7b) bounds |a| by f/(h W), and (7a) bounds |g| |a|^3 by the other terms.
         """
@@ -157,7 +155,7 @@ class _Balance:
         """Return the range of p that contains every solution with |a| <= reach.
 
         The upper end is a bound by (7a) or, if smaller, the root of (a + reach) cos(p). The lower
-        end is 0 if d0 <= reach, else the first root of (a - reach) cos(p) or the upper end.
+        end is 0 if d0 <= reach, otherwise the root of (a - reach) cos(p) or the upper end.
         """
         reach *= 1 + 1e-6
         spring = reach * (abs(self.detuning) + abs(self.hardening) * reach**2)
@@ -203,7 +201,7 @@ MARGIN = 1e-9
 
 
 def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
-    """Return the Jacobian of the slow flow, appendix A in complex amplitudes, shape (..., k, k).
+    """Return the Jacobian of the slow flow (appendix A) in A and C, shape (..., k, k).
 
     `state` (..., k) holds Re A, Im A, and with a damper Re C, Im C.
     """

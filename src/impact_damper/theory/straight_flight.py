@@ -1,6 +1,6 @@
 """Closed forms for the optimum clearance, for a loose mass that flies at constant velocity.
 
-Lengths are in units of f/W^2. Therefore rm W^2 d0 stands for rm W^2 d0/f in this module.
+Lengths are divided by f/W^2. In this module rm W^2 d0 therefore means the ratio rm W^2 d0/f.
 """
 
 from functools import cache
@@ -21,11 +21,12 @@ APART = 1e-20j
 
 
 class Flight(NamedTuple):
-    """The quiet (small) motion near the optimum clearance, over the phase W T.
+    """The quiet (small) motion near the optimum clearance, over the phase phi of the forcing.
 
     x = W^2 Z1/f responds to the forcing and to impulses 4 q/pi (see the derivation in
-    docs/explanation/straight_flight.md). `contact` is the duration of an elastic contact, as phase
-    divided by pi. `damping` is h/W. `stiffness` is omega_l/W, below 1.
+    docs/explanation/straight_flight.md). Without impulses -x has its maximum at phi = 0. An impact
+    takes place at phi = s, the lag. `contact` is the duration of an elastic contact, as a phase
+    divided by pi. `damping` is h/W. `stiffness` is wl/W, below 1.
     """
 
     mass_ratio: float
@@ -58,7 +59,7 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Depth in the wall where the flights around a contact meet, in units of (1 + 1/rm) q."""
+        """Depth in the wall where flights before and after a contact meet, over (1 + 1/rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
@@ -78,7 +79,7 @@ class Flight(NamedTuple):
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
-        """Return a divided difference at the roots of r^2 + damping r + stiffness^2 = 0."""
+        """Return the divided difference at both roots r of r^2 + damping r + stiffness^2 = 0."""
         half = np.sqrt(complex(self.damping**2 / 4 - self.stiffness**2)) or APART
         roots = -self.damping / 2 + half, -self.damping / 2 - half
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real
@@ -139,11 +140,7 @@ def flight_of(oscillator, damper, frequency) -> Flight:
 
 @cache
 def least_displacement_ratio(flight) -> float:
-    """Return rm W^2 d0 at which max |Z1| is smallest.
-
-    The minimum is a kink at which |x| at the impact equals the largest |x| between impacts. With
-    low restitution it is a smooth minimum of the largest |x| between impacts.
-    """
+    """Return rm W^2 d0 at which max |Z1| is smallest."""
     impulses = np.linspace(0, flight.largest_impulse, GRID + 2)[1:-1]
     best = int(np.argmin(flight.largest_displacement(impulses)))
     bounds = impulses[max(best - 1, 0)], impulses[min(best + 1, GRID - 1)]
