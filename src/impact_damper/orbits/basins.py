@@ -39,7 +39,7 @@ from impact_damper.orbits.shooting import find_orbit
 WIDTH = 1.5
 # Number of states on each axis of the grid of first guesses for unstable orbits.
 NEWTON = 16
-# Further attractors are searched for from TRIED to 2 TRIED unresolved states, from all if fewer.
+# The search for further attractors begins at TRIED to 2 TRIED unresolved states (at all if fewer).
 TRIED = 64
 # Default places Z2/d0 of the loose mass. Each state of the plane is run from each place.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
@@ -123,7 +123,7 @@ def basins(
         - the longest convergence time after `shock`, infinite if a motion does not return;
         - the finite-time basin stability: the share of states that lead there in `within` cycles;
         - the minimal critical shock: the smallest impulse at the phase of the plane after which the
-          motion does not return. The search begins with 256 steps to the plane's largest speed.
+          motion does not return. The search begins with 256 impulses to the plane's largest speed.
 
         Without a damper also: unstable orbits with the periods of the attractors, and the stable
         manifolds of these orbits, which are the boundaries of basins.
@@ -355,7 +355,7 @@ def stable_manifold(orbit, tolerance, window, spacing, reach):
 
 
 def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
-    """Return a list of pieces as `stable_manifold` does, on one side, and if they are complete."""
+    """Return the same as `stable_manifold`, but for one side of the saddle."""
 
     def earlier(states):
         return run_backwards(orbit.p, states, orbit.phase, tolerance, reach)
@@ -419,7 +419,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock whether it leads away from an attractor, and the cycles to know it."""
+    """Return for each shock whether it leads away, and after how many cycles this is known."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))

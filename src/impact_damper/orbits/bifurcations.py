@@ -45,7 +45,7 @@ def _reversal(point, symmetric):
     """Return the `_product` of mu + 1 over all `cycle_multipliers` mu of the orbit.
 
     At mu = -1 a symmetric orbit (`sign` -1) loses its symmetry, and any other orbit doubles its
-    period. `symmetric` selects one kind of orbits. For orbits of the other kind, return 1.
+    period. Return 1 for asymmetric orbits if `symmetric` is true, for symmetric orbits if false.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0

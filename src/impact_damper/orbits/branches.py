@@ -26,8 +26,8 @@ WEAK = 0.02
 # `Orbit.deviation` is below VANISHED times the deviation at the point before.
 VANISHED = 0.5
 # A grazing is searched for after a step that changes contacts, or that fails and is shorter than
-# CLOSE_STEP. If none is found, a longer step that changes contacts is halved. REACH: reach of the
-# search, divided by the length of the step.
+# CLOSE_STEP. If none is found, a longer step that changes contacts is halved. REACH: largest
+# distance searched, divided by the length of the step.
 CLOSE_STEP, REACH = 2e-3, 8.0
 # A step longer than CLEAR_STEP is halved if an event on it was not located, or if the step may
 # contain two folds or cross another branch.
@@ -175,8 +175,8 @@ def _walk(problem, first, span, beyond) -> Branch:
 def _next_pieces(point, span, length, search):
     """Return the pieces of the next step (see `_through_grazing`), [] if the step must be shorter.
 
-    Also return the factor from the length of this step to that of the next attempt, and whether a
-    grazing was searched for. If `search` is false, no grazing is searched for.
+    Also return the factor from the length of this step to the length of the next attempt, and
+    whether a grazing was searched for. If `search` is false, no grazing is searched for.
     """
     ahead, factor = continuation.next_point(point, span, length)
     changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
@@ -227,7 +227,7 @@ def _ending(piece, first, span):
 def _through_grazing(point, reach):
     """Return the pieces of a branch through the next grazing within `reach`, [] without a grazing.
 
-    A piece is a point, the next point, the events between both, and the number not located.
+    A piece is a point, the next point, the events between both, and the number of missed events.
     """
     passage = through_grazing(point, reach)
     if passage is None:
@@ -259,7 +259,7 @@ def _meeting(events, orbit):
 
 
 def _passes(point, ahead, first):
-    """Return the point between two points with the same orbit as the point `first`, or None."""
+    """Return the point between two points that has the same orbit as the point `first`, or None."""
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
         return None

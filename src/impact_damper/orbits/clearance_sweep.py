@@ -200,7 +200,7 @@ def _stable_part(p, state, span):
     return values, branch.displacements[first:last], size_at
 
 
-# Ratio of max |Z1| to its minimum at the ends of the range of clearances near the minimum.
+# At both ends of the range around the optimum, max |Z1| is NEAR_MINIMUM times its minimum.
 NEAR_MINIMUM = 1.1
 # DIFFERENCE: step of the difference quotient of max |Z1|. WIDE: largest distance of the quotient's
 # zero from the minimum that was found before. Both are divided by the clearance.

@@ -23,7 +23,7 @@ NEWTON, LARGEST = 10, 0.5
 # - The correction before the last one is below SURE.
 # - The derivative by the parameter is new, and the last correction is below CLOSE.
 # - The derivative is new. The last correction is below ROUNDING and above half the one before.
-# With a larger residual it fails if a correction exceeds SURE and SHRINKING times the one before.
+# With a larger residual, a correction above SURE must not exceed SHRINKING times the one before.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative by the parameter is expensive. It is updated only if the last correction is below
 # REFINED and the sum of the corrections since the last update exceeds UNMOVED.
@@ -33,8 +33,8 @@ REFINED, UNMOVED = 1e-4, 5e-6
 SINGULAR = 1e-8
 # Lengths of the first and of the shortest step along a branch, in the metric of `Problem`.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# Longest step: the length of the vector of unknowns, or SMALLEST if this is larger, times LONGEST
-# for symmetric or stable orbits, and times LONGEST_UNSTABLE for other orbits.
+# Longest step, divided by max(SMALLEST, length of the vector of unknowns): LONGEST for symmetric or
+# stable orbits, LONGEST_UNSTABLE for other orbits.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
 # Largest distance of the first guess of `Problem.at_value` from the given point. A farther guess
 # near a fold could be a state so large that its integration takes minutes.

@@ -14,7 +14,7 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
 from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
-# Moduli of heights on the side with more contacts: ratio of neighbours, the least, the largest.
+# Moduli of heights on the side with more contacts grow by the factor RATIO, from LEAST up to MOST.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 # Most divisions of failed steps: on the way through a grazing, and between two points of the way.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
@@ -22,8 +22,7 @@ HALVINGS, HALVINGS_BETWEEN = 8, 3
 FALLEN = 0.01
 # Heights of points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
-# Newton's method fails if a correction changes an unknown by LARGEST. At its end the error of the
-# height is below CLOSE times the height plus ROUNDING.
+# Corrections must be below LARGEST. The final error of a height is below CLOSE height + ROUNDING.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 

@@ -179,7 +179,7 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls touched in the order of time, such as "+-", from the beginning that sorts first."""
+        """Walls touched in the order of time, such as "+-"; the least of its cyclic shifts."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 

@@ -15,8 +15,8 @@ from impact_damper.orbits.continuation import Point, Problem
 from impact_damper.orbits.grazing import at_height, through_grazing, turns_of, with_gradient
 from impact_damper.orbits.shooting import shoot
 
-# DISTANCES of first guesses of the other branch from the bifurcation. ASIDE: largest distance of an
-# orbit from its first guess, divided by the guess's distance from the bifurcation.
+# DISTANCES: distances of first guesses from the bifurcation. ASIDE: largest distance of an orbit
+# from its first guess, divided by the distance of the guess from the bifurcation.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
 # Search for the other branch near grazing. SHARES: relative changes of the height. MISSED: largest
 # relative error of the distance from the bifurcation. REACH: largest distance. PASSAGES: largest

@@ -24,7 +24,7 @@ from impact_damper.theory.single_harmonic import (
     stability,
 )
 
-# Largest distance of neighbouring solutions of a branch, divided by the largest component of all.
+# Largest distance of neighbouring solutions of a branch, divided by the largest of all components.
 JUMP = 0.25
 
 

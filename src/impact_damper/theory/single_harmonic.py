@@ -154,8 +154,9 @@ class _Balance:
     def _angles_within(self, reach):
         """Return the range of p that contains every solution with |a| <= reach.
 
-        The upper end is a bound by (7a) or, if smaller, the root of (a + reach) cos(p). The lower
-        end is 0 if d0 <= reach, otherwise the root of (a - reach) cos(p) or the upper end.
+        The upper end is a bound by (7a) or, if smaller, the root of (a + reach) cos(p). If d0 <=
+        reach, the lower end is 0. Otherwise it is the root of (a - reach) cos(p), or the upper end
+        if there is no root.
         """
         reach *= 1 + 1e-6
         spring = reach * (abs(self.detuning) + abs(self.hardening) * reach**2)

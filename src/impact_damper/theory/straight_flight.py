@@ -59,7 +59,7 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Depth in the wall where flights before and after a contact meet, over (1 + 1/rm) q."""
+        """Depth in the wall at which the flights around a contact meet, divided by (1 + 1/rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
@@ -79,7 +79,7 @@ class Flight(NamedTuple):
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
-        """Return the divided difference at both roots r of r^2 + damping r + stiffness^2 = 0."""
+        """Return a divided difference, at both roots of r^2 + damping r + stiffness^2 = 0."""
         half = np.sqrt(complex(self.damping**2 / 4 - self.stiffness**2)) or APART
         roots = -self.damping / 2 + half, -self.damping / 2 - half
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real
