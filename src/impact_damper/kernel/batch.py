@@ -24,7 +24,7 @@ flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.cont
 flight_tangents = by_address(_MANY.flight_tangents)
 contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Indices at which quantities of trajectory m begin in `Pool.numbers[m]`, in the order of the rows.
+# Index of each quantity, or of its first number, in a row of `Pool.numbers`.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -32,7 +32,7 @@ STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
 
 
 class Pool(NamedTuple):
-    """Trajectories that are being integrated, each to its own end time.
+    """A pool of m trajectories, each of which is integrated to its own end time.
 
     numbers: Parameters, state, side, time, longest step and tolerance; shape (m, LENGTH).
     ends: End times; shape (m,).
@@ -109,9 +109,10 @@ def enqueue(queues, waiting, m, kind):
 
 @kernel
 def choose(pool, chosen):
-    """Take at most LANES trajectories from the longest queue. Return their count and the queue.
+    """Take at most LANES trajectories from the longest queue.
 
-    `chosen` receives their indices. Lanes that remain free get the last index.
+    `chosen` receives their indices. Lanes that remain free get the last index. Return two numbers:
+    how many trajectories were taken, and the kind of step for which their queue is.
     """
     waiting = pool.waiting
     kind = FLIGHT

@@ -2,7 +2,7 @@
 
 A template is a Python function. Its arguments are pointers to float64 and numbers. It consists of
 assignments, calls, `if`, `while`, `return`, and `for` loops over `range(count)` with a constant
-count. What depends only on constants is computed at compilation, which leaves out dead branches.
+count. Expressions of constants are evaluated at compilation, and unreachable branches left out.
 """
 
 import ast
@@ -64,7 +64,7 @@ def number(x):
 
 
 def template(function, caller):
-    """Return the intrinsic by which numba's kernels call a template. `caller` only calls it."""
+    """Return an intrinsic that calls a template from numba's kernels. `caller` only calls it."""
 
     def generate(context, builder, signature, arguments):
         builder.call(_compiled(builder.module, function, arguments), arguments)
@@ -225,7 +225,7 @@ class Body(ast.NodeVisitor):
         self.builder.position_at_end(after)
 
     def visit_For(self, node):
-        """Write a loop of i over several lanes as a loop. Write out all turns of other loops."""
+        """Write a loop over several lanes i as a loop. Unroll all other loops."""
         count, counter = self.visit(node.iter.args[0]), node.target.id
         if counter == "i" and count > 1:
             with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:

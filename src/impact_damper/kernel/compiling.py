@@ -1,12 +1,12 @@
 """Compile kernels, which are functions in machine code, with numba. Decorators for functions:
 
     kernel       The function is compiled on the first call, and its machine code is cached.
-    kernel_only  Only kernels can call the function, and it is cached as part of them.
+    kernel_only  Only kernels can call the function, which is cached as a part of them.
     inlined      Kernels that call the function contain a copy of the function.
 
-numba compiles a cached kernel again if the kernel's own file was edited, but not if another file
-with a called function was edited. Therefore the kernels of each module have their own cache folder.
-Its name is a digest of all files on which the kernels can depend.
+numba compiles a cached kernel again if the kernel's own file was edited. It does not notice edits
+of other files whose functions the kernel calls. Therefore the kernels of each module have their own
+cache folder. Its name is a digest of all files on which the kernels can depend.
 """
 
 import gc

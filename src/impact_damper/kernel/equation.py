@@ -4,7 +4,7 @@
 
 This is equation (3) of the paper with three more parameters k3, F and U of `Oscillator`. Some
 functions yield lines of Python code, from which `instances` makes kernels. The text
-docs/explanation/series.md explains the recurrence in these lines and the names.
+docs/explanation/series.md explains the recurrence and the names in these lines.
 """
 
 import math
@@ -70,7 +70,7 @@ def no_return(p):
 
     Beyond this |Z1| a softening spring (k3 < 0) pushes outward with at least the amplitude A of the
     forcing. If |Z1| > 2 omega_l/sqrt(-k3), the outward force -k3 |Z1|^3 - omega_l^2 |Z1| is at
-    least -3/4 k3 |Z1|^3. If also |Z1| > (4 A/(-3 k3))^(1/3), the latter is at least A. The contact
+    least -3/4 k3 |Z1|^3. If also |Z1| > (4 A/(-3 k3))^(1/3), this bound is at least A. The contact
     forces of the loose mass are neglected.
     """
     if p[CUBIC] >= 0.0:
@@ -146,7 +146,7 @@ def tangent(order, phase, constants):
     """Yield the lines that compute the series of a tangent up to `order`.
 
     A tangent is a solution of the variational equations. In the lines x and q are those of the
-    tangent, and u0, u1, ... those of `squares`. The other arguments are as in `motion`.
+    tangent, and u0, u1, ... are those of `squares`. The arguments are as in `motion`.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -173,7 +173,7 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Yield the lines that update the coefficients s of k3 l^2 when a polynomial l gets x[n].
+    """Yield lines that update the coefficients s of k3 l^2 for a new term x[n] of a polynomial l.
 
     With y = 2 k3 x[n] the lines add y x[j] to s[n+j] for each j < n, in pairs s[m], s[m+1] with
     even m. The new coefficient s[2n] is k3 x[n]^2.

@@ -38,10 +38,10 @@ CONTACT_ORDER = 23
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
 # STEP            SIDE, TIME, LONGEST and TOLERANCE are arguments; SIDE and LENGTH are results
 # SCRATCH, FREE   intermediate results
-# SERIES          coefficients of Z1 (X); of the depth Z2 -+ d0 in a wall (Q); of Z1'' without the
-#                 force of the wall (G); for tangents, of the slope of the spring's nonlinear
-#                 force (U). Three series are the same in all steps: the forcing without its factor
-#                 cosine or sine (E); h/k (H); D/k (D)
+# SERIES          coefficients of X, which is Z1; Q, the depth Z2 -+ d0 in a wall; G, which is Z1''
+#                 without the force of the wall; U, the slope of the spring's nonlinear force, for
+#                 tangents. Three series are the same in all steps: E, the forcing without its
+#                 factor cosine or sine; H, the numbers h/k; D, the numbers D/k
 # Rows of a tangent: STATE; KEPT, its Z2 while the loose mass sticks; TANGENT_SERIES, the
 # coefficients of its Z1 (DX) and of its depth (DQ).
 STATE = "Y0 Y1 Y2 Y3".split()
@@ -118,9 +118,10 @@ def _source(writer):
 
 
 def rows(flight_order, contact_order):
-    """Return a dictionary that maps the name of a row, or of a series, to its first row's number.
+    """Return a dictionary from the name of a row, or of a series, to the number of its first row.
 
-    PARTS is the first row of partial sums. ROWS and TANGENT_ROWS are the counts of all rows.
+    PARTS is the first row of partial sums. ROWS is the number of rows of a step, TANGENT_ROWS that
+    of a tangent.
     """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
@@ -158,7 +159,7 @@ class Writer:
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
         """Return the source of a kernel that executes `lines` for each lane.
 
-        Before `lines` it executes the lines `first` on vectors of `side_by_side` numbers.
+        Before `lines` the kernel executes the lines `first` on vectors of `side_by_side` numbers.
         """
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         text, calls = "", ""
@@ -265,7 +266,7 @@ class Writer:
             yield f"mobility = 1.0 + {self.at('INVERSE_MASS_RATIO')}"
 
     def _stored(self, lines, names, tangent=False):
-        """Yield `lines`. After a line for a coefficient of a series in `names`, yield its store."""
+        """Yield `lines`. Store each coefficient of a series in `names` by a further line."""
         for line in lines:
             yield line
             target = line.split(" = ")[0]
@@ -345,7 +346,7 @@ class Source(Writer):
         yield f"{_widened(parts[0])} = part"
 
     def circular(self):
-        """Return a kernel that stores COSINES and SINES, summed at ANGLE, in COSINE and SINE."""
+        """Return a kernel that sums the series COSINES and SINES at ANGLE into COSINE and SINE."""
         cosine, sine = self.at("COSINE"), self.at("SINE")
         angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
         if self.lanes == 1:
@@ -382,7 +383,7 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """Yield lines that store in TAIL the largest of the last two terms of the velocities."""
+        """Yield lines that store in TAIL the largest modulus of the velocities' last two terms."""
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):

@@ -35,9 +35,9 @@ def sources(*paths) -> set:
 def _imports(path, packages):
     """Return the files of `packages` that a Python file imports directly.
 
-    In `import a.b.c` the `__init__.py` of a and of a.b are left out.
+    Of `import a.b.c` the files `__init__.py` of a and of a.b are left out.
     """
-    # To parse whole files instead of these statements would take ten times as long.
+    # Only statements that import from `packages` are parsed, because whole files take much longer.
     statement = re.compile(
         rf"^ *((?:from|import) (?:{'|'.join(packages)})\b(?:[^(\n]*\([^)]*\)|[^(\n]*$))",
         re.MULTILINE,
@@ -57,7 +57,7 @@ def _imports(path, packages):
 
 @cache
 def module_file(name) -> Path:
-    """Return the file of a module. `name` is the module's, or that of an object in the module."""
+    """Return the file of a module. `name` is the name of the module or of an object in it."""
     path = ROOT.joinpath(*name.split("."))
     for place in (path, path.parent):
         for file in (place.with_suffix(".py"), place / "__init__.py"):

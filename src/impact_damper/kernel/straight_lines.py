@@ -24,7 +24,7 @@ INDEX, OFFSET = ir.IntType(32), ir.IntType(64)
 
 
 def straight(function):
-    """Decorate a function that is one loop `for i in range(lanes)` over assignments.
+    """Decorate a function that consists of a loop `for i in range(lanes)` with assignments.
 
     The number of lanes is at most WIDTH, or a multiple of WIDTH. The left of `=`, `+=` or `-=` is a
     name, `a[1 + i]`, or, with one lane, `a[1]`. The right side consists of names, constants,

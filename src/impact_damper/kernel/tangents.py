@@ -60,9 +60,8 @@ def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
 def advance(p, y, tangents, side, t, end, tolerance, work):
     """Integrate from time t to time `end`. `step_with_tangents` describes the other arguments.
 
-    Return three numbers: the side at the end, how many contacts began, and the time in contact. If
-    the motion escapes (`equation.no_return`), the integration stops. y is then the state at the
-    escape.
+    Return three numbers: the side at the end, how many contacts began, and the time in contact. A
+    motion that escapes (`equation.no_return`) stops in the state at the escape.
     """
     contacts = 0
     touching = 0.0

@@ -87,7 +87,7 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield the parts (`parts_by_stability`) of all branches with a period that is `chosen`."""
+    """Yield the parts (`parts_by_stability`) of branches whose period passes the test `chosen`."""
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     value, size = data["followed_value"].values, data["orbit_displacement"].values
     for branch, period in enumerate(data["branch_period"].values):

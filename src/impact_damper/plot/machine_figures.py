@@ -70,7 +70,7 @@ def frequency_panel(axes, data):
 def over_frequency(data) -> tuple:
     """Return two arrays of displacements: with nominal values, and the largest of all sets.
 
-    A set gives values of the parameters. Its displacements are interpolated over the frequency.
+    A set holds values within the tolerances. Its displacements are interpolated over frequency.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []

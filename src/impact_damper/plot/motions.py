@@ -27,7 +27,7 @@ def orbit(data, axes=None):
     Parameters
     ----------
     data : xarray.Dataset
-        A result of `simulate`. Simulate a steady motion or a periodic orbit from its state first.
+        A result of `simulate`, which can start from the state of a steady motion or orbit.
     axes : sequence of 2 matplotlib.axes.Axes, optional
 
     Returns

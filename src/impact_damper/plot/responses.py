@@ -171,7 +171,7 @@ def _branch_lines(motions, chosen):
 
 
 def _draw_unsettled(axes, motions, looks):
-    """Draw unsettled motions as points. Chaos that ended in one of its runs is a transient."""
+    """Draw unsettled motions as points. Chaos that ended in a run counts as a transient."""
     for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)
@@ -198,7 +198,7 @@ def _draw_steady(axes, motions):
 
 
 def _label(axes, given):
-    """Label the axes. The vertical axis is named by the first of SIZES that a dataset has."""
+    """Label the axes. The vertical axis gets the label of the first of SIZES in any dataset."""
     first = given[0]
     axes.set_xlabel(
         style.axis_label(first["frequency"])

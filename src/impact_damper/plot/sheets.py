@@ -15,7 +15,7 @@ def datasets_in(data, takes, words) -> list[xr.Dataset]:
     """Return one or several datasets as a list.
 
     `takes` returns whether a dataset is allowed. `words` names the functions that return such
-    datasets. TypeError is raised for others, and unless all are of the same machine or of none.
+    datasets. Other datasets raise TypeError, and so do datasets of different machines.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:

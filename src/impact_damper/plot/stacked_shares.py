@@ -10,7 +10,7 @@ from impact_damper.plot import style
 from impact_damper.plot.maps import edges_of
 from impact_damper.plot.sheets import dataset_in, sheet
 
-# Kind of motion -> colour, hatching. The kinds stand in their order from bottom to top.
+# Kind of motion -> colour, hatching. Kinds are stacked in this order, the first at the bottom.
 LOOKS = {
     "period 1": (style.BLUE, ""),
     "period 2": (style.GREEN, "////"),
@@ -107,7 +107,7 @@ def _ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Return a motion's masks by kind. Chaos that ended in one of its runs is a transient."""
+    """Return a motion's masks by kind. Chaos that ended in a run counts as a transient."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0

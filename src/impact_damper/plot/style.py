@@ -49,7 +49,6 @@ STYLE = {
     "savefig.dpi": 300,
     "pdf.fonttype": 42,
 }
-# Patterns of dashes.
 DASHED, DOTTED, DASH_DOTTED = (0, (4, 2)), (0, (1, 1.5)), (0, (5, 1.5, 1, 1.5))
 
 

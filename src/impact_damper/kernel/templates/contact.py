@@ -34,7 +34,7 @@ def distance_ahead(a, i, t):
 def expect_contact(a):
     """Move T from LENGTH to the expected time of a contact, in lanes that expect a contact.
 
-    Three terms of the series decide whether a contact is expected. Half of all terms give its time.
+    Three terms of the series decide whether a contact is expected. Half of all terms give the time.
     So the processor need not wait for the last coefficients.
     """
     expected = 0
@@ -82,7 +82,7 @@ def find_contact(a):
       from it by at most SAG `change` T. If both ends are further from the wall ahead, Z2 does not
       meet this wall.
     - `left`: the chord gives a lower bound on the distance to the wall behind. The speed at the
-      beginning minus `change` gives another. If their mean is positive, this wall is not met.
+      beginning minus `change` gives another. If the mean of both is positive, this wall is not met.
     - `certain`: the speed at each end gives a lower bound on the speed. If the mean of both bounds
       is positive, the velocity keeps its sign: only the wall ahead can be met, and only once.
     """
@@ -116,7 +116,7 @@ def find_contact(a):
 
 
 def meet_expected(a):
-    """Do one iteration in lanes that expect a contact at T. Return the count of undecided lanes."""
+    """Do one iteration in lanes that expect a contact at T. Return how many lanes are undecided."""
     flight_curve(a)
     find_sway(a)
     undecided = 0

@@ -1,11 +1,11 @@
 """Template (see `step`): search for the separation, at which a contact ends.
 
 A contact ends when q + LAG q' falls to zero, where q is the penetration. LAG = 0 is the paper's
-rule: the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the wall's force falls to zero.
+rule: the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the wall's force is 0 at the end.
 """
 
-# Longest step, in natural periods of the contact, if q grows at its beginning (DEEPENING) or falls
-# (RETURNING).
+# Longest step, in natural periods of the contact: LONGEST_DEEPENING if q grows when the step begins,
+# and LONGEST_RETURNING if q falls then.
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
 # Largest relative deviation of the rate at which a contact's phase turns (`find_separation`). With
 # this margin the phase turns by less than 0.55 * 1.25 < 3/4 of a turn in a step that begins with
@@ -67,7 +67,7 @@ def find_separation(a):
 
     Before the call T is a guess. If there is a separation, MODE becomes MET. If there is certainly
     none, T becomes LENGTH and MODE becomes MISSED. END_Z1 receives Z1 at T, and END_DEPTH the depth
-    Z2 -+ d0, which is q with the sign of the wall. The rows behind them receive both slopes.
+    Z2 -+ d0, which is q with the sign of the wall. The next row of each receives the slope at T.
 
     The penetration obeys q'' = g - w^2 q - D q' with the natural frequency w of the contact and
     D = DASHPOT (1 + 1/rm). |g| is at most G, the sum of the moduli of the terms of g. The radius

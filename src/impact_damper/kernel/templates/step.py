@@ -35,7 +35,7 @@ def limit_length(a, series, order, excess):
 
     Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. The new LENGTH is an
     n-th root of the ratio of `largest_tail` to a coefficient. The root is computed, with an error
-    of a few per cent, from the bits of both numbers, which nearly tell the logarithms.
+    of a few per cent, from the bits of both numbers, which are nearly linear in the logarithms.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))

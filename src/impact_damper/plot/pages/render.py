@@ -20,7 +20,7 @@ from impact_damper.model.text import number, percent, with_unit
 from impact_damper.plot import style
 from impact_damper.plot.machine_figures import ENDLESS, FIGURES
 
-# Dots per inch: 1540 pixels for a figure of 7 inches, so that pages never enlarge it.
+# Dots per inch. A figure of 7 inches has 1540 pixels, so that pages never enlarge it.
 DPI = 220
 # Start of the line of HTML by which a page of this package is recognised.
 GENERATOR = '<meta name="generator" content="impact-damper'
@@ -121,8 +121,8 @@ def _one_line(text):
 
 # In the decay time an unforced vibration falls to this fraction of its first displacement.
 DECAY = 0.1
-# An end of the gaps that keep the promise counts as an end of the tolerance if it is at most this
-# fraction further out.
+# If the gaps that keep the promise reach at most this fraction beyond an end of the tolerance, the
+# page names the end of the tolerance.
 NEAR = 0.01
 # Names that the page uses for additions to the decision, and for quantities.
 ADDITIONS = {
@@ -187,7 +187,7 @@ def size(value, unit="mm", digits=3) -> str:
 
 
 def numbers_of(data) -> dict:
-    """Return all that the templates show of a design, keyed by their names in the templates."""
+    """Return a dictionary of all names that the templates use, with what they show of a design."""
     asked = parameters_of(data)
     gap, tolerances = float(data["design_gap"]), asked["tolerances"]
     tolerance = tolerances.get("gap", 0.0)
