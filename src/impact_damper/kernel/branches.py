@@ -40,7 +40,7 @@ INTRINSICS = {math.sqrt: "sqrt", math.sin: "sin", math.cos: "cos", np.floor: "fl
 
 @cache
 def _definitions(file):
-    """Return a dictionary of the syntax trees of a file's functions, keyed by their first lines."""
+    """Return a dictionary from the number of a function's first line to its syntax tree."""
     found = {}
     for node in ast.walk(ast.parse(Path(file).read_text())):
         if isinstance(node, ast.FunctionDef):
@@ -112,7 +112,7 @@ class Body(ast.NodeVisitor):
     def __init__(self, builder, function):
         self.builder, self.function = builder, function
         self.tree = definition(function)
-        # Values of names that are assigned once, memory of other names, memory of results.
+        # Values of names that are assigned once, memory of other names, memory of returned values.
         self.values, self.memory, self.returned = {}, {}, []
 
     def expand(self, arguments):

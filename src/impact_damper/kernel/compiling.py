@@ -78,7 +78,7 @@ SETTINGS = {"cache": True, "nogil": True, "fastmath": set(CONTRACT), "error_mode
 
 
 def kernel(function, **options):
-    """Decorate a function as a kernel. `options` of numba replace those in SETTINGS."""
+    """Decorate a function as a kernel. numba's `options` override SETTINGS."""
     with own_cache(function):
         return numba.njit(no_cfunc_wrapper=True, **SETTINGS | options)(function)
 

@@ -175,8 +175,8 @@ def squares(count):
 def _lower_squares(n):
     """Yield lines that update the coefficients s of k3 l^2 for a new term x[n] of a polynomial l.
 
-    With y = 2 k3 x[n] the lines add y x[j] to s[n+j] for each j < n, in pairs s[m], s[m+1] with
-    even m. The new coefficient s[2n] is k3 x[n]^2.
+    With y = 2 k3 x[n] the lines add y x[j] to s[n+j] for each j < n. They update pairs of
+    coefficients, the first of which has an even index. The new coefficient s[2n] is k3 x[n]^2.
     """
     yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):

@@ -181,7 +181,7 @@ class Writer:
         return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
 
     def _computed(self, k, names):
-        """Yield lines that compute coefficient k of the constant series with these names."""
+        """Yield lines that compute coefficient k of the constant series that `names` contains."""
         factor = f"{1 / k!r} * " if k > 1 else ""
         if "E" in names and k < 2:
             beginning = [f"w = {self.at('FREQUENCY')}", "e0 = 1.0"], ["ww = w * w", "e1 = -w"]

@@ -1,4 +1,4 @@
-"""Compile arithmetic without branches ("straight lines"), without numba's type inference.
+"""Compile arithmetic without branches ("straight lines"). numba's type inference is bypassed.
 
 A Taylor series of a step has thousands of operations, and numba's type inference takes a
 millisecond for each. Several trajectories are computed side by side, each in its lane. All lanes

@@ -6,7 +6,7 @@ together. g is Z1'' without the loose mass:
 
     (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T))
 
-The friction per unit of loose mass that holds the masses together has a modulus below FRICTION.
+Per unit of loose mass, the friction that holds both masses together is below FRICTION in modulus.
 """
 
 

@@ -4,8 +4,8 @@ A contact ends when q + LAG q' falls to zero, where q is the penetration. LAG = 
 rule: the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the wall's force is 0 at the end.
 """
 
-# Longest step, in natural periods of the contact: LONGEST_DEEPENING if q grows when the step begins,
-# and LONGEST_RETURNING if q falls then.
+# Longest step, in natural periods of the contact: LONGEST_DEEPENING if q grows as the step begins,
+# and LONGEST_RETURNING if q falls.
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
 # Largest relative deviation of the rate at which a contact's phase turns (`find_separation`). With
 # this margin the phase turns by less than 0.55 * 1.25 < 3/4 of a turn in a step that begins with
