@@ -116,14 +116,14 @@ def basins(
     xarray.Dataset
         For each state of the grid: the number of the attractor, or a negative flag that says why
         there is none; and the convergence time: forcing cycles until the attractor is known, or -1.
-        For each attractor: the period, the largest displacement, the points at the phase of the
+        For each attractor: the period, the largest displacement, Z1 and Z1' at the phase of the
         plane, and
 
         - the share of states that lead to the attractor, and their median convergence time;
         - the longest convergence time after `shock`, infinite if a motion does not return;
         - the finite-time basin stability: the share of states that lead there in `within` cycles;
         - the minimal critical shock: the smallest impulse at the phase of the plane after which the
-          motion does not return. The search begins with 256 impulses to the plane's largest speed.
+          motion does not return. The first 256 impulses tried end at the plane's largest speed.
 
         Without a damper also: unstable orbits with the periods of the attractors, and the stable
         manifolds of these orbits, which are the boundaries of basins.

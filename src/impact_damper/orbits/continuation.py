@@ -238,7 +238,7 @@ def point_at_value(point, ahead, value):
     def beyond(fraction):
         return _cubic(point, ahead, fraction)[-1] - value
 
-    # If the value belongs to one of both points, a rounding error may put it beyond this point.
+    # The value of one of the points may lie beyond this point by a rounding error.
     ends = beyond(0.0), beyond(1.0)
     inside = ends[0] * ends[1] < 0
     fraction = brentq(beyond, 0.0, 1.0) if inside else float(np.argmin(np.abs(ends)))

@@ -202,7 +202,7 @@ def with_gradient(problem, x, orbit, turn):
 
 
 def nearest(turns, turn):
-    """Return the extremum closest in phase to `turn`, preferably of the same kind, or None."""
+    """Return the extremum closest in phase to `turn`, if possible of the same kind, or None."""
     near = [each for each in turns if each.segment == turn.segment]
     near = [each for each in near if abs(each.phase - turn.phase) < MOVED]
     near = [each for each in near if each.outer == turn.outer] or near

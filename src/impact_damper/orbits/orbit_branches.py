@@ -61,7 +61,7 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     Warns
     -----
     UserWarning
-        If the orbit repeats sooner, after a divisor of the period.
+        If the orbit already repeats after a divisor of the period.
 
     Examples
     --------
@@ -148,7 +148,7 @@ def orbit_branches(
     TypeError, ValueError
         If an argument is of another type or out of range.
     ArithmeticError
-        If Newton's method finds no orbit near the state, or finds an orbit that repeats sooner.
+        If Newton's method finds no orbit, or an orbit that repeats after a divisor of the period.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Single-term harmonic balance of the oscillator without the damper: Z1 = a cos(W T + t1).
+"""Single-term harmonic balance of the free oscillator (without damper): Z1 = a cos(W T + t1).
 
 With g = (3/4) k3 and the forcing amplitude f, (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2.
 """
