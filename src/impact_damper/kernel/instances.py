@@ -38,10 +38,10 @@ CONTACT_ORDER = 23
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
 # STEP            SIDE, TIME, LONGEST and TOLERANCE are arguments; SIDE and LENGTH are results
 # SCRATCH, FREE   intermediate results
-# SERIES          coefficients of X, which is Z1; Q, the depth Z2 -+ d0 in a wall; G, which is Z1''
-#                 without the force of the wall; U, the slope of the spring's nonlinear force, for
-#                 tangents. Three series are the same in all steps: E, the forcing without its
-#                 factor cosine or sine; H, the numbers h/k; D, the numbers D/k
+# SERIES          coefficients of series
+# Series: X of Z1; Q of the depth Z2 -+ d0 in a wall; G of Z1'' without the force of the wall; U of
+# the slope of the spring's nonlinear force; E of the forcing without its factor cosine or sine. H
+# holds the numbers h/k, and D the numbers D/k. E, H and D are the same in all steps.
 # Rows of a tangent: STATE; KEPT, its Z2 while the loose mass sticks; TANGENT_SERIES, the
 # coefficients of its Z1 (DX) and of its depth (DQ).
 STATE = "Y0 Y1 Y2 Y3".split()
@@ -136,7 +136,7 @@ def rows(flight_order, contact_order):
 
 
 class Writer:
-    """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
+    """Writes the kernels of the series for a number of lanes and two orders, flight and contact.
 
     With one lane a trajectory has up to four tangents. With several lanes each has one tangent.
     """

@@ -198,7 +198,7 @@ def _draw_steady(axes, motions):
 
 
 def _label(axes, given):
-    """Label the axes. The vertical axis gets the label of the first of SIZES in any dataset."""
+    """Label the axes. The first variable of SIZES that a dataset has names the vertical axis."""
     first = given[0]
     axes.set_xlabel(
         style.axis_label(first["frequency"])

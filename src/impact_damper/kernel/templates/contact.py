@@ -82,7 +82,7 @@ def find_contact(a):
       from it by at most SAG `change` T. If both ends are further from the wall ahead, Z2 does not
       meet this wall.
     - `left`: the chord gives a lower bound on the distance to the wall behind. The speed at the
-      beginning minus `change` gives another. If the mean of both is positive, this wall is not met.
+      beginning and `change` give another. If the mean of both is positive, this wall is not met.
     - `certain`: the speed at each end gives a lower bound on the speed. If the mean of both bounds
       is positive, the velocity keeps its sign: only the wall ahead can be met, and only once.
     """
