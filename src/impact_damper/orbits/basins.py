@@ -116,8 +116,7 @@ def basins(
     xarray.Dataset
         For each state of the grid: the number of the attractor, or a negative flag that says why
         there is none; and the convergence time: forcing cycles until the attractor is known, or -1.
-        For each attractor: the period, the largest displacement, Z1 and Z1' at the phase of the
-        plane, and
+        For each attractor: the period, the largest displacement, Z1 and Z1' at `phase`, and
 
         - the share of states that lead to the attractor, and their median convergence time;
         - the longest convergence time after `shock`, infinite if a motion does not return;

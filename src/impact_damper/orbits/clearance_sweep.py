@@ -208,7 +208,7 @@ DIFFERENCE, WIDE = 3e-5, 1e-4
 
 
 def minimum_table(values, sizes, size_at, span):
-    """Return the variables of the minimum of max |Z1|, from the results of `_stable_part`."""
+    """Return the variables that describe the minimum of max |Z1| on a branch's stable part."""
     if not len(values):
         return {
             "optimum_clearance": np.nan,

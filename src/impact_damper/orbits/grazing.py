@@ -16,7 +16,8 @@ from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
 # Moduli of heights on the side with more contacts grow by the factor RATIO, from LEAST up to MOST.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# Most divisions of failed steps: on the way through a grazing, and between two points of the way.
+# HALVINGS: most divisions of failed steps on the way through a grazing. HALVINGS_BETWEEN: most
+# divisions between two points of the way.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
 # A step that reduces `Orbit.deviation` to less than FALLEN times its size leads to another branch.
 FALLEN = 0.01
@@ -186,7 +187,7 @@ def turns_of(orbit):
 
 
 def with_gradient(problem, x, orbit, turn):
-    """Return an extremum with its gradient; x are the unknowns of the orbit in the `problem`.
+    """Return an extremum with its gradient. The array `x` holds the unknowns of the orbit.
 
     Z2' is zero at the extremum, so a small shift of its phase does not change the height.
     """

@@ -133,7 +133,7 @@ def cut(orbit, cycle, between=()):
 
 
 def _sections(orbit, cycle, between):
-    """Return two lists of phases: possible cuts, the first in the longest flight; forced cuts."""
+    """Return two lists of phases: possible cuts, beginning in the longest flight; forced cuts."""
     log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
     following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)

@@ -34,8 +34,8 @@ def polynomial_roots(coefficients) -> np.ndarray:
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
     """Return the real roots of an analytic function in [lower, upper], each listed once.
 
-    The function `size` bounds the rounding error in units of EPSILON. A Chebyshev interpolant gives
-    the extrema (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
+    EPSILON `size(x)` bounds the rounding error at x. A Chebyshev interpolant gives the extrema
+    (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
     """
     sizes = size(np.linspace(lower, upper, 17))
     if np.max(sizes) > LARGEST_RANGE * np.min(sizes):
