@@ -106,7 +106,7 @@ def orbit_branches(
       doubling next to stable orbits;
     - from other branches: branches of a period up to 9 that leave next to stable orbits and begin
       stable;
-    - the branch of more symmetry (or half the period) at which a branch of a period up to 4 ends.
+    - the symmetric branch, or that of half the period, at which a branch of a period up to 4 ends.
 
     With `motions`, a branch of a period above 1 ends when the periods of unstable orbits in a row
     exceed 300 forcing cycles together.

@@ -24,7 +24,7 @@ from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
 from impact_damper.motions.records import PIECES, turning_time
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
-# Smallest ratio of the moduli of two multipliers that orthogonal iteration separates.
+# Orthogonal iteration separates two multipliers only if the ratio of their moduli exceeds APART.
 APART = 30.0
 # Orthogonal iteration makes at most SWEEPS sweeps, and ends when a sweep changes the basis by less
 # than SETTLED. Multipliers are separated only if the last sweep changed it by less than COUPLED.

@@ -109,8 +109,8 @@ def _at_heights(leaving):
 # stable branches of a period up to STABLE are followed. MET: longest period of a branch from whose
 # ends a branch of more symmetry is followed.
 WHOLE, STABLE, MET = (1, 3), 9, 4
-# A branch ends at an event if both parameters differ by less than SAME_VALUE, and max |Z1| by less
-# than SAME_SIZE. The end is a fold, which is located to 1e-7 in branch length.
+# The end of a branch lies at an event if their parameters differ by less than SAME_VALUE, and their
+# max |Z1| by less than SAME_SIZE. The end is a fold, which is located to 1e-7 in branch length.
 SAME_VALUE, SAME_SIZE = 1e-6, 1e-4
 # Largest difference of the parameter between equal bifurcations.
 NEAR = 1e-9
