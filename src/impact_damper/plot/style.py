@@ -1,6 +1,6 @@
 """Common look of all figures: fonts, colours, roles of curves, labels, legends, files.
 
-The palette is by Okabe and Ito. Curves of different roles also differ in marker or line style.
+The palette is by Okabe and Ito. Curves of different roles also differ in marker, dashes or width.
 """
 
 import re

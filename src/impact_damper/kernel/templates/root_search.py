@@ -64,8 +64,8 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
     """Return the next move and mode of a search in mode BRACKET, by one safeguarded iteration.
 
     The event function f is positive at LOW and not positive at HIGH, with one root between them.
-    While no time is known at which f is not positive, HIGH is FAR. At most one root then lies
-    between LOW and the end of the step. Bisection replaces a move that would leave the bracket.
+    HIGH is FAR as long as no time with f <= 0 is known. At most one root then lies between LOW and
+    the end of the step. Bisection replaces a move that would leave the bracket.
 
     `first` is an estimate of the move to the root, such as a Newton step. `bend` is the part of f''
     that this estimate neglects, divided by f'. `is_last_move` gets the larger of `rate` and

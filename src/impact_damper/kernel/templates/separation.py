@@ -1,7 +1,7 @@
 """Template (see `step`): search for the separation, at which a contact ends.
 
 A contact ends when q + LAG q' falls to zero, where q is the penetration. LAG = 0 is the paper's
-rule: the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the wall's force is 0 at the end.
+rule: the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the wall's force then falls to zero.
 """
 
 # Longest step, in natural periods of the contact: LONGEST_DEEPENING if q grows as the step begins,

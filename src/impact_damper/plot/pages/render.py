@@ -187,7 +187,7 @@ def size(value, unit="mm", digits=3) -> str:
 
 
 def numbers_of(data) -> dict:
-    """Return a dictionary of all names that the templates use, with what they show of a design."""
+    """Return a dictionary of numbers and texts of a design, which the templates show."""
     asked = parameters_of(data)
     gap, tolerances = float(data["design_gap"]), asked["tolerances"]
     tolerance = tolerances.get("gap", 0.0)
