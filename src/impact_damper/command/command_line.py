@@ -186,7 +186,7 @@ def response(
 
 
 def different(sizes, alike=1e-4):
-    """Return the different sizes, ascending, each with the indices of the motions of this size."""
+    """Return ascending pairs: a size, and the indices of all `sizes` nearly equal to this size."""
     found = []
     for place in sorted(range(len(sizes)), key=lambda i: sizes[i]):
         if not found or sizes[place] > found[-1][0] * (1 + alike):
@@ -265,7 +265,7 @@ def report(
 
 
 def read(path):
-    """Return the content of a YAML file, and a `Machine` (local imports make `--help` fast)."""
+    """Return the content of a YAML file and its `Machine`. Local imports make `--help` fast."""
     from impact_damper.command.machine_file import read_machine_file
     from impact_damper.model.machine import Machine
 
@@ -294,7 +294,7 @@ def answer(decide, made, machine_file, file, force, as_json):
 
 
 def damper(given, machine, gap):
-    """Return a damper with a gap and the contact stiffness of a design, or None without a gap."""
+    """Return the damper with a gap and, as in a design, contact stiffness; None without a gap."""
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.task import Task
 
@@ -325,7 +325,7 @@ def write_report(data, file, folder):
 
 
 def kept(data, output):
-    """Save a dataset if a file is given; return a list with the line that reports it, or []."""
+    """Save a dataset if `output` is a path. Return the lines to print: one, or none."""
     if output is None:
         return []
     from impact_damper.data.datasets import save
@@ -340,7 +340,7 @@ def tell(as_json, words, numbers):
 
 
 def run_app():
-    """Run the command; a wrong argument ends it with a message but no traceback."""
+    """Run the command. If an argument is wrong, exit with a message and no traceback."""
     warnings.showwarning = lambda message, *rest: print(f"Warning: {message}", file=sys.stderr)
     try:
         app()

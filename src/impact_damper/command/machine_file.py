@@ -1,4 +1,4 @@
-"""Machines that need a damper, in an entry of the configuration or in a file of their own."""
+"""Check the description of a machine: an entry of the configuration, or a file of its own."""
 
 import re
 from dataclasses import MISSING, fields
@@ -18,7 +18,7 @@ from impact_damper.model.units import QUANTITIES, absolute_value, check_si, si_v
 
 
 class AllowedQuantity(Allowed):
-    """The allowed values of a physical quantity; the value stays as the user wrote it."""
+    """The allowed values of a physical quantity. A checked value stays as the user wrote it."""
 
     def __init__(self, quantity, bounds, meaning, absolute=()):
         unit = QUANTITIES[quantity].unit
@@ -47,12 +47,12 @@ class AllowedQuantity(Allowed):
 
 
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
-    """Return the type of a quantity within bounds; units of kinds `absolute` are allowed too."""
+    """Return the type of a quantity within bounds. Units of quantities in `absolute` also count."""
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 
 
 def fields_of(part, *, optional=False):
-    """Return the fields of a model for a dataclass in SI units, all optional if `optional`."""
+    """Return the fields of a pydantic model for a dataclass. If `optional`, none is required."""
     found = {}
     for each in fields(part):
         facts = each.metadata
@@ -66,7 +66,7 @@ class Given(section.Section):
     """Base of the models whose keys are the arguments of a dataclass in SI units."""
 
     def values(self) -> dict:
-        """Return the values that are given."""
+        """Return the values that are given, keyed by name."""
         return {key: value for key, value in self if value is not None}
 
 
@@ -116,7 +116,7 @@ Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 
 def deviation_of(what, *absolute):
-    """Return an optional field for a deviation, as a fraction or in units of kinds `absolute`."""
+    """Return an optional field for a deviation: a fraction, or text in a unit of `absolute`."""
     meaning = f"largest deviation of {what}, as a fraction of it"
     return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 
@@ -136,7 +136,7 @@ Rival = create_model("Rival", __base__=Given, **fields_of(TunedAbsorber, optiona
 
 
 class MachineEntry(section.Section):
-    """Machines for which a damper is designed, in SI units: numbers, or texts with units."""
+    """A machine for which a damper is designed. Values are in SI units, or texts with units."""
 
     machine: Body
     damper: Damper
@@ -175,7 +175,7 @@ class MachineEntry(section.Section):
             yield f"{section.dotted(path)}: {error}" if path else str(error)
 
     def _lacking(self, path):
-        """Yield a line for each missing key of absorber and contact, and for a second stiffness."""
+        """Yield a line for each missing key, and one if stiffness and contact are both given."""
         rival, ball = self.absorber.values(), self.contact.values()
         for key in Rival.model_fields:
             if rival and key not in rival:
@@ -193,7 +193,7 @@ class MachineEntry(section.Section):
 
 
 def design_arguments(content, workers=1) -> dict:
-    """Return the arguments of `design_damper`, without the machine, from a file's content."""
+    """Return the arguments of `design_damper`, except the machine, from the content of a file."""
     # Imported here because it loads SciPy.
     from impact_damper.design.task import Effort
 
@@ -222,8 +222,7 @@ _Loader.add_implicit_resolver(
     re.compile(f"(?:{section.SCIENTIFIC.pattern})$"),
     list("-+.0123456789"),
 )
-# Values of keys that a file may leave out. If all of 73 starts lead to quiet (small) motions, the
-# lower end of Wilson's 95 % interval of the share of quiet motions is 0.95, the value of `share`.
+# Values of keys that a file may leave out.
 DEFAULTS = {"candidates": 8, "starts": 73, "share": 0.95, "tolerances": {"gap": 0.2}}
 POINTS = 9  # number of frequencies in the band
 
@@ -231,8 +230,8 @@ POINTS = 9  # number of frequencies in the band
 def read_machine_file(path) -> dict:
     """Check a machine's file, and return its content with defaults for missing keys.
 
-    Unlike in the configuration, `band` may be a list of its first and last frequency, and the key
-    `frequencies` the number of frequencies in the band.
+    Unlike in the configuration, `band` may be a list: first and last frequency. The key
+    `frequencies` may give the number of frequencies in the band.
     """
     section.check_file(path)
     given = yaml.load(Path(path).read_bytes(), _Loader)

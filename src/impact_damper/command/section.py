@@ -1,4 +1,4 @@
-"""Types of values in YAML files, base of the classes that check them, and lines on problems.
+"""Types of values in YAML files, the base class of their sections, and lines on problems.
 
 The types are strict: 3.0 is not a whole number, and neither NaN, infinity nor text is a number.
 """
@@ -30,9 +30,9 @@ NUMBER, RANGE = "<number>", "<range>"
 
 
 class Allowed:
-    """The words after "must be" that name allowed values; they replace pydantic's message.
+    """The allowed values of a key, in words that follow "must be" in place of pydantic's message.
 
-    For a list or mapping `test` returns whether its type, length and repetitions are allowed.
+    For a list or a mapping, `test` is a function that returns whether its form is allowed.
     """
 
     def __init__(self, words, meaning="", why="", test=None):
@@ -66,7 +66,7 @@ class Allowed:
 
 
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
-    """Return the type of a finite number within bounds; `also` names another kind of value."""
+    """Return the type of a finite number within bounds. `also` adds words to the message."""
     bounds = {"greater than": above, "at least": least, "at most": most}
     words = [f"a finite number{also and f' or {also}'}", *_bounds(bounds)]
     kind = confloat(strict=True, allow_inf_nan=False, gt=above, ge=least, le=most)
@@ -81,7 +81,7 @@ def number_or_word(word, meaning, **bounds):
 
 
 def number_or_range(model, meaning, **bounds):
-    """Return the type of a finite number within bounds, or of a range by the model `model`."""
+    """Return the type of a finite number within bounds, or of a range that `model` checks."""
     of_number = number(meaning, **bounds, also="keys with values")
 
     def kind(value):
@@ -124,7 +124,7 @@ def choice(meaning, *words):
 
 
 def several(item, meaning="", *, least=0, most=None, distinct=False):
-    """Return the type of a list with entries of the type `item`."""
+    """Return the type of a list of `least` to `most` entries, each of the type `item`."""
     words = ["a list"]
     if least == most:
         words += [f"with {least} entries"]
@@ -167,7 +167,7 @@ NAME = text("a name becomes part of a file name", pattern="[A-Za-z0-9][A-Za-z0-9
 
 # The loader of the C library libyaml, if it is installed, is several times as fast.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-# Numbers with an exponent. YAML 1.1 reads them as text without a point or the exponent's sign.
+# Numbers with an exponent. If the point or the exponent's sign is missing, YAML 1.1 reads text.
 SCIENTIFIC = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 
 
@@ -187,7 +187,7 @@ class Section(BaseModel):
     @model_validator(mode="wrap")
     @classmethod
     def _name_keys(cls, value, handler):
-        """Report unknown keys with the keys known here, missing keys with the keys needed here."""
+        """Report an unknown key with all known keys, and a missing key with all needed keys."""
         try:
             return handler(value)
         except ValidationError as error:
@@ -198,7 +198,7 @@ class Section(BaseModel):
 
     @classmethod
     def _worded(cls, value, detail):
-        """Return an error of pydantic with a message of this package, the path and the value."""
+        """Return the error `detail` of pydantic with a message of this package."""
         kind, path, given = detail["type"], detail["loc"], detail["input"]
         known = sorted(cls.model_fields)
         if not path:
@@ -228,7 +228,7 @@ def parts(value, path=()):
 
 
 def problem(path, value, reason) -> str:
-    """Return the line that reports a wrong value: path of keys, value and what it must be."""
+    """Return the line that reports a wrong value: path of keys, value, and why it is wrong."""
     if isinstance(value, str) and SCIENTIFIC.fullmatch(value):
         known = yaml.safe_dump(float(value)).split()[0]
         reason += f"; YAML takes this for text, and {known} for a number"
@@ -241,7 +241,7 @@ def missing(path, reason) -> str:
 
 
 def increasing(path, values, reason):
-    """Yield a line unless a list increases."""
+    """Yield a line unless the values of a list increase."""
     if sorted(set(values)) != values:
         yield problem(path, values, f"must increase ({reason})")
 
@@ -252,7 +252,7 @@ def one_of(name, known) -> str:
 
 
 def dotted(path) -> str:
-    """Return a path of keys as one key with dots; long or unprintable keys are quoted."""
+    """Return a path of keys as text with dots. Long or unprintable keys are quoted."""
     return (
         ".".join(
             key

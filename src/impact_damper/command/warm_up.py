@@ -18,8 +18,8 @@ FREQUENCY = 1.95
 def warm_up_orbits() -> None:
     """Call each kernel that processes one motion at a time.
 
-    `warm_up_settling` may run in parallel. The order of the calls is such that both functions
-    rarely compile the same kernel at the same time.
+    `warm_up_settling` may run in parallel. Because of the order of the calls, both functions rarely
+    compile the same kernel at the same time.
     """
     from impact_damper.motions import records, strobe_map, traces
 

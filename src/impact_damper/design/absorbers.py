@@ -1,9 +1,9 @@
 """Tuned absorbers: their tuning to a machine, and the machine's response in closed form.
 
-A machine of mass m1 has the dynamic stiffness K = k + i c w - m1 w^2 at the angular frequency w. An
-absorber of mass m has the complex spring L = ka + i ca w, and q = L/(L - m w^2) is the acceleration
-of its mass divided by the machine's. Under a force F the machine has the amplitude F/|K - m w^2 q|.
-On a moving base F is multiplied by |1 + q m/m1|, because the base also accelerates the absorber.
+A machine of mass m1 has the dynamic stiffness K = k + i c w - m1 w^2 at the angular frequency w.
+The mass m of an absorber is connected by the stiffness L = ka + i ca w. The acceleration of m is q
+times that of the machine, with q = L/(L - m w^2). A force F moves the machine by F/|K - m w^2 q|. A
+moving base also accelerates the absorber; the force of inertia F is multiplied by |1 + q m/m1|.
 """
 
 import math
@@ -18,13 +18,13 @@ from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 
-# Points of the frequency over the resonance and over the band, and the number of widths of the
-# resonance that the first points reach on both sides.
+# POINTS: number of frequencies around the resonance, and number of frequencies over the band.
+# REACH: largest distance of the former from the resonance, in widths of the resonance.
 POINTS, REACH = 1001, 8.0
-# Bounds of the logarithms of tuning and damping ratio, tolerance and seed of the search.
+# TUNINGS, DAMPINGS: bounds of the logarithms of the absorber's frequency ratio and damping ratio.
 TUNINGS, DAMPINGS, TOLERANCE, SEED = (-1.5, 1.0), (-7.0, 0.7), 1e-7, 1995
 COMPETITORS = ("bare", "tuned", "own")
-# Force shares (factors of the machine's excitation), from a quarter to four.
+# Factors of the machine's excitation, from 1/4 to 4.
 SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
 DETUNINGS = (-0.1, 0.0, 0.1)
 
@@ -34,9 +34,9 @@ def absorber_responses(
 ):
     """Return a dataset of displacements (mm) without absorber, with a tuned one, and with `own`.
 
-    `mass` (kg) is the mass of the tuned absorber, `band` (Hz) the range over which it is tuned.
-    `force_shares` multiply the excitation. `detunings` are relative changes of the absorber's
-    stiffness. Status: exact; one_harmonic (cubic spring); not_possible (no linear stiffness).
+    The tuned absorber has the mass `mass` (kg). It is tuned over the range `band` (Hz).
+    `force_shares` multiply the excitation. `detunings` are relative changes of the absorbers'
+    stiffness. For a machine without linear stiffness the status of tuning is not_possible.
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)
@@ -74,9 +74,7 @@ def absorber_responses(
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
     """Return the absorber that minimises the largest displacement of the linear machine.
 
-    The cubic stiffness of the machine is ignored. `mass` is in kg and `band` in Hz, by default all
-    frequencies. At the optimum the response is equally large at two frequencies: at the two highest
-    maxima, or at the highest maximum and an end of the band.
+    The cubic spring is ignored. `mass` is in kg, `band` in Hz; by default the band is wide.
     """
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
@@ -91,7 +89,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
         stiffness, force = _dynamics(linear, absorber(*logs), frequencies)
         return np.max(force / np.abs(stiffness))
 
-    # Two maxima cross in a kink at the optimum, where methods that use slopes stop too early.
+    # The largest displacement has a kink at the optimum. Methods that use slopes stop too early.
     return absorber(
         *differential_evolution(
             highest, (TUNINGS, DAMPINGS), rng=SEED, tol=TOLERANCE, atol=0, polish=False
@@ -100,7 +98,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
 
 
 def _frequencies(machine, ratio, band):
-    """Return frequencies (Hz) over the resonance of a linear machine and over the band."""
+    """Return the frequencies (Hz) that are compared; if a band is given, all lie in the band."""
     damping_ratio = machine.viscous_damping / (
         2 * math.sqrt(machine.linear_stiffness * machine.mass)
     )
@@ -116,9 +114,9 @@ def _frequencies(machine, ratio, band):
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     """Return largest amplitudes (m) at frequencies (Hz), shape (frequencies, force shares).
 
-    Amplitudes are exact for a linear machine. With a cubic spring they are from harmonic balance:
-    the largest solution that is stable against folds and below the barrier of a softening spring,
-    or infinity without such a solution. Other instabilities and other motions are not found.
+    Amplitudes of a linear machine are exact. With a cubic spring they follow from harmonic balance.
+    Solutions between two folds and above the barrier of a softening spring are left out. Without
+    another solution the amplitude is infinite. Other instabilities are not found.
     """
     oscillator = machine.oscillator()
     pairs = zip(*_dynamics(machine, absorber, np.asarray(frequencies)), strict=True)
@@ -130,10 +128,7 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
 
 
 def _dynamics(machine, absorber, frequencies):
-    """Return the scaled dynamic stiffness and force of a machine at frequencies (Hz).
-
-    The stiffness leaves out the cubic spring.
-    """
+    """Return two dimensionless arrays over frequencies (Hz): linear stiffness, and force."""
     scales, oscillator = machine.scales, machine.oscillator()
     w = scales.from_si(frequencies, "frequency")
     force = oscillator.force + oscillator.unbalance * w**2
@@ -149,7 +144,7 @@ def _dynamics(machine, absorber, frequencies):
 
 
 def _amplitude(oscillator, stiffness, force):
-    """Return the solution a of |stiffness + (3/4) k3 a^2| a = force that `response` describes."""
+    """Return the largest stable solution a of |stiffness + (3/4) k3 a^2| a = force."""
     hardening = oscillator.hardening
     if hardening == 0:
         return force / abs(stiffness)
@@ -161,6 +156,6 @@ def _amplitude(oscillator, stiffness, force):
     barrier = math.inf
     if hardening < 0:
         barrier = 0.75 * oscillator.linear_frequency**2 / -hardening
-    # The middle one of three solutions is unstable.
+    # If there are three solutions, the middle one is unstable.
     stable = squares[::2][squares[::2] < barrier]
     return math.sqrt(stable[-1]) if len(stable) else math.inf

@@ -1,4 +1,4 @@
-"""Additions to the decision of a design: functions of the task and of the decision's dataset."""
+"""Additions to the decision of a design. Each takes the task and the dataset of the decision."""
 
 from dataclasses import replace
 
@@ -19,16 +19,16 @@ from impact_damper.design.task import NOMINAL, VARIED, labelled
 from impact_damper.design.transients import transients
 from impact_damper.motions.strobe_map import strobe_time
 
-# `count` of `Task.few` in `force_map`; the promised frequency is added.
+# Argument `count` of `Task.few` in `force_map`.
 FREQUENCIES = 5
 # Loose mass of the heavier damper, divided by the loose mass of the task.
 HEAVIER = 2.0
-# Cycles over which the contact force is measured if a motion is not periodic.
+# Number of cycles over which the contact force of a motion that is not periodic is measured.
 WATCHED = 100
 
 
 def force_map(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of promised displacements over frequency and force, at nominal values."""
+    """Return a dataset of promised displacements over frequency and force. No value deviates."""
     critical = float(decision["promised_frequency"])
     frequencies, shares = task.few(FREQUENCIES, critical), np.array(SHARES)
     sets = np.tile(NOMINAL, (len(shares), 1))
@@ -42,9 +42,10 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 
 
 def other_masses(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of the damper and of a heavier one, whose gap a short search finds.
+    """Return a dataset that compares the damper with a heavier one, whose gap is searched briefly.
 
-    The dataset is empty if the damper is good enough, or if the other outweighs the machine.
+    The dataset is empty if the damper is to be built and misses no limit, or if the loose mass of
+    the heavier damper would exceed the mass of the machine.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"
@@ -66,7 +67,7 @@ def other_masses(task, decision, progress=None) -> xr.Dataset:
 
 
 def _force(task, gap, frequency):
-    """Return the contact force (N) of the largest motion at a gap (mm), frequency (Hz), or NaN."""
+    """Return the contact force (N) of the largest motion at a gap (mm); NaN after an escape."""
     cell = Cell(1e-3 * gap, frequency)
     motions = run(task, [cell], task.effort.starts, ("masses",))
     k, p = int(np.argmax(motions.peaks[0])), task.packed(*cell)
@@ -78,7 +79,7 @@ def _force(task, gap, frequency):
 
 
 def competitors(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of responses of the machine alone, and with tuned and own absorber."""
+    """Return a dataset of responses: machine alone, with a tuned and with the task's absorber."""
     band = task.absorber_band
     found = absorber_responses(
         task.machine, task.mass, task.grid, SHARES, band=band, own=task.absorber

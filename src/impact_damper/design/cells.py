@@ -1,8 +1,9 @@
 """Motions from random starts at cells, and the displacement that bounds a share of all starts.
 
-A cell is a gap, a forcing frequency and factors of the values that may deviate. A record is the
-largest displacement of a motion so far. A regime is a set of motions of one cell that do not settle
-and have similar records. A regime's displacement is extrapolated: docs/explanation/promise.md.
+A cell is a gap, a forcing frequency and a set of factors. A factor multiplies a value that may
+deviate. A start is a random initial state. A record is the largest displacement of a motion so far.
+A regime is a set of motions of one cell that have not settled and have similar records. How its
+displacement is extrapolated stands in docs/explanation/promise.md.
 """
 
 from dataclasses import dataclass, fields
@@ -17,33 +18,34 @@ from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETT
 from impact_damper.motions.start_states import random_starts
 from impact_damper.motions.steady import run_chunks
 
-# Outcomes with which a displacement is known: LASTING in the first run, KEPT in further runs.
+# Outcomes of motions whose displacement is known: LASTING after the first run, KEPT after others.
 LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)
 KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 # Purposes for which starts are drawn. The index of a purpose is part of the seed. A choice and its
 # confirmation therefore have different starts.
 STREAMS = "search compared confirmed orbit forces masses repeated shocks searched_again".split()
-# Largest number of cells for which a thread draws starts at once (DRAWN), of motions that a thread
-# runs at once (FOLLOWED), of regimes run further between two comparisons of bounds (TOGETHER).
+# A thread draws the starts of at most DRAWN cells at once, and runs at most FOLLOWED motions at
+# once. At most TOGETHER regimes are run further before bounds are compared again.
 DRAWN, FOLLOWED, TOGETHER = 4, 8, 8
-# Largest ratio of neighbouring records in a regime, in order of size.
+# Largest ratio of a record in a regime to the next smaller record.
 APART = 1.3
-# A peak is the largest displacement in BLOCK cycles. The displacement that a regime exceeds once in
-# HORIZON cycles is extrapolated from its TAIL largest peaks.
+# A peak is the largest displacement of a motion in BLOCK cycles. The displacement that a regime
+# exceeds once in HORIZON cycles is extrapolated from its TAIL largest peaks.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
-# Cycles of all motions of a regime together: least number for an extrapolation, and largest number.
+# The cycles of all motions of a regime are added. From POOLED cycles on, the displacement is
+# extrapolated. From MOST_POOLED cycles on, the regime is not run further.
 POOLED, MOST_POOLED = 25_000, 200_000
 # Relative growth of a record that is assumed for each doubling of the cycles up to POOLED.
 MISSING = 0.03
-# STEADY: largest relative difference between the records of the QUARTERS of a run on a torus.
-# SLACK: largest relative amount by which a motion exceeds the orbit that it approaches.
+# A regime is a torus if its largest displacements in the QUARTERS parts of its run differ by at
+# most the fraction STEADY. A settled motion may exceed its orbit by the fraction SLACK.
 QUARTERS, STEADY, SLACK = 4, 0.002, 0.001
-# Cycles in which a motion is tested for having settled, before the motion is run further.
+# Number of cycles in which a motion may still settle before it is run further.
 CHECKED = 100
 
 
 class Cell(NamedTuple):
-    """A gap (m) and a forcing frequency (Hz), with factors of the values that may deviate."""
+    """A gap (m), a forcing frequency (Hz), and the factors of the values that may deviate."""
 
     gap: float
     frequency: float
@@ -51,7 +53,7 @@ class Cell(NamedTuple):
 
 
 def draw_starts(task, cells, count, stream) -> np.ndarray:
-    """Return random starts, shape (cells, count, 4), scaled by the motions without the damper.
+    """Return `count` random starts for each cell, shape (cells, count, 4).
 
     The tuple `stream` is a name in STREAMS, followed by numbers if the name is used several times.
     """
@@ -71,7 +73,7 @@ def draw_starts(task, cells, count, stream) -> np.ndarray:
 
 @dataclass
 class Motions:
-    """Motions from n starts at each of m cells; displacements are dimensionless.
+    """Motions from n starts at each of m cells. Displacements are dimensionless.
 
     Attributes
     ----------
@@ -79,13 +81,13 @@ class Motions:
     records : array of records.MOTION, shape (m, n)
         Results of the first run, in which each motion settles or is stopped.
     states : array, shape (m, n, 4)
-        States at the last strobe (the phase of the forcing at which cycles are compared).
+        States of the motions at their last strobe. The strobe is a fixed phase of the forcing.
     settled : array of bool, shape (m, n)
         Whether the largest displacement of the motion is known.
     peaks : array, shape (m, n)
-        Largest displacement of the orbit, or record of a motion that has not settled.
+        Largest displacement of a motion that has settled, record of any other motion.
     blocks : array of arrays, shape (m,)
-        Largest displacements in blocks of BLOCK cycles, shape (n, blocks), NaN if not run.
+        Largest displacement in each block of BLOCK cycles, shape (n, blocks), NaN if not run.
     """
 
     task: object
@@ -105,7 +107,7 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime) -> tuple:
-        """Return the displacement of a regime; if it is known; if late peaks fit the early ones."""
+        """Return a regime's displacement, whether it is known, and whether later peaks agree."""
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
         pooled = BLOCK * np.isfinite(peaks).sum()
@@ -123,14 +125,14 @@ class Motions:
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
     def numbers(self, k) -> tuple:
-        """Return the displacements of all starts of cell k, and which of them are known."""
+        """Return two arrays over the starts of cell k: displacement, and whether it is known."""
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
             sizes[regime], known[regime], _ = self.measured(k, regime)
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return the `rank`-th largest displacement of each cell; its start; 1 if it is known."""
+        """Return three arrays over cells: `rank`-th largest displacement, its start, 1 if known."""
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)
@@ -139,14 +141,14 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether a regime of cell k with MOST_POOLED cycles exceeds its extrapolation."""
+        """Return whether later peaks of a regime of cell k disagree after MOST_POOLED cycles."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 
     def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
-        """Run motions further until the largest bound is known or below `least`; return bounds.
+        """Run motions further until the largest bound is known or at most `least`; return bounds.
 
-        Cells in `left_out` are neither run nor compared.
+        The bound of a cell is its `rank`-th largest displacement. Cells in `left_out` are skipped.
         """
         while True:
             bounds, places, known = self.bounds(rank)
@@ -160,9 +162,9 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Double the cycles run by a regime of cell k; in the first call run at least POOLED/2.
+        """Run a regime of cell k for as many cycles again, the first time at least POOLED/2 cycles.
 
-        Records of the first run are forgotten, because they may include transients.
+        Records of the first run are dropped, because they may include transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):
@@ -178,7 +180,7 @@ class Motions:
         self.peaks[k, loud] = np.maximum(before, peaks[loud].max(axis=1))
 
     def _settle(self, k, places):
-        """Run motions of cell k on, mark those that settle, and return their mask."""
+        """Run motions of cell k for up to CHECKED cycles. Return the mask of those that settle."""
         effort = self.task.effort
         found = ensemble.settle(
             np.repeat(self.parameters[k : k + 1], len(places), axis=0),
@@ -194,7 +196,7 @@ class Motions:
         return on
 
     def join(self, other) -> "Motions":
-        """Return the motions of this object and then those of the `other`."""
+        """Return one object with the cells of this object, followed by the cells of `other`."""
         pairs = {
             each.name: np.concatenate([getattr(self, each.name), getattr(other, each.name)])
             for each in fields(self)
@@ -230,9 +232,10 @@ def run(task, cells, count, stream, progress=None) -> Motions:
 
 
 def peaks_of_blocks(task, p, states, number, cycles) -> np.ndarray:
-    """Run motions from a strobe in place; return largest displacements, shape (motions, number).
+    """Run motions in blocks; return the largest displacements in them, shape (motions, number).
 
-    A block has `cycles` forcing cycles. After an escape the displacements are infinite.
+    Each of the `number` blocks has `cycles` forcing cycles and begins at a strobe. `states` change
+    in place. Displacements are infinite from an escape on.
     """
     tolerance, stop = task.effort.settling.tolerance, np.zeros(1, bool)
     peaks, parameters = np.zeros((number, len(states))), np.tile(p, (len(states), 1))
@@ -248,7 +251,7 @@ def peaks_of_blocks(task, p, states, number, cycles) -> np.ndarray:
 
 
 def return_level(peaks) -> float:
-    """Return the displacement exceeded once in HORIZON cycles, at least the largest of the peaks.
+    """Return the displacement exceeded once in HORIZON cycles, but at least the largest peak.
 
     The excesses over a high level are assumed to be distributed exponentially (S. Coles, An
     Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). The tail of a bounded

@@ -16,13 +16,13 @@ from impact_damper.motions import traces
 from impact_damper.motions.response import frequency_response
 from impact_damper.motions.strobe_map import strobe_time
 
-# Number of states in a forcing cycle at which a motion is measured, and number of cycles over
-# which a motion that is not periodic is measured.
+# SAMPLES: states in a forcing cycle of which the largest displacement is taken.
+# WATCHED: number of cycles over which a motion that has not settled is measured.
 SAMPLES, WATCHED = 64, 200
-# Largest numbers: of random starts at each frequency of the response, and of further cycles of a
-# motion that has not settled, to classify the motion.
+# STARTS: largest number of random starts at each frequency of the response.
+# FURTHER: largest number of further cycles in which a motion that has not settled is classified.
 STARTS, FURTHER = 32, 1500
-# Variable of the dataset -> name of the cost in `costs.measured_costs`, physical quantity.
+# Variable of the dataset: (key of the cost in `costs.measured_costs`, physical quantity).
 COSTS = {
     "impact_rate_by_frequency": ("impact_rate", "rate"),
     "contact_force_by_frequency": ("contact_force", "force"),
@@ -35,14 +35,14 @@ COSTS = {
 
 
 def response_and_costs(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of the response with the chosen damper, and of costs of large motions."""
+    """Return a dataset of all motions with the chosen damper, and the costs of the largest ones."""
     effort = task.effort
     settling = replace(effort.settling, further=FURTHER)
     searched = {"starts": min(STARTS, effort.starts), "seed": effort.seed, "settling": settling}
     searched |= {"workers": effort.workers, "progress": progress}
     damper = task.damper(1e-3 * float(decision["design_gap"]))
     motions = frequency_response(task.machine, damper, task.grid, **searched)
-    # The datasets of all steps have the same coordinate `frequency`.
+    # Exactly the coordinate of the other steps, so that the datasets can be merged.
     motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
     return motions.merge(reached_motions(task, decision, motions))
 
@@ -50,9 +50,9 @@ def response_and_costs(task, decision, progress=None) -> xr.Dataset:
 def reached_motions(task, choice, response) -> xr.Dataset:
     """Return a dataset of the largest motion reached at each frequency, with its costs.
 
-    A motion without contacts lasts only if the loose mass does not drift at all. Such a motion is
-    reached only if random starts lead to it. `untouched_displacement` is the displacement of the
-    largest motion without contacts that is not reached.
+    A motion is reached if random starts lead to it. A motion with contacts is also reached if only
+    starts placed by the program lead to it. `untouched_displacement` is the displacement of the
+    largest motion without contacts to which only placed starts lead.
     """
     sizes = response["maximum_displacement"].values
     placed = response["origin"].values == flag("origin", "placed_start")
@@ -74,10 +74,10 @@ def reached_motions(task, choice, response) -> xr.Dataset:
 
 
 def _measured(task, case, size, state, periods):
-    """Return the measured numbers of one motion, keyed by the name of the dataset variable.
+    """Return the values of the dataset's variables for one motion, keyed by variable.
 
-    `size` is the largest displacement in earlier runs (mm), infinite after an escape. `state` is
-    a state of the motion at the strobe (the phase of the forcing at which cycles are compared).
+    `size` (mm) is the largest displacement in earlier runs, infinite after an escape. `state` is
+    the state of the motion at a strobe (a fixed phase of the forcing).
     """
     if not np.isfinite(size):
         return dict.fromkeys(("pressure_by_frequency", *COSTS), np.nan) | {

@@ -13,10 +13,10 @@ from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import Curve, score, search, search_around
 from impact_damper.design.task import NOMINAL, SIDES, VARIED, Task, labelled
 
-# A gap is confirmed if the search chooses a tried gap again, or if the promised displacement is at
-# most CONFIRMED times the least displacement of the search. At most ROUNDS gaps are tried.
+# A result is confirmed if the search chooses a tried gap again, or if the least promise is at most
+# CONFIRMED times the displacement that the search has found. At most ROUNDS gaps are tried.
 CONFIRMED, ROUNDS = 1.05, 4
-# Nearby gaps are run again if the promised displacement exceeds SURPRISE times the searched one.
+# Nearby gaps are run again if a promise exceeds SURPRISE times the displacement of the search.
 SURPRISE = 1.1
 
 
@@ -28,7 +28,7 @@ class Tried(NamedTuple):
 
     @property
     def harmful(self) -> np.ndarray:
-        """Sets of factors with the nominal gap: the nominal set and the worst set."""
+        """Two sets of factors: the nominal set, and the worst set with the nominal gap."""
         worst = self.promise.sets[self.promise.worst[0]].copy()
         worst[0] = 1
         return np.unique([NOMINAL, worst], axis=0)
@@ -41,7 +41,7 @@ class Tried(NamedTuple):
 
 
 def find_gap(task: Task, progress=None) -> xr.Dataset:
-    """Return the dataset of the decision on the best gap, with the search and the confirmation."""
+    """Search for the best gap, try it with new starts, and return the dataset of the decision."""
     curve, tried, status = search(task, progress), [], "rounds_ended"
     for turn in range(ROUNDS):
         choice = curve.choose()
@@ -171,8 +171,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 def rivals(task) -> xr.Dataset:
     """Return a dataset of the largest displacements with absorbers: tuned, detuned, the task's own.
 
-    The first two absorbers are as heavy as the loose mass. Their displacements are NaN if the
-    machine has no linear stiffness. The third displacement is NaN if the task has no absorber.
+    If an absorber does not exist, the displacement is NaN.
     """
     band = task.absorber_band
     found = absorber_responses(
@@ -191,7 +190,10 @@ def rivals(task) -> xr.Dataset:
 
 
 def _end(beyond, size):
-    """Return the name of the flag `keeping_end` for the displacement (mm) beyond an end."""
+    """Return what ends the range of gaps that keep the promise, by name (flag `keeping_end`).
+
+    `beyond` is the displacement (mm) just outside the range, NaN if the search ended there.
+    """
     if np.isnan(beyond):
         return "search_ends"
     return "jump" if beyond > 1.5 * KEEPS * size else "growth"

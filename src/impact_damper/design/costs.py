@@ -18,10 +18,9 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 def measured_costs(p, y, begin, periods) -> dict:
     """Return the dimensionless costs of a motion over a number of forcing cycles.
 
-    Only contacts that begin in these cycles are counted. Rates, forces, accelerations and powers
-    are NaN if the motion escapes over the barrier of a softening spring. Forces and powers are
-    divided by the primary mass. On a moving base the acceleration is absolute. Without a moving
-    base the absolute displacement is NaN.
+    `impact_rate` and `impact_speed` count only contacts that begin in these cycles. Forces and
+    powers are divided by the primary mass. They are NaN if the motion escapes, like rates and
+    accelerations. The absolute displacement is NaN without a moving base.
     """
     time = periods * 2 * np.pi / p[FREQUENCY]
     panels = sampled(p, y, begin, begin + time, POLISH_TOLERANCE)
@@ -30,7 +29,7 @@ def measured_costs(p, y, begin, periods) -> dict:
     wall, (x, v) = panels.wall[:, None], np.moveaxis(panels.states, -1, 0)[:2]
     depth, rate = penetration(p, panels.states, wall)
     contact = wall_force(p, depth, rate)
-    # Only kernels can call the compiled functions; `py_func` is the Python function.
+    # Only kernels can call these compiled functions. `py_func` is the function before compilation.
     external = forcing_amplitude.py_func(p) * np.cos(p[FREQUENCY] * panels.times)
     free = (1 - p[BASE]) * external - p[DAMPING] * v - spring.py_func(p, x)
     absolute = largest(x + base_displacement(p, panels.times)) if p[BASE] else np.nan
@@ -47,9 +46,9 @@ def measured_costs(p, y, begin, periods) -> dict:
 
 
 def pressure_costs(machine, damper, contact, speed) -> tuple[float, str]:
-    """Return the pressure (Pa) of an elastic impact by Hertz's theory, and whether walls yield.
+    """Return the pressure (Pa) of an elastic impact by Hertz's theory, and whether the walls yield.
 
-    `contact` is a HertzContact or None. `speed` is the largest speed of impact, m/s.
+    `contact` is a HertzContact, or None if unknown. `speed` is the largest speed of impact, m/s.
     """
     if contact is None:
         return np.nan, "unknown"

@@ -16,7 +16,7 @@ from impact_damper.model.arguments import read_system
 from impact_damper.model.bounds import names_arguments, shown
 from impact_damper.model.machine import Machine, describe_si
 
-# Numerical errors. An addition to the decision (see `answer`) may fail with one of these errors.
+# Errors with which an addition to the decision may fail without ending the design.
 NUMERICAL = (ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError)
 
 
@@ -39,10 +39,10 @@ def design_damper(
 ):
     """Find the gap with which a machine moves least, and say how far it moves.
 
-    The promised displacement of a gap is a bound. From at least the share `share` of all starts the
-    machine stays below this bound, with 95 % confidence. The bound holds at each frequency of the
-    band and for the worst values within the tolerances. The chosen gap is confirmed with starts
-    that the search has not used.
+    A start is a random initial state. The promised displacement of a gap is a bound. At least the
+    fraction `share` of all starts leads to motions below this bound, with 95 % confidence. The
+    bound holds at each frequency of the band and for the worst values within the tolerances. The
+    chosen gap is confirmed with starts that the search has not used.
 
     Parameters
     ----------
@@ -56,20 +56,20 @@ def design_damper(
         Coefficient of restitution, 0.05 to 1.
     contact : float, str or HertzContact
         Stiffness of the contact, N/m, or the contact of curved bodies. The stiffness of curved
-        bodies is computed for the speed with which the loose mass crosses the gap of the paper's
-        rule (18) in half a cycle at mid-band. The pressure is computed for the design's impacts.
+        bodies depends on the speed of impact. This speed is taken as that of a loose mass which
+        crosses the gap of the paper's rule (18) in half a cycle at mid-band.
     mount : dict, optional
-        Arguments of `machine.mounting`: inclination of the gap, such as {"inclination": "90 deg"},
-        friction_coefficient, and normal_force between the loose mass and its floor. By default the
-        gap is horizontal and without friction.
+        Arguments of `impact_damper.model.machine.mounting`, which are `inclination` of the gap
+        (such as "90 deg"), `friction_coefficient` and `normal_force`, or `gravity` along the gap
+        and `friction`. By default the gap is horizontal and without friction.
     tolerances : dict, optional
         Largest deviations of gap, restitution, contact_stiffness, gravity, friction, stiffness,
         damping and force. A deviation is relative, such as {"gap": "10 %"}, or absolute with a
         unit, such as {"gap": "0.2 mm"}. By default only the gap deviates, by 20 %.
     displacement_limit : float or str, optional
-        Largest displacement that is allowed, m, to be compared with the promised displacement.
+        Largest displacement that is allowed, m. The promised displacement is compared with it.
     share : float
-        Share of all starts for which the promised displacement holds.
+        Fraction of all starts for which the promised displacement holds, 0.5 to 0.999.
     absorber : dict, optional
         A second tuned absorber for the comparison, besides the optimum one: its `mass` (kg),
         `stiffness` (N/m) and `damping` (N s/m).
@@ -135,7 +135,7 @@ def evaluate_damper(
     folder=None,
     progress=False,
 ):
-    """Say how far a machine moves with an existing damper, by the bound that `design_damper` uses.
+    """Say how far a machine moves with an existing damper: its promised displacement.
 
     Parameters
     ----------
@@ -224,12 +224,12 @@ class Steps:
         self.made = ""
 
     def made_from(self, inputs):
-        """Return the method `step`, which reuses files of the same inputs and source files only."""
+        """Return the method `step`. It reuses a file if inputs and source files are unchanged."""
         self.made = json.dumps(inputs | {"sources": _sources()}, sort_keys=True)
         return self.step
 
     def step(self, name, compute, *given):
-        """Return the dataset of `compute`, from a file if the file is made from the same inputs."""
+        """Return the dataset of `compute`, read from a file that is made from the same inputs."""
         title = name.capitalize() if self.progress else None
         if self.folder is None:
             return compute(*given, progress=title)

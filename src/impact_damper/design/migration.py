@@ -1,7 +1,8 @@
 """Design for migration: gaps and frequencies at which a release of the damper is sure to succeed.
 
-The damper is switched on and, at the release, off again. A release succeeds if it moves a machine
-with a cubic spring from its large free motion to its small one (`motions.migration`).
+A free motion is a forced motion without the damper. A machine with a cubic spring can have a large
+and a small one. During the large motion the damper is switched on and, at the release, off again.
+A release succeeds if it leads to the small motion (`motions.migration`).
 """
 
 import json
@@ -37,18 +38,18 @@ def migration(
 ):
     """Find gaps and frequencies at which releasing a damper leads to the small free motion.
 
-    Each release is a run of `migrate`. During the large free motion the damper is switched on at a
-    random phase, with the loose mass at a random place. The damper is switched off at a random
-    phase after the motion has settled, or after `longest_hold` cycles. At least the share `share`
-    of all releases must succeed. By default the gaps (m) cover the range of `design_damper`.
-    `effort` has the numbers of frequencies, of gaps (`candidates`) and of releases for each gap and
-    frequency (`starts`); `progress` is the title of a bar. Others are as for `design_damper`.
+    Each release is like one of `migrate`. During the large free motion the damper is switched on at
+    a random phase, with the loose mass at a random place. The damper is switched off at a random
+    phase after the motion has settled, or after `longest_hold` cycles. The `gaps` are in m, by
+    default in the range of `design_damper`. `effort` has the numbers of frequencies, of gaps
+    (`candidates`) and of releases for each gap and frequency (`starts`). `progress` is the title of
+    a progress bar. Other arguments are as for `design_damper`.
 
-    The dataset has, for each gap and frequency, the share of releases that succeed, their median
-    time and `migration_bound`: the time in which the share `share` of all releases succeed, at 95 %
-    confidence, or infinity. From the `sure_frequency` of a gap on, it is finite wherever there are
-    two free motions. `migration_gap` is the gap with the lowest `sure_frequency`. A ValueError is
-    raised if the machine without damper has only one motion at each frequency.
+    The dataset has for each gap and frequency: share of releases that succeed, median time of all
+    releases, `migration_bound`. The fraction `share` of all releases succeeds within this bound,
+    with 95 % confidence. The bound is finite at all frequencies with two free motions from the
+    `sure_frequency` of the gap on. `migration_gap` is the gap with the lowest `sure_frequency`.
+    A ValueError is raised if the machine has only one free motion at each frequency.
     """
     effort = Effort() if effort is None else effort
     task = Task(
@@ -98,7 +99,7 @@ def _case(task, gap, frequency):
 
 
 def release_time(case, seed, longest_hold, settling, stop) -> float:
-    """Return the cycles from switching on to the small motion, or infinity if it is not reached."""
+    """Return the cycles from switching on until the small motion is reached, or infinity."""
     draws = np.random.default_rng(seed).random((1, 3))
     _, log = control(case, draws, longest_hold, settling, 0, None, stop)
     reached = log["destination"][0] == FREE_MOTION["non_resonance"]
@@ -106,12 +107,12 @@ def release_time(case, seed, longest_hold, settling, stop) -> float:
 
 
 def _table(task, gaps, times, longest_hold) -> xr.Dataset:
-    """Return the dataset of releases from times (s), which are NaN where one free motion exists."""
+    """Return the dataset of releases. `times` (s) are NaN where there is only one free motion."""
     rank = bounding_rank(task.share, times.shape[-1])
     bounds = -np.sort(-times, axis=-1)[..., rank - 1]
     one = np.isnan(times[..., 0])
     sure = np.isfinite(bounds)
-    # Above the last frequency with two motions the machine has only the small motion.
+    # Above the last frequency with two motions there is nothing to migrate.
     last = int(np.flatnonzero(~one.all(axis=0))[-1])
     lowest = np.full(len(gaps), np.nan)
     for i, row in enumerate(sure[:, : last + 1]):

@@ -11,35 +11,36 @@ from impact_damper.design.task import VARIED
 
 # Largest number of corners, which are sets of factors with each value at an end of its tolerance.
 CORNERS = 8
-# In at most SPLITS rounds, frequencies are added beside the peak of each set of factors whose peak
-# is at least NEAR times the largest one. A peak is known if the last frequencies raised the peak by
-# at most the fraction PEAK and, inside the band, a parabola by at most PEAK; or if it is infinite.
+# In each of at most SPLITS rounds, frequencies are added beside the peaks that are at least NEAR
+# times the largest one. An infinite peak is known. Any other peak is known if the last frequencies
+# raised it by at most the fraction PEAK, and if a parabola through an inner peak and its neighbours
+# is higher by at most the fraction PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-# Sets that deviate are run first at half of the grid's frequencies, but at FEWEST at least.
+# Other sets than the nominal one are run first at half of the grid's frequencies, at least FEWEST.
 FEWEST = 9
-# Twice the allowed share of starts exceed the usual displacement of a cell. A cell has rare motions
-# if its bound exceeds RARE times the largest usual displacement. SOME such cells at a time are run
-# again with MORE times as many starts, until a new bound exceeds KEPT times the least old bound.
+# The usual displacement of a cell is the one that twice the allowed share of its starts exceeds. A
+# cell has rare motions if its bound exceeds RARE times the largest usual displacement. Such cells
+# are run again with MORE times as many starts, in groups of SOME, the largest bounds first. The
+# last group is the first in which a new bound exceeds KEPT times the least old bound of the group.
 RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
 class Promise:
-    """Motions with a gap (m) for sets of factors, over a grid of frequencies refined at peaks.
+    """Motions at a gap (m) for sets of factors, over frequencies that are added at peaks.
 
     Attributes
     ----------
     sets : array, shape (s, len(VARIED))
     cells : list of tuple
-        Index of the set and frequency (Hz) of each cell, in the order of `motions`.
+        A cell is the index of a set and a frequency (Hz). The order is that of `motions`.
     bounds : array, shape (cells,)
-        Displacement, mm, below which the machine stays from at least `task.share` of the starts.
-    peak_known, grows : bool
-        Whether the peak over the frequency is known within PEAK, and whether motions that do not
-        settle exceeded their extrapolation.
+        Bound (mm) of each cell: at least the fraction `task.share` of all starts stays below it.
+    peak_known : bool
+        Whether the peak over the frequency is known within PEAK.
+    grows : bool
+        Whether motions at a largest bound exceeded their extrapolation to the end of their run.
 
-    Suppose that the largest true quantile of all cells exceeds the largest bound. Then the bound of
-    the cell with this quantile is below its own quantile. The probability of such a bound is at
-    most 5 %. The number of cells therefore needs no correction.
+    docs/explanation/promise.md shows why the number of cells needs no correction.
     """
 
     def __init__(self, task, gap, sets, stream, count=None, frequencies=None, progress=None):
@@ -74,7 +75,7 @@ class Promise:
     def _repeat_rare(self) -> None:
         """Run cells with rare motions again, with more starts.
 
-        The probability that one of the two bounds of a cell is wrong is at most DOUBT.
+        The probability that the first or the second bound of a cell is wrong is at most DOUBT.
         """
         allowed = int(2 * (1 - self.task.share) * self.count) + 1
         usual, bounds = (self.motions.bounds(rank)[0] for rank in (allowed, self.rank))
@@ -97,7 +98,7 @@ class Promise:
                 return
 
     def refined(self) -> "Promise":
-        """Run further frequencies, SPLITS times or until the peak is known; return the object."""
+        """Add frequencies until the peak is known, at most SPLITS times. Return the object."""
         before = {}
         for _ in range(SPLITS):
             cells = []
@@ -113,12 +114,12 @@ class Promise:
         return self
 
     def by_set(self) -> np.ndarray:
-        """Return the largest displacement over the frequency for each set, mm."""
+        """Return for each set the largest displacement over the frequency, mm."""
         owners = np.array([k for k, _ in self.cells])
         return np.array([self.bounds[owners == k].max() for k in range(len(self.sets))])
 
     def over_frequency(self, k) -> tuple:
-        """Return ascending frequencies (Hz) and displacements (mm) of set k."""
+        """Return two arrays for set k: ascending frequencies (Hz), and displacements (mm)."""
         places = [place for place, cell in enumerate(self.cells) if cell[0] == k]
         frequencies = np.array([self.cells[place][1] for place in places])
         order = np.argsort(frequencies)
@@ -131,7 +132,7 @@ class Promise:
 
     @property
     def worst(self) -> tuple:
-        """Index of the set of factors, and frequency (Hz), at which the displacement is largest."""
+        """Cell with the largest displacement: index of the set of factors, and frequency (Hz)."""
         return self.cells[int(np.argmax(self.bounds))]
 
 
@@ -176,7 +177,7 @@ def factor_sets(task, gap) -> np.ndarray:
 
 
 def other_sets(task, gap) -> np.ndarray:
-    """Return the `factor_sets` with the nominal gap in place of other gaps, each set once."""
+    """Return the `factor_sets` with the nominal gap in each. Sets that become equal occur once."""
     rows = factor_sets(task, gap)
     rows[:, 0] = 1
     return np.unique(rows, axis=0)

@@ -1,7 +1,7 @@
 """The search for the gap: a curve of displacements over the gap, refined where it is small.
 
-Few starts at few frequencies give the first curve. Near the best gaps, other values than the gap
-deviate too. The value of a nominal gap is the largest displacement within the gap's tolerance.
+The first curve follows from few starts at few frequencies. Later, near the best gaps, other values
+also deviate. The value of a nominal gap is the largest displacement within the gap's tolerance.
 """
 
 from typing import NamedTuple
@@ -13,26 +13,27 @@ from impact_damper.design.cells import STREAMS, Cell, run
 from impact_damper.design.promise import MORE, RARE, other_sets
 from impact_damper.design.task import NOMINAL, Task
 
-# First search over all gaps: largest number of gaps, `count` of `Task.few`, number of starts.
+# The first search has at most GAPS gaps, frequencies `Task.few(FREQUENCIES)`, and STARTS starts.
 GAPS, FREQUENCIES, STARTS = 40, 9, 12
-# Comparisons near the best gaps: `count` of `Task.few`, number of starts, largest number of rounds.
+# Near the best gaps, at most ROUNDS rounds have frequencies `Task.few(CLOSE_FREQUENCIES)` and
+# worst ones, and CLOSE_STARTS starts.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
-# JUMP: least ratio of neighbouring displacements at a jump. An interval of the logarithm of the gap
-# is split if it is above FINE at a jump, above SMOOTH elsewhere.
+# Two neighbouring displacements whose ratio exceeds JUMP form a jump. An interval between two gaps
+# is split if the logarithm of their ratio exceeds SMOOTH or, at a jump, FINE.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
-# Gaps with values of at most CANDIDATE times the least value form candidate ranges. A range ends at
-# LEVEL times its own least value. Of the ranges whose own least value is at most ALIKE times the
-# least value of all gaps, the widest is chosen.
+# Nominal gaps whose value is at most CANDIDATE times the least value form ranges. Each range is cut
+# where the value exceeds LEVEL times the least value of the range. Ranges whose least value is at
+# most ALIKE times the least value of all gaps are equally good. The widest of these is chosen.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
-# A gap is rounded to at least DIGITS and fewer than MOST_DIGITS significant digits, or not at all.
+# A chosen gap is rounded to DIGITS significant digits or, if needed, to more below MOST_DIGITS.
 DIGITS, MOST_DIGITS = 3, 9
 # Displacement in place of infinity, mm.
 HUGE = 1e9
 
 
 class Range(NamedTuple):
-    """Range of nominal gaps with similar values: ends, a middle gap, least value; in mm."""
+    """Range of nominal gaps with similar values, mm: ends, a gap near the middle, least value."""
 
     low: float
     high: float
@@ -41,7 +42,7 @@ class Range(NamedTuple):
 
 
 class Curve:
-    """Displacements (mm; of `score` or promised) at ascending gaps (mm), with worst frequencies."""
+    """Displacements (mm) at ascending gaps (mm), and the frequencies (Hz) at which they occur."""
 
     def __init__(self, task: Task):
         self.task = task
@@ -50,7 +51,7 @@ class Curve:
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements. A known gap keeps the larger one, or gets the new one if `replace`."""
+        """Add displacements. At a known gap keep the larger one or, with `replace`, the new one."""
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
             if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
@@ -64,9 +65,9 @@ class Curve:
                 self.close = np.insert(self.close, k, close)
 
     def within(self, lows, highs) -> np.ndarray:
-        """Return the largest displacement between each pair of gaps.
+        """Return the largest displacement from each gap in `lows` to the gap beside it in `highs`.
 
-        There the curve is interpolated or, in a jump, the larger displacement of both sides taken.
+        At these two gaps the curve is interpolated. Inside a jump it is as high as its higher side.
         """
         logs, values = np.log(self.gaps), np.log(self.sizes)
         found = np.full(len(lows), -np.inf)
@@ -83,7 +84,7 @@ class Curve:
         return np.exp(np.maximum(found, np.where(inside, values, -np.inf).max(axis=1)))
 
     def nominal(self) -> tuple:
-        """Return many nominal gaps, and the largest displacement within the tolerance of each."""
+        """Return two arrays: many nominal gaps, and the value of each (see the module)."""
         share, width = self.task.gap_tolerance
         first, last = (self.gaps[0] + width) / (1 - share), (self.gaps[-1] - width) / (1 + share)
         gaps = np.geomspace(first, max(last, first), NOMINAL_GAPS)
@@ -109,9 +110,10 @@ class Curve:
         return max(good, key=lambda each: each.high / each.low)
 
     def keeping(self, gap, size) -> tuple:
-        """Return the ends of a range of gaps around `gap`, and displacements just beyond, or NaN.
+        """Return two lists: the ends of a range of gaps, and the displacements just beyond them.
 
         The range is the tolerance of `gap` and all adjoining gaps with displacements up to `size`.
+        The displacement beyond an end is NaN if the curve ends there.
         """
         ends, beyond = [], []
         for end, step in zip(self.task.gap_ends(gap), (-1, 1), strict=True):
@@ -123,7 +125,10 @@ class Curve:
         return ends, beyond
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return `sets` with the worst gap in the tolerance, none if `gap` or an end is as bad."""
+        """Return `sets` with the worst gap inside the tolerance of `gap`.
+
+        No set is returned if `gap` or an end of its tolerance is at least as bad.
+        """
         low, high = self.task.gap_ends(gap)
         inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
         known = np.array([low, gap, high])
@@ -134,11 +139,11 @@ class Curve:
         return rows
 
     def critical(self) -> np.ndarray:
-        """Return the worst frequencies of gaps with displacements near the least nominal value."""
+        """Return the worst frequencies (Hz) of all gaps with displacements near the least value."""
         return np.unique(self.worst[self.sizes <= CANDIDATE * self.nominal()[1].min()])
 
     def unclear(self) -> np.ndarray:
-        """Return gaps at which the curve must be computed next, in descending importance."""
+        """Return the gaps at which the curve must be computed next, the most important first."""
         gaps, values = self.nominal()
         good = values <= CANDIDATE * values.min()
         low, high = self.task.gap_ends(gaps[good])
@@ -161,7 +166,7 @@ class Curve:
 
 
 def middle_gap(first, last) -> float:
-    """Return a gap inside a range, near its middle, with DIGITS digits or, if needed, more."""
+    """Return a gap near the middle of a range, with as few digits as possible, at least DIGITS."""
     middle = float(np.sqrt(first * last))
     for digits in range(DIGITS, MOST_DIGITS):
         gap = float(f"{middle:.{digits}g}")
@@ -171,11 +176,11 @@ def middle_gap(first, last) -> float:
 
 
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
-    """Return displacements (mm) at gaps (mm), and the frequency and set of factors of each one.
+    """Return three sequences over gaps (mm): displacement (mm), its frequency, its set of factors.
 
-    Displacements are the largest over frequencies and sets. In each cell the largest motions are
-    left out: (1 - share)/2 of all, rounded. Few starts hardly tell rare motions from others: a cell
-    whose rare motions decide on a gap is run again with more starts.
+    The displacement is the largest over frequencies and sets. In each cell the largest motions are
+    left out, about the fraction (1 - share)/2 of all. Few starts hardly distinguish rare motions
+    from others. If rare motions decide on a gap, their cell is run again with more starts.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
@@ -196,19 +201,19 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
 
 
 def _ranks(task, starts):
-    """Return how many motions exceed the displacement of a cell, and how many the usual one."""
+    """Return how many motions exceed a cell's displacement, and how many its usual displacement."""
     allowed = starts * (1 - task.share)
     return round(allowed / 2), int(2 * allowed)
 
 
 def _exceeded_by(task, motions, ranks):
-    """Return the displacement (mm) that a number of motions exceed, shape (ranks, cells)."""
+    """Return displacements (mm) that `ranks` motions of each cell exceed, shape (ranks, cells)."""
     sizes = np.array([np.sort(motions.numbers(k)[0]) for k in range(len(motions.peaks))])
     return task.millimetres(np.stack([sizes[:, -1 - rank] for rank in ranks]))
 
 
 def search(task, progress=None, rounds=ROUNDS) -> Curve:
-    """Return the curve over all gaps, refined where it is small, and there finest at jumps."""
+    """Return the curve over all gaps, refined where displacements are small, most at jumps."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = np.geomspace(*task.gap_span, min(GAPS, 3 * task.effort.candidates + 4))
     first = score(task, gaps, few, STARTS, ("search",), progress)
@@ -227,7 +232,7 @@ def search(task, progress=None, rounds=ROUNDS) -> Curve:
 
 
 def search_around(task, gap, sets, progress=None) -> Curve:
-    """Return a curve around a given gap (mm): the largest displacements over sets of factors."""
+    """Return a curve from half to twice a given gap (mm): largest displacements over `sets`."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = gap * np.geomspace(0.5, 2, 2 * task.effort.candidates + 1)
     curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress, sets)[:2])

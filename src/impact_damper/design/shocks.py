@@ -1,8 +1,8 @@
 """Robustness of a design: impulses on the machine, and how soon motions stay below the promise.
 
 The names *minimal critical shock*, *convergence time* and *finite-time basin stability* come from
-Attractors.jl, version 2. Motions return here when they stay below the promised displacement. A
-chaotic motion can return, though it never settles.
+Attractors.jl, version 2. In this module a motion has returned once it stays below the promised
+displacement. A chaotic motion can return although it never settles.
 """
 
 import numpy as np
@@ -12,20 +12,21 @@ from impact_damper.design.cells import Cell, draw_starts, peaks_of_blocks, run
 from impact_damper.design.task import labelled
 from impact_damper.model.packed import FREQUENCY
 
-# Number of impulses of each sign. The largest impulse changes the velocity of the machine by WIDEST
-# times its largest velocity without damper or, if that is infinite, at the promised displacement.
+# SHOCKS: number of impulses of each sign. The largest impulse changes the velocity of the machine
+# by WIDEST W x. W is the forcing frequency, and x the largest displacement without damper or, if
+# this is infinite, the promised displacement.
 SHOCKS, WIDEST = 32, 2.0
-# Cycles of a motion, and of each block whose largest displacement is compared with the promise.
+# A motion is run for LONGEST cycles. Its largest displacement is taken in blocks of BLOCK cycles.
 LONGEST, BLOCK = 1000, 10
-# Cycles for which the share of starts that have returned is stored.
+# Numbers of cycles after which the share of starts that have returned is stored.
 LIMITS = (10, 30, 100, 300, 1000 - BLOCK)
 
 
 def shocks(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset of convergence times after impulses, and of shares of starts that return.
 
-    The machine has its nominal values and is excited at the promised frequency. An impulse acts at
-    a strobe on the smallest motion that starts have found.
+    The machine has its nominal values and is excited at the promised frequency. An impulse acts on
+    the smallest motion that random starts lead to, at a strobe (a fixed phase of the forcing).
     """
     frequency = float(decision["promised_frequency"])
     cell = Cell(1e-3 * float(decision["design_gap"]), frequency)
@@ -52,7 +53,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
 
 
 def convergence_times(task, p, states, promised) -> np.ndarray:
-    """Return the cycles until motions stay below a displacement; infinity if they do not."""
+    """Return for each motion the cycles after which it stays below `promised`, or infinity."""
     peaks = peaks_of_blocks(task, p, states.copy(), LONGEST // BLOCK, BLOCK)
     loud = peaks > promised
     last = np.where(loud.any(axis=1), loud.shape[1] - np.argmax(loud[:, ::-1], axis=1), 0)

@@ -1,7 +1,7 @@
 """The task of a design: machine, loose mass, contact, band of frequencies, tolerances, effort.
 
-Values are in SI units unless mm are named. Rule (18) of the paper is m2 w^2 (gap/2) = F, with the
-loose mass m2, the angular forcing frequency w and the amplitude F of the force.
+Values are in SI units unless mm are named. By rule (18) of the paper the gap satisfies
+m2 w^2 gap/2 = F. Here m2 is the loose mass, w the angular frequency, F the amplitude of the force.
 """
 
 import math
@@ -31,14 +31,15 @@ from impact_damper.model.text import with_unit
 from impact_damper.model.units import absolute_value, check_si
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 
-# VARIED: values that may deviate; the last three belong to the machine. NOMINAL: factors of values
-# that do not deviate. TOLERANCES: largest relative deviations by default.
+# VARIED: values that may deviate. The last three belong to the machine. NOMINAL: the factors (all
+# 1) if no value deviates. TOLERANCES: largest relative deviations by default.
 VARIED = tuple("gap restitution contact_stiffness gravity friction stiffness damping force".split())
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
-# Labels of the ends of a range or of a confidence interval.
+# Labels of the two ends of a range.
 SIDES = ["lower", "upper"]
-# Largest relative deviation, and quantities of absolute deviations, except for the excitation.
+# MOST_DEVIATION: largest relative deviation that is allowed. ABSOLUTE: values whose deviation may
+# have a unit, with the physical quantity. The quantity of `force` depends on the machine.
 MOST_DEVIATION = 0.9
 ABSOLUTE = {
     "gap": "displacement",
@@ -48,13 +49,15 @@ ABSOLUTE = {
 }
 # Least gap considered, divided by the least gap of rule (18) or, if smaller, by the greatest gap.
 LEAST_GAP = 0.15
-# Greatest gap, divided by the greatest gap of rule (18), if the bare machine escapes everywhere.
+# Greatest gap, divided by the greatest gap of rule (18), if the machine without damper escapes at
+# all frequencies.
 ESCAPING = 4.0
-# Ends of the range over which an absorber is tuned for comparison, divided by the lowest and by the
-# highest frequency of band and resonance.
+# An absorber is tuned from ABSORBED[0] times the lowest frequency of band and resonance to
+# ABSORBED[1] times the highest one.
 ABSORBED = 0.5, 2.0
-# First runs (`cells.run`) stop a chaotic motion after PATIENT decay times of the machine, at least
-# LEAST_PATIENCE cycles, and all motions after LONG x PATIENT decay times, at least LEAST_LIMIT.
+# The first run of a motion (`cells.run`) stops after LONG x PATIENT decay times of the machine, at
+# least LEAST_LIMIT cycles. A chaotic motion is stopped after PATIENT decay times, at least
+# LEAST_PATIENCE cycles. `Effort.settling` may stop both sooner.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
 # Least number of cycles over which a motion that has not settled is measured.
@@ -62,7 +65,7 @@ WATCHED = 100
 
 
 def labelled(values, **coordinates) -> xr.Dataset:
-    """Return a dataset of registered variables, displacements in mm and others in SI units."""
+    """Return a dataset of registered variables. Displacements are in mm, others in SI units."""
     made = {name: shown_variable(name, value) for name, value in values.items()}
     known = {name: shown_variable(name, value) for name, value in coordinates.items()}
     return xr.Dataset(made, known, {"source": SOURCE})
@@ -80,7 +83,7 @@ class Effort:
     candidates : int
         Largest number of gaps in each comparison after the first search over all gaps.
     starts : int
-        Random starts (initial states of machine and loose mass) that test a gap at each frequency.
+        Number of random starts (initial states) with which a gap is confirmed at each frequency.
     seed : int
         Seed of the random starts.
     settling : Settling, optional
@@ -91,7 +94,7 @@ class Effort:
     Raises
     ------
     TypeError, ValueError
-        If a value is not a whole number or out of range.
+        If a value has a wrong type or is out of range.
 
     Examples
     --------
@@ -124,7 +127,7 @@ class Task:
 
     `gap` (m) is the gap of an existing damper, or None if a gap is to be found. `contact_stiffness`
     (N/m) follows from `contact`. `gravity` along the gap (m/s^2) and `friction` (N) follow from
-    `mount`, the arguments of `machine.mounting`.
+    `mount`, the arguments of `impact_damper.model.machine.mounting`.
     """
 
     machine: Machine
@@ -187,13 +190,13 @@ class Task:
         object.__setattr__(self, name, value)
 
     def _check_length(self, name, most, why):
-        """Check a length (m), at most `most`. `most` is infinite if the bare machine escapes."""
+        """Check that a length (m) is above 0 and at most `most`, and convert it to a number."""
         limits = {"most": most, "why": why} if math.isfinite(most) else {}
         length = check_si(name, getattr(self, name), "displacement", above=0, **limits)
         self._set(name, length)
 
     def _stiffness(self):
-        """Return the stiffness of the contact.
+        """Return the stiffness of the contact, N/m.
 
         By Hertz's law the stiffness grows with the speed of impact. The loose mass is assumed to
         cross the gap of rule (18) in half a cycle, at the middle frequency of the band.
@@ -214,7 +217,7 @@ class Task:
             )
 
     def _check_deviations(self):
-        """Raise a ValueError if the tolerances include a damper that is not allowed."""
+        """Raise ValueError unless nominal values, and those with all deviations, are allowed."""
         gap = self.gap or 1e-3 * self.gap_span[0]
         widths = self.deviations(1e3 * gap)
         least = self.restitution * (1 - self.tolerances.get("restitution", 0.0))
@@ -230,7 +233,7 @@ class Task:
                 self.packed(gap, frequency, factors)
 
     def _checked_tolerances(self):
-        """Return relative deviations as numbers, and an absolute deviation of the gap as text."""
+        """Return the tolerances as relative numbers; one of the gap in mm becomes a text in m."""
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
@@ -261,18 +264,18 @@ class Task:
 
     @cached_property
     def gap_tolerance(self) -> tuple[float, float]:
-        """Largest deviation of the gap, as a fraction of the gap and in mm; at least one is 0."""
+        """Largest deviation of the gap: a fraction, and a length in mm. The one not given is 0."""
         value = self.tolerances.get("gap", 0.0)
         return (value, 0.0) if isinstance(value, float) else (0.0, 1e3 * float(value.split()[0]))
 
     def gap_ends(self, gaps) -> tuple:
-        """Return the least and the greatest gaps within the tolerance of nominal gaps, mm."""
+        """Return the least and the greatest gap within the tolerance of each nominal gap, mm."""
         share, width = self.gap_tolerance
         reach = np.minimum(share + width / gaps, MOST_DEVIATION)
         return gaps * (1 - reach), gaps * (1 + reach)
 
     def deviations(self, gap) -> np.ndarray:
-        """Return the largest relative deviations in the order of VARIED, at a gap (mm)."""
+        """Return the largest relative deviation of each value in VARIED, at a gap (mm)."""
         share, width = self.gap_tolerance
         others = [self.tolerances.get(name, 0.0) for name in VARIED[1:]]
         return np.array([min(share + width / gap, MOST_DEVIATION), *others])
@@ -281,7 +284,7 @@ class Task:
     def gap_span(self) -> tuple[float, float]:
         """Least and greatest gap that a design considers, mm.
 
-        In a greater gap the machine without damper would not touch a loose mass at rest.
+        In a greater gap the machine, unless it escapes, would not touch a loose mass at rest.
         """
         rules = np.array([1e3 * self.rule_gap(f) for f in self.grid])
         sizes = self.bare[np.isfinite(self.bare)]
@@ -300,12 +303,9 @@ class Task:
 
     @cached_property
     def hurried(self) -> Settling:
-        """`Settling` of first runs (`cells.run`), which last for some decay times of the machine.
-
-        Motions that settle later are run further if the promised displacement depends on them.
-        """
+        """`Settling` of first runs (`cells.run`). They last for some decay times of the machine."""
         full = self.effort.settling
-        # Decay time of the machine in forcing cycles.
+        # Decay time of the machine in forcing cycles at mid-band.
         decay = sum(self.band) * self.machine.mass / self.machine.viscous_damping
         patience = int(np.clip(PATIENT * decay, LEAST_PATIENCE, full.patience))
         limit = int(np.clip(LONG * PATIENT * decay, LEAST_LIMIT, full.limit))
@@ -313,14 +313,14 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances in the band, Hz, without the loose mass and with it fixed to the machine."""
+        """Resonances in the band, Hz: without loose mass, and with it fixed to the machine."""
         ratio = math.sqrt(1 + self.mass / self.machine.mass)
         found = [each for end in self.resonance for each in (end / ratio, end)]
         return [each for each in found if self.band[0] < each < self.band[1]]
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Evenly spaced frequencies over the band, Hz. Resonances replace the nearest ones."""
+        """Evenly spaced frequencies over the band, Hz. Resonances replace those nearest to them."""
         values = np.linspace(*self.band, self.effort.frequencies)
         for frequency in self.resonances:
             values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
@@ -328,7 +328,7 @@ class Task:
 
     @cached_property
     def bare(self) -> np.ndarray:
-        """Largest displacement of the machine without damper on `grid`, mm."""
+        """Largest displacement without damper at each frequency of `grid`, mm."""
         return self.bare_at(self.grid)
 
     def bare_at(self, frequencies) -> np.ndarray:
@@ -337,11 +337,11 @@ class Task:
 
     @property
     def migration_offer(self) -> str:
-        """Whether the machine without damper has a small motion beside a large one in the band."""
+        """The flag `yes` if the machine without damper has two motions at a frequency, or `no`."""
         return "yes" if any(len(sizes) > 1 for sizes in self._balances(self.grid)) else "no"
 
     def _balances(self, frequencies) -> list:
-        """Return the ascending dimensionless amplitudes without damper at each frequency (Hz)."""
+        """Return for each frequency (Hz) the ascending dimensionless amplitudes without damper."""
         oscillator = self.machine.oscillator()
         turning = self.scales.from_si(np.asarray(frequencies), "frequency")
         return [balance_amplitudes(oscillator, w) for w in turning]
@@ -358,7 +358,7 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return `count` frequencies of `grid`, the worst one, resonances and `others`, Hz."""
+        """Return frequencies (Hz): `count` of `grid`, the worst one, the resonances, `others`."""
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(self.grid[places], [self.worst_frequency, *resonances, *others])
@@ -369,14 +369,14 @@ class Task:
         return self.machine.scales
 
     def rule_gap(self, frequency) -> float:
-        """Return the gap (m) by rule (18) of the paper at a frequency (Hz)."""
+        """Return the gap (m) that rule (18) of the paper gives at a frequency (Hz)."""
         force = self.machine.oscillator().forcing_amplitude(
             self.scales.from_si(frequency, "frequency")
         )
         return 2 * self.scales.to_si(force, "force") / (self.mass * (2 * math.pi * frequency) ** 2)
 
     def damper(self, gap, factors=NOMINAL) -> MachineDamper:
-        """Return the damper with a gap (m) and values multiplied by factors, ordered as VARIED."""
+        """Return the damper with a gap (m). `factors`, ordered as VARIED, multiply its values."""
         varied = dict(zip(VARIED, factors, strict=True))
         return MachineDamper(
             mass=self.mass,
@@ -389,7 +389,7 @@ class Task:
         )
 
     def system(self, gap, frequency, factors=NOMINAL) -> tuple:
-        """Return oscillator, damper and frequency W in the scales of the nominal machine."""
+        """Return dimensionless oscillator, damper and frequency, scaled by the nominal machine."""
         varied = dict(zip(VARIED, factors, strict=True))
         oscillator = self.machine.oscillator()
         oscillator = replace(
@@ -404,7 +404,7 @@ class Task:
         return oscillator, damper, float(self.scales.from_si(frequency, "frequency"))
 
     def packed(self, gap, frequency, factors=NOMINAL) -> np.ndarray:
-        """Return the packed parameters of `system`."""
+        """Return the result of `system` packed in one array."""
         return pack(*self.system(gap, frequency, factors))
 
     def millimetres(self, displacement):
@@ -435,7 +435,7 @@ class Task:
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the least and the greatest of natural frequency, peak and folds without damper, Hz."""
+    """Return the least and the greatest frequency, Hz, of folds, peak and natural vibration."""
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
     found = [point.frequency for point in free_folds(oscillator)]

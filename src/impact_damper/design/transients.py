@@ -1,8 +1,8 @@
 """Transients of a machine with and without its damper: a swept sine, and the unforced decay.
 
 The integrator requires a fixed frequency. Each forcing cycle of a sweep therefore has the mean
-frequency of the same cycle of a continuous sweep. The two phases differ by at most pi/4 times the
-relative change of the frequency in the cycle.
+frequency of the same cycle of a continuous sweep. The phases of both sweeps differ by at most pi/4
+times the relative change of the frequency in a cycle.
 """
 
 import math
@@ -35,17 +35,17 @@ EQUIPMENT = ("bare", "damped")
 # Largest local error of an integration step.
 TOLERANCE = 1e-10
 # A sweep has the rate SWEEP (damping ratio x natural frequency in Hz)^2 Hz/s. The resonance peak of
-# a linear machine is 6 % lower at this rate than in steady state. A sweep of more than MOST_SWEPT
-# cycles is made faster.
+# a linear machine is 6 % lower at this rate than in steady state. A sweep that would have more than
+# MOST_SWEPT cycles is faster.
 SWEEP, MOST_SWEPT = 4.0, 6000
 # Largest relative change of the frequency in a forcing cycle.
 STEEPEST = 0.01
 # Before a sweep the first frequency is held until transients without the damper have decayed to the
 # fraction SETTLED, but for at most HELD forcing cycles.
 SETTLED, HELD = 0.01, 10**5
-# A decay ends at an escape, after MOST_WINDOWS windows, or when the energy above rest falls to the
-# energy of REST times the first displacement. A window is a period of the unforced vibration. For a
-# softening spring, where it is infinite at the barrier, it is at most LONGEST small vibrations.
+# A decay ends at an escape, after MOST_WINDOWS windows, or at rest: when the energy is at most that
+# of a displacement of REST times the first one. A window is a period of the unforced vibration.
+# With a softening spring a window has at most LONGEST periods of small vibrations.
 REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
 
@@ -86,7 +86,7 @@ def swept_sine(machine, damper, band, rate) -> xr.Dataset:
 
 
 def _swept(machine, damper, first, frequencies):
-    """Return the largest displacement (m) in each cycle of a sweep, without the held cycles."""
+    """Return the largest displacement (m) in each cycle after the first frequency was held."""
     decay_rate = machine.viscous_damping / (2 * machine.mass)
     held = min(math.ceil(-math.log(SETTLED) * first / decay_rate), HELD)
     rows = forced(machine, damper, np.concatenate([np.full(held, first), frequencies]))
@@ -97,7 +97,7 @@ def _swept(machine, damper, first, frequencies):
 def sweep_periods(first, slope, count):
     """Return the beginnings (s) and the mean frequencies (Hz) of the cycles of a continuous sweep.
 
-    At these times the phase in cycles, first t + slope t^2/2, is a whole number.
+    At a beginning the phase in cycles, first t + slope t^2/2, is a whole number.
     """
     phases = np.arange(count + 1)
     times = 2 * phases / (first + np.sqrt(first**2 + 2 * slope * phases))
@@ -105,7 +105,7 @@ def sweep_periods(first, slope, count):
 
 
 def forced(machine, damper, frequencies):
-    """Return the packed parameters of a machine at frequencies in Hz, shape (n, packed.COUNT)."""
+    """Return the packed parameters of a machine at n frequencies (Hz), shape (n, packed.COUNT)."""
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
     for end in (frequencies.max(), frequencies.min()):
@@ -116,7 +116,7 @@ def forced(machine, damper, frequencies):
 
 
 def ring_down(machine, damper, displacement) -> xr.Dataset:
-    """Return a dataset of the unforced decay from a displacement (m), loose mass in mid-gap."""
+    """Return a dataset of the unforced decay from a displacement (m). Loose mass starts mid-gap."""
     runs, status = zip(
         *(decay(machine, each, displacement) for each in (None, damper)), strict=True
     )
@@ -132,10 +132,10 @@ def ring_down(machine, damper, displacement) -> xr.Dataset:
 
 
 def decay(machine, damper, displacement):
-    """Return the unforced decay from a displacement (m), and how it ends.
+    """Return the unforced decay from a displacement (m) in windows of time, and how it ends.
 
-    Each row is a window: time at its middle (s), inverse of its length (Hz), largest displacement
-    (m), and number of contacts. The end is "at_rest", "escaped" or "limit".
+    A window is a row: time at its middle (s), inverse of its length (Hz), largest displacement (m),
+    and number of contacts. The decay ends "at_rest", "escaped", or at the "limit" of windows.
     """
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
@@ -161,7 +161,7 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy at rest. The loose mass sticks, or lies on a wall if there is gravity."""
+    """Return the energy at rest. The loose mass sticks by friction or lies where gravity leads."""
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
     weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]
@@ -173,7 +173,7 @@ def lowest_energy(p, y) -> float:
 
 
 def _window(p, left):
-    """Return the length of a window: the undamped period at the energy `left`, within LONGEST."""
+    """Return the length of a window: the undamped period at the energy `left`, or LONGEST."""
     stiffness, cubic = cubic_spring(p)
     period = unforced_period(stiffness, cubic, unforced_amplitude(stiffness, cubic, left))
     if cubic >= 0:
