@@ -1,1 +1,1 @@
-"""Claims of the paper, numbers that decide them, and verdicts; (7) to (19) are its equations."""
+"""Claims of the paper, numbers that decide them, and verdicts. (7) is equation (7) of the paper."""

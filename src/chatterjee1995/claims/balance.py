@@ -87,7 +87,7 @@ def quiet_and_high(datasets):
 
 
 def _elastic_orbits(datasets):
-    """Return the numbers of claim 3 for omega_l = 0, from the ranges of W in which orbits exist."""
+    """Return the numbers of claim 3 for the curves `ELASTIC`, from exact orbits and simulations."""
     around, beside, pairs, single = [], [], [], []
     for name in reading.ELASTIC:
         branches, free = orbits.of_curve(datasets, name)
@@ -111,13 +111,13 @@ def _elastic_orbits(datasets):
 
 
 def design_multipliers(datasets):
-    """Return the largest |multiplier| of the exact quiet orbit at Wp of each design of figure 3."""
+    """Return for each design of figure 3 the largest |multiplier| of its quiet orbit at Wp."""
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     return np.array([reading.largest_multiplier(reading.design_point(each)) for each in followed])
 
 
 def _design_orbits(datasets):
-    """Return the numbers of claim 3 from the exact quiet orbits of figure 3 at Wp."""
+    """Return the numbers of claim 3 for figure 3, from exact orbits and random starts at Wp."""
     multipliers = design_multipliers(datasets)
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     unstable = [each for each, size in zip(followed, multipliers, strict=True) if not size < 1]

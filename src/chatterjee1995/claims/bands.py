@@ -1,4 +1,4 @@
-"""Evidence (numbers) for claims 4, 16 and 17, on the suppression band and the amplitude in it."""
+"""Evidence (numbers) for claims 4, 16 and 17, on the suppression band and amplitudes in it."""
 
 import itertools
 
@@ -47,7 +47,7 @@ def _growth(series, width):
 
 
 def _remaining(datasets, names):
-    """Return max |Z1| of exact quiet orbits at Wp, divided by max |Z1| of the free resonance."""
+    """Return max |Z1| of each design's quiet orbit at Wp, as a share of the free resonance."""
     return [
         float(reading.design_point(orbit).orbit_displacement)
         / orbits.resonance_fold(orbits.free_of(datasets, orbit))[1]

@@ -18,12 +18,12 @@ NOT_DECIDABLE = "not decidable"
 
 
 def part(share, digits=2) -> str:
-    """Return a share in words that may precede "of the": "all", "none" or a percentage."""
+    """Return a share as "all", "none" or a percentage, so that "of the" can follow."""
     return {1.0: "all", 0.0: "none"}.get(float(share)) or percent(share, digits)
 
 
 def rounding(distance) -> str:
-    """Return in words whether a number is rounded right; `distance` comes from `misrounding`."""
+    """Return in words whether a number is rightly rounded. `misrounding` computes `distance`."""
     return "a right rounding" if distance <= 1 else "not a rounding"
 
 
@@ -70,12 +70,12 @@ class Bound(NamedTuple):
 class Claim:
     """A statement of the paper. `number` is "1" to "19", or "S1" to "S6" for misprints.
 
-    `evidence` takes all datasets, keyed by stage and name, and returns values for `finding`. Some
-    values are the numbers that have bounds; a number that the data do not determine is NaN.
-    `reading` says how we read vague words. `finding` is a template, true for every verdict.
-    `required` and `full_agreement` map each bound to the meaning of its number; a second bound of
-    the same number maps to None. `figures` are names, the most important first. `verdicts` maps
-    usual verdicts to other words. `evidence` raises `Missing` if the data lack something needed.
+    `evidence` takes all datasets, keyed by stage and name. It returns a dict for the template
+    `finding`, with a number for each bound, or NaN if the data do not determine the number. It
+    raises `Missing` if the data lack something needed. `finding` must be true for every verdict.
+    `reading` says how we read vague words. `required` and `full_agreement` map each bound to the
+    meaning of its number; the second bound of a number maps to None. `figures` are names, the most
+    important first. `verdicts` maps usual verdicts to other words.
     """
 
     number: str
@@ -96,7 +96,7 @@ class Claim:
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
-        """Return the verdict: not decidable if a number is unknown and no required bound fails."""
+        """Return the verdict: not decidable if some number is NaN and no required bound fails."""
         required, wished = (
             [Bound.read(text).holds(values) for text in bounds]
             for bounds in (self.required, self.full_agreement)
@@ -120,7 +120,7 @@ class Claim:
         return " ".join(parts)
 
     def sentences(self, values) -> str:
-        """Return the finding as text, or the unknown numbers if the claim is not decidable."""
+        """Return the finding; if the claim is not decidable, name the unknown numbers."""
         if self.verdict(values) != NOT_DECIDABLE:
             return " ".join(SENTENCES.from_string(self.finding).render(values).split())
         unknown = [words for name, words in self.meanings.items() if math.isnan(values[name])]

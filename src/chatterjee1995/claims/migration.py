@@ -1,4 +1,4 @@
-"""Evidence (numbers) for claims 12 to 14 and 19; a release is the switching off of the damper."""
+"""Evidence (numbers) for claims 12 to 14 and 19. A release switches the damper off."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return shares of releases to a free motion, from each motion with damper of one kind."""
+    """Return for each damped motion of the kind `kind` its share of releases to `free_motion`."""
     rows = case.damped_kind.values == flag("released_from", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]
@@ -42,7 +42,11 @@ def release_phase(datasets):
 
 
 def _scanned(datasets, case):
-    """Return a dict: W -> whether the phase of release selects the motion, for a case's damper."""
+    """Return a dict: W -> whether the phase of release selects the motion.
+
+    It selects if releases from one quiet motion lead to the non-resonance motion and also to the
+    subharmonic. Only scans with the oscillator and the damper of `case` count.
+    """
     wanted = oscillator_of(case), damper_of(case)
     found = {}
     for scan in datasets.get("release_scan", {}).values():
@@ -56,7 +60,7 @@ def _scanned(datasets, case):
 
 
 def _nearest_range(decides, frequency):
-    """Return both ends (or NaN) of the range of W nearest `frequency` where `decides` is true."""
+    """Return both ends of the range of W nearest to `frequency` with `decides` true, or NaN."""
     scanned = list(decides)
     ends = [
         (scanned[first], scanned[last - 1]) for first, last in runs_of_true(list(decides.values()))
@@ -115,7 +119,7 @@ def early_release(datasets):
 
 
 def by_policy(datasets, case, policy):
-    """Return a policy's share of runs that arrive, and the median cycles of all runs, or NaN."""
+    """Return for a policy the share of runs that arrive, and the median cycles; NaN if unknown."""
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"
     for data in datasets.get("release_policies", {}).values():

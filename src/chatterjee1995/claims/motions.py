@@ -1,4 +1,4 @@
-"""Evidence (numbers) for claims 5 to 8 and 15, on contacts, chaos and phases with the damper."""
+"""Evidence (numbers) for claims 5 to 8 and 15, on contacts, chaos and phases."""
 
 import math
 
@@ -52,7 +52,7 @@ def high_and_chaotic(datasets):
 
 
 def _violent(datasets, name):
-    """Return the numbers of claim 6 for the response and the branches of a curve."""
+    """Return the numbers of claim 6 for one curve, from its response and its branches."""
     response = reading.get(datasets, "response", name)
     design = reading.get(datasets, "harmonic_balance", name)
     branches, free = orbits.of_curve(datasets, name)

@@ -1,4 +1,4 @@
-"""Evidence (numbers) for claims 9 and 11, on the optimum d0, which has the smallest max |Z1|."""
+"""Evidence (numbers) for claims 9 and 11. The optimum d0 is the d0 with the least max |Z1|."""
 
 import itertools
 
@@ -10,11 +10,11 @@ from chatterjee1995.reading import orbits
 from chatterjee1995.reading.bands import suppression_band
 from chatterjee1995.reading.datasets import Missing
 
-AWAY = 0.1  # relative distance of d0 from the optimum d0 at which the rise of max |Z1| is read
+AWAY = 0.1  # the rise of max |Z1| is read at (1 - AWAY) and (1 + AWAY) times the optimum d0
 
 
 def excess(datasets):
-    """Return the numbers of claim 9: the optimum d0 slightly exceeds that of equation (7)."""
+    """Return the numbers of claim 9: the optimum d0 slightly exceeds the optimum by (7)."""
     groups = _sweeps(datasets, "damping", restitution=1)
     members = [sweep for group in groups.values() for sweep in group]
     over = [float(sweep.optimum_clearance / sweep.analytical_optimum) - 1 for sweep in members]
@@ -24,7 +24,7 @@ def excess(datasets):
         spreads.append(np.max(sizes) / np.min(sizes) - 1)
     for sweep in members:
         damping, frequency = reading.parameters(sweep, "damping", "frequency")
-        displaced.append(_displaced(sweep) * damping * frequency)  # divided by resonance 1/(h W)
+        displaced.append(_displaced(sweep) * damping * frequency)  # relative to resonance, 1/(h W)
     return {
         "dampings": len(groups),
         "least": np.min(over),
@@ -36,7 +36,7 @@ def excess(datasets):
 
 
 def _sweeps(datasets, *keys, **fixed):
-    """Return the sweeps with the parameters `fixed`, in groups of two or more with equal `keys`."""
+    """Return a dict: values of `keys` -> the sweeps (two or more) with these and with `fixed`."""
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
         if all(reading.parameter(sweep, key) == value for key, value in fixed.items()):
@@ -48,7 +48,7 @@ def _sweeps(datasets, *keys, **fixed):
 
 
 def _displaced(sweep):
-    """Return the larger max |Z1| of two motions, with d0 10 % below and 10 % above the optimum."""
+    """Return the larger max |Z1| of the motions with d0 10 % below and 10 % above the optimum."""
     ends = float(sweep.optimum_clearance) * np.array([1 - AWAY, 1 + AWAY])
     size = np.interp(ends, sweep.clearance, sweep.quiet_displacement, left=np.nan, right=np.nan)
     return float(np.max(size))
@@ -83,7 +83,7 @@ def restitution(datasets):
 
 
 def _restitution_steps(group):
-    """Return the ratios of optimum d0 and of rise in each step to a lower e, and of d0 overall."""
+    """Return ratios for each step to lower e. `overall` compares the lowest e with the highest."""
     group = sorted(group, key=lambda sweep: -reading.parameter(sweep, "restitution"))
     return [
         {

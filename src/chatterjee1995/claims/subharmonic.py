@@ -5,13 +5,13 @@ import numpy as np
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading import orbits
 
-# Names of dampers: LIGHT masses, a HEAVY mass, and one on an oscillator with LOW_DAMPING.
+# Curves. LIGHT: small loose masses. HEAVY: a large loose mass. LOW_DAMPING: low damping h.
 LIGHT, HEAVY, LOW_DAMPING = reading.BY_MASS[:2], reading.BY_MASS[2], "figure_08"
 AS_LARGE = 0.95  # least ratio of damped to free size at which a subharmonic is called unchanged
 
 
 def _remaining(datasets, name):
-    """Return widths in W of stable subharmonics, and the largest ratios of damped to free size."""
+    """Return widths in W with stable subharmonics, and the largest ratios of max |Z1| to free."""
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
     edges = reading.band_edges(reading.get(datasets, "harmonic_balance", name))
@@ -54,7 +54,12 @@ def by_damping(datasets):
 
 
 def _reduction(datasets, name):
-    """Return a damper's reduction of the subharmonic, averaged between the free branch's folds."""
+    """Return how much a damper reduces the subharmonic, over the range of W of the free one.
+
+    `fall` is the mean reduction of max |Z1|; starts that lead to another motion count as 0.
+    `relative` is `fall` divided by the mean max |Z1| without damper. `unchanged` is the share of
+    the range in which a stable subharmonic is at least `AS_LARGE` times the free one.
+    """
     branches, free = orbits.of_curve(datasets, name)
     ends = orbits.subharmonic_range(free)
     curve = reading.within(reading.get(datasets, "subharmonic", name), *ends)

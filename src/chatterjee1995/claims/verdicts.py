@@ -60,7 +60,7 @@ def claims(datasets) -> pd.DataFrame:
 
 
 def document(frame, picture=None, drawn=None) -> str:
-    """Return the Markdown page of the claims; `picture` embeds figures (those in `drawn`)."""
+    """Return the Markdown page of the claims. `picture(name)` is the Markdown of a figure."""
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     rows = frame.to_dict("records")
     for row in rows:
@@ -91,7 +91,7 @@ def typeset(text) -> str:
 
 
 def title(number) -> str:
-    """Return the heading of the section of a claim, or of a misprint or omission."""
+    """Return the heading for the number of a claim, misprint or omission."""
     return f"Misprint or omission {number}" if number.startswith("S") else f"Claim {number}"
 
 

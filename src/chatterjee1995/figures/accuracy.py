@@ -19,9 +19,8 @@ MODELS = {
     "many_harmonics": (style.SKY, "h", "-"),
     "shooting": (style.BLACK, "*", "none"),
 }
-# Whether contacts are located -> marker and line. OTHER_ORDERS: the same for other Taylor series.
-LOCATED = {True: ("^", "-"), False: ("v", ":")}
-OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]
+LOCATED = {True: ("^", "-"), False: ("v", ":")}  # whether contacts are located -> marker, line
+OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]  # marker, line of further Taylor series
 # Quantity of the required accuracy -> variable or statistic of the dataset, and label of the axis.
 QUANTITIES = {
     "amplitude": ("amplitude_error", r"Relative error of max $|Z_1|$"),
@@ -32,9 +31,8 @@ QUANTITIES = {
     "displacement": ("displacement", r"Relative error of mean max $|Z_1|$"),
     "exponent": ("exponent", "Relative error of the Lyapunov exponent"),
 }
-FINEST = 1e-16  # smallest error drawn, which is below the rounding error of a double
-# Values of `run_status` of runs that have a result.
-ENDED = "ok", "missed_contacts", "invented_contacts"
+FINEST = 1e-16  # smallest error drawn
+ENDED = "ok", "missed_contacts", "invented_contacts"  # values of `run_status` with a result
 DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 
@@ -90,7 +88,7 @@ def _panel(axes, data):
 
 
 def _errors(axes, data, quantity):
-    """Shade the error of the reference; return errors and standard errors of a chaotic case."""
+    """Return errors and standard errors of a chaotic case; shade the error of the reference."""
     of = data.sel(statistic=quantity)
     truth = float(of["reference_average"])
     doubt = float(of["reference_average_error"]) / truth
@@ -99,7 +97,7 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the runs of one method; doubtful runs get open markers. `bars` are standard errors."""
+    """Draw the runs of one method. Runs in `bad` or with errors up to `bars` have open markers."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     if bars is None:

@@ -60,7 +60,7 @@ VIOLENT = {
 
 @style.context()
 def draw_harmonic_convergence(*, harmonic_convergence):
-    """Draw errors of max |Z1|, retained harmonics and multipliers, and results of cold starts."""
+    """Draw errors of max |Z1|, of harmonics and of multipliers, and the results of cold starts."""
     drawn = style.figure("double", 6.4)
     panels = drawn.subplots(2, 2, sharex=True)
     style.letter_panels(panels.flat)

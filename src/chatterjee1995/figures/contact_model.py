@@ -9,7 +9,6 @@ from impact_damper.data.datasets import decode
 from impact_damper.plot import style
 from impact_damper.plot.maps import mesh
 
-# Rule for the end of a contact -> title of the panel.
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
 LEVELS = 0.01, 0.05  # errors with a contour line
 LINEAR = 1e-3  # the load axis is linear below this value and logarithmic above
@@ -22,7 +21,7 @@ MOTIONS = (
 
 @style.context()
 def draw_contact_model(*, contact_model):
-    """Draw the first dataset's error of restitution by both exit rules, and contacts of all."""
+    """Draw errors of restitution by both exit rules (first dataset) and contacts (all datasets)."""
     drawn = style.figure("double", 4.0)
     panels = drawn.subplots(1, 2, sharex=True, sharey=True)
     data = contact_model[0]

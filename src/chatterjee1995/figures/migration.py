@@ -1,4 +1,4 @@
-"""Figures of migration control (13 to 16), of basins, and of policies of release (damper off)."""
+"""Figures of migration control (13 to 16 of the paper), of basins, and of release policies."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from impact_damper.plot.basin_plane import basins as basins_plot
 from impact_damper.plot.motions import migration as migration_plot
 
 AROUND = -15, 25  # first and last cycle of the detail panel, relative to the last release
-# Motion after a release -> marker. MOTIONS: motion with damper before the release -> panel title.
+# DESTINATIONS: motion after release -> marker. MOTIONS: motion before release -> panel title.
 DESTINATIONS = {
     "non_resonance": style.markers(
         "released to the non-resonance motion", style.BLUE, ".", markerfacecolor=style.BLUE

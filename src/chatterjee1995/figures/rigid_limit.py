@@ -53,7 +53,7 @@ def _draw_map(axes, data, norm):
 
 
 def _draw_orders(axes, rigid_limit):
-    """Draw errors of max |Z1| against r1 at the frequency of each case, with lines r1^-n."""
+    """Draw errors of max |Z1| against r1 at the frequency of each case, and guide lines r1^-n."""
     for index, data in enumerate(rigid_limit):
         row = data.sel(frequency=parameters_of(data)["frequency"], method="nearest")
         x, look = data["stiffness"], style.curve(index)

@@ -10,7 +10,7 @@ from impact_damper.plot import style
 
 
 def carriage(axes):
-    """Draw the primary mass on its rail, springs and dashpot to the left, force to the right."""
+    """Draw the primary mass on a rail, with springs and dashpot at the left, force at the right."""
     parts.ground(axes, (0.35, 2.5), (0.35, 0.3))
     parts.ground(axes, (0.35, 0.3), (6.75, 0.3))
     parts.mass(axes, 2.05, 0.46, 3.9, 1.86)
@@ -190,7 +190,7 @@ def migration_scheme():
 
 
 def node(axes, x, y, width, height, words, color):
-    """Draw a box of a flow chart; questions are pale orange, the start and the ends pale sky."""
+    """Draw a box of a flow chart: a diamond if pale orange, rounded if pale sky."""
     across, up = width / 2, height / 2
     if color == style.PALE_ORANGE:
         corners = [(x - across, y), (x, y - up), (x + across, y), (x, y + up)]

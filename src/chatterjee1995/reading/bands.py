@@ -10,7 +10,7 @@ from chatterjee1995.reading import orbits
 
 
 class Band(NamedTuple):
-    """A suppression band in W; it begins between `lower` and `lower + resolution`."""
+    """A suppression band in W. It begins between `lower` and `lower + resolution`."""
 
     lower: float
     upper: float
@@ -28,7 +28,7 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Return the mask of the violent motions; it is false above the end of the free resonance."""
+    """Return the mask of violent motions. Above the end of the free resonance none is violent."""
     frequency = response.frequency
     size = xr.DataArray(orbits.resonance(free, frequency), {"frequency": frequency})
     return reading.touching(response) & (response.maximum_displacement > orbits.HALF * size)
@@ -43,7 +43,8 @@ def quiet_motions(response, free):
 def suppression_band(datasets, name):
     """Return the `Band` of a curve, from the last violent motion to the end of the free resonance.
 
-    The resolution is NaN without violent motions, 0 if all are periodic, else at most a step in W.
+    Without violent motions, `lower` and `resolution` are NaN. `resolution` is 0 if all violent
+    motions are periodic. Otherwise it is at most a step in W.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

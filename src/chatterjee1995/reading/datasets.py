@@ -7,9 +7,9 @@ import numpy as np
 
 from impact_damper.data.datasets import decode, flag, has_damper, named, parameters_of
 
-# Entries of the configuration. CAPTIONS: dampers with d0 of the captions of figure 3, by increasing
-# omega_l. RULES: the same with d0 by rule (19). BY_MASS: dampers of figure 5, by increasing rm.
-# ELASTIC: all simulated responses with elastic contact. INELASTIC: BY_MASS[1] with e < 1.
+# Names of curves. CAPTIONS: figure 3 with d0 of its captions, by increasing omega_l. RULES: the
+# curves of CAPTIONS with d0 by rule (19). BY_MASS: figure 5, by increasing rm. ELASTIC: all
+# simulated responses with elastic contact. INELASTIC: BY_MASS[1] with e < 1.
 CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")
 RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")
 BY_MASS = ("figure_05a", "figure_05b", "figure_05c")
@@ -42,12 +42,12 @@ def select(datasets, stage, names):
 
 
 def damped(datasets, stage) -> dict:
-    """Return the datasets of a stage that have a damper, keyed by name."""
+    """Return those datasets of a stage that have a damper, keyed by name."""
     return {name: data for name, data in datasets.get(stage, {}).items() if has_damper(data)}
 
 
 def free(datasets, stage) -> dict:
-    """Return the datasets of a stage without a damper, keyed by name."""
+    """Return those datasets of a stage that have no damper, keyed by name."""
     return {name: data for name, data in datasets.get(stage, {}).items() if not has_damper(data)}
 
 
@@ -72,13 +72,13 @@ def is_outcome(data, *meanings):
 
 
 def touching(response):
-    """Return the mask of motions, settled or not but bounded, whose loose mass touches walls."""
+    """Return the mask of bounded motions, settled or not, whose loose mass touches a wall."""
     steady = is_outcome(response, "settled", "quasi_periodic", "chaotic", "unresolved")
     return steady & (response.contacts > 0)
 
 
 def share_of_starts(response, motions):
-    """Return at each W the share of random starts that lead to motions in a mask, 0 if none do."""
+    """Return for each W the share of random starts that lead to a motion in the mask `motions`."""
     total = response.motion_starts.sum("motion")
     led = response.motion_starts.where(motions, 0).sum("motion")
     return (led / total.where(total > 0)).fillna(0)
@@ -123,7 +123,7 @@ def quiet_balance(design):
 
 
 def design_point(orbit):
-    """Return the exact quiet orbit at Wp, with the least h of its branch, or raise Missing."""
+    """Return the exact quiet orbit at Wp, which has the least h of its branch, or raise Missing."""
     if named(orbit, "design_orbit_status") != "found":
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))

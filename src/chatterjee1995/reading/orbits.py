@@ -1,6 +1,6 @@
 """Branches of exact periodic orbits, cut into pieces and evaluated at any frequency.
 
-`free` are branches without damper. High (violent) orbits exceed half the free resonance.
+`free` are branches without damper. An orbit above half the free resonance is high (violent).
 """
 
 import numpy as np
@@ -33,10 +33,10 @@ def of_curve(datasets, name):
 def pieces(branches) -> pd.DataFrame:
     """Return a row for each piece of the branches; a piece joins two successive orbits.
 
-    `lower` and `upper` are the ends in W. `size` is max |Z1| in the middle. The complex first
-    harmonic of Z1 there is `amplitude` if its phase is relative to Z2, `loose` if relative to x2.
-    Columns `*_change` are differences between the ends. `fewest` and `contacts` are the least and
-    largest number of contacts, `restitution` the least ratio of departure to approach speed.
+    `lower` and `upper` are the ends in W. `size` is the mean max |Z1| of both orbits. `amplitude`
+    is the mean first harmonic of Z1, complex, with the phase of Z2 as zero. In `loose` the phase of
+    Z1 - Z2 is zero. `*_change` is the second orbit minus the first. `fewest` and `contacts` are the
+    least and largest number of contacts. `restitution` is the least departure / approach speed.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -78,12 +78,12 @@ def ranges(part):
 
 
 def covered(part, lower=-np.inf, upper=np.inf):
-    """Return the total width of the ranges that pieces cover within W from `lower` to `upper`."""
+    """Return the total width in W that pieces cover between `lower` and `upper`."""
     return sum(np.ptp(np.clip(ends, lower, upper)) for ends in ranges(part))
 
 
 def coexisting(part, column):
-    """Return the total width in W in which pieces with different values in a column overlap."""
+    """Return the total width in W where pieces with different values of `column` overlap."""
     values = [ranges(same) for _, same in part.groupby(column)]
     if not values:
         return 0.0
@@ -133,7 +133,7 @@ def resonance_fold(free):
 
 
 def resonance(free, frequency):
-    """Return the largest max |Z1| of free orbits of period 1 at each W; NaN above their fold."""
+    """Return the largest max |Z1| of free orbits of period 1 at each W; NaN above the fold."""
     end, _ = resonance_fold(free)
     part = pieces(free)
     sizes = largest_sizes(part[part.period == 1], frequency)
@@ -141,7 +141,7 @@ def resonance(free, frequency):
 
 
 def high(branches, free):
-    """Return the pieces of stable orbits of any period that are high."""
+    """Return the pieces of stable high orbits of any period."""
     part = pieces(branches)
     part = part[part.stable]
     return part[part["size"] > HALF * resonance(free, part.frequency)]

@@ -1,1 +1,1 @@
-"""Sections of the configuration: keys, bounds, and the parameters of the jobs, by subject."""
+"""Sections of the configuration, by subject: their keys, bounds, and parameters of jobs."""

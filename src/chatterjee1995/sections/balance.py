@@ -1,4 +1,4 @@
-"""Harmonic balance: its convergence, and maps of its errors."""
+"""Sections on harmonic balance: its convergence, and maps of its errors."""
 
 from typing import ClassVar
 
@@ -8,8 +8,7 @@ from impact_damper.command.section import choice, count, missing, number, proble
 from impact_damper.model.bounds import FREQUENCY_RANGE, HARMONIC_RANGE
 from impact_damper.model.text import plain
 
-# Parameters that may change from row to row of a map.
-MAPPED = ("damping", "mass_ratio", "clearance", "restitution")
+MAPPED = ("damping", "mass_ratio", "clearance", "restitution")  # one changes from row to row
 
 
 class HarmonicConvergence(system.MaybeWithDamper):
@@ -75,7 +74,7 @@ class BalanceMap(
         priority=1,
     )
     def balance_map(self, config) -> dict:
-        # Without a clearance the stage takes the clearance of the paper's rule (19) in each row.
+        # The stage computes a missing clearance by rule (19), so the word `rule` is left out.
         values = system.given(self, [*system.OSCILLATOR, *system.DAMPER]).items()
         fixed = {key: value for key, value in values if value != "rule"}
         points = config.points

@@ -1,4 +1,4 @@
-"""Optimum clearance: sweeps, design rules, and studies over a grid of dampers and frequencies."""
+"""Sections on the optimum clearance: sweeps, design rules, and studies over a grid."""
 
 import math
 from typing import ClassVar
@@ -15,7 +15,7 @@ from impact_damper.command.section import (
 )
 from impact_damper.model.bounds import MOST_RUNS
 
-# Axes of the grid of a study, in the order in which the stage numbers the cells.
+# Axes of a study's grid. The stage numbers the cells (points of the grid) in this order.
 AXES = ("mass_ratio", "clearance", "frequency", "restitution")
 
 
@@ -78,7 +78,7 @@ class DesignRules(system.WithOscillator):
 
 
 def axis(name):
-    """Return the type of an axis of the grid: a value, or a range with its number of points."""
+    """Return the type of an axis of the grid: one number, or a range with a key `points`."""
     several = system.range_of(system.PARAMETERS[name], points=True)
     return number_or_range(
         several, f"{system.MEANINGS[name]}, one value or an even range", **system.BOUNDS[name]
@@ -109,7 +109,7 @@ class Study(system.WithOscillator):
         return math.prod(points(getattr(self, key)) for key in AXES)
 
     def chunk(self, config, chunk) -> dict:
-        """Return the parameters of the job that computes a part of the grid, such as "2-of-4"."""
+        """Return the parameters of the job for one part of the grid; `chunk` is like "2-of-4"."""
         number, count = map(int, chunk.split("-of-"))
         grid = {
             "axes": {key: even(getattr(self, key)) for key in AXES},
@@ -126,12 +126,12 @@ class Study(system.WithOscillator):
 
 
 def points(given) -> int:
-    """Return the number of points of an axis, which is a number or a range."""
+    """Return the number of points of an axis. `given` is a number (one point) or a range."""
     return getattr(given, "points", 1)
 
 
 def even(given) -> dict:
-    """Return the values of an axis, which is a number or a range, as a parameter of a job."""
+    """Return the points of an axis as a parameter of a job. `given` is a number or a range."""
     return given.even() if hasattr(given, "even") else {"linspace": [given, given, 1]}
 
 

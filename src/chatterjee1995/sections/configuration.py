@@ -1,4 +1,4 @@
-"""The whole configuration. It is checked before any job starts; each problem yields a line."""
+"""The whole configuration. It is checked before any job starts. An error lists all problems."""
 
 from contextlib import suppress
 
@@ -27,7 +27,7 @@ from impact_damper.command.section import (
 )
 from impact_damper.model import bounds
 
-# Pairs of keys; the product of their values is the number of runs of a job.
+# Pairs of keys. The product of the two values is the number of runs of a job, which has a bound.
 COUNTS = (
     ("points.free", "search.starts"),
     ("points.simulated", "search.starts"),
@@ -36,7 +36,7 @@ COUNTS = (
     ("points.scanned", "controller.releases"),
     ("points.map_frequencies", "points.map_values"),
 )
-# Names of drawings, which a figure of the kind `schematic` shows in place of entries.
+# Names of drawings. A figure of the kind `schematic` has one of these in `data`, and no entries.
 SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
 
 TEXT = text("in Markdown or reStructuredText without links")
@@ -66,7 +66,7 @@ class Search(Section):
     life_periods: count("forcing cycles of the runs `life_runs`", **bounds.LIFETIME_RANGE)
 
     def job(self, config, starts) -> dict:
-        """Return the parameters of a search from `starts` random states."""
+        """Return the parameters of a search from as many random states as `starts` says."""
         return {"starts": starts, "radius": self.radius, "seed": config.seed}
 
 
@@ -113,7 +113,7 @@ class Controller(Section):
 
 
 class Captions(Section):
-    """Captions of tables, and texts in the captions of all figures of a kind."""
+    """The caption of each table, and for each kind of figure a text in all its captions."""
 
     figures: entries(TEXT)
     tables: entries(TEXT)
@@ -155,7 +155,7 @@ class Figure(Section):
 
 
 def _curve_not_drawable(path, name, kind, config):
-    """Yield a line for each reason why a kind of figure cannot draw a curve."""
+    """Yield an error line for each reason why a kind of figure cannot draw a curve."""
     curve, stage = config.curves[name], kind.stages[0]
     if stage not in curve.stages:
         reason = f"must hold {stage} (what {dotted(path[:2])} draws)"
@@ -194,7 +194,7 @@ Configuration = create_model(
 
 
 def configuration(given, trusted=False):
-    """Return the checked configuration; `trusted` (in jobs) skips contradictions and SI values."""
+    """Return the checked configuration. If `trusted`, skip the slow checks."""
     try:
         found = Configuration.model_validate(without_left_out(given), context=trusted)
     except ValidationError as error:
@@ -210,7 +210,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Remove null entries, their names in the data of figures, and figures thus without data."""
+    """Remove null entries, and their names from figures; remove figures that then name no entry."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}
@@ -219,7 +219,7 @@ def without_left_out(given):
         for key, section in sections.items()
     }
     for name, figure in list(sections.get("figures", {}).items()):
-        with suppress(AttributeError, KeyError, TypeError):  # the later check reports bad types
+        with suppress(AttributeError, KeyError, TypeError):  # a later check reports wrong types
             known = sections[section_of(figure["kind"])]
             data = [each for each in figure["data"] if known.get(each, "") is not None]
             if len(data) < len(figure["data"]):

@@ -4,11 +4,9 @@ from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
 from impact_damper.command.section import choice, dotted, problem, several
 
-# Stages that an entry of `curves` can list, and the stages among them that need a damper.
 STAGES_OF_CURVES = ("harmonic_balance", "design_orbit", "response", "subharmonic", "branches")
-NEED_DAMPER = ("design_orbit", "subharmonic")
-# Initial state: the three numbers under figure 4 of the paper, and relative velocity 0. A start at
-# rest would lead to a motion without contact.
+NEED_DAMPER = ("design_orbit", "subharmonic")  # stages that only curves with a damper can list
+# Initial state Z1, Z1', Z2, Z2'. Figure 4 of the paper gives three numbers; Z2' = 0 is our choice.
 START = [1.0, 0.5, 0.0, 0.0]
 
 
@@ -112,7 +110,7 @@ class Motion(system.WithDamper):
 
 
 class Collision(system.WithDamper):
-    """Shares of random starts that lead to a collision, including starts beyond the walls."""
+    """Shares of random starts that lead to a collision; some starts lie beyond the walls."""
 
     frequency: system.FREQUENCY
 

@@ -1,4 +1,4 @@
-"""Machines in SI units, which the paper does not have, and the dampers designed for them."""
+"""The section on machines in SI units, for which dampers are designed. It is not in the paper."""
 
 from chatterjee1995.sections.records import Kind, Table, stage
 from chatterjee1995.sections.system import too_many
@@ -7,7 +7,7 @@ from impact_damper.model.machine import MOUNT
 
 
 class Machine(machine_file.MachineEntry):
-    """Machines for which a damper is designed, in SI units: numbers, or texts with units."""
+    """Machines for which dampers are designed. Values are SI numbers, or texts with units."""
 
     def contradictions(self, path, config):
         yield from super().contradictions(path, config)

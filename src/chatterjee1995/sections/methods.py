@@ -1,4 +1,4 @@
-"""The contact model, rigid walls, and integrators compared on test cases (scenes)."""
+"""Sections on the contact model, rigid walls, and methods compared on test cases (scenes)."""
 
 from typing import ClassVar
 
@@ -25,7 +25,7 @@ ORDER = count("order of the series", least=6, most=60)
 
 
 class ContactCells(Section):
-    """Cells of the map along restitution and load."""
+    """Numbers of cells of the map along restitution and along load."""
 
     restitutions: points_of("cells of the map along restitution")
     loads: points_of("cells of the map along load")
@@ -35,7 +35,7 @@ class ContactModel(
     system.keys_of(system.DAMPER, needed=system.NEEDED, without=["restitution", system.COMMON]),
     system.WithOscillator,
 ):
-    """One contact in closed form over restitution and load, and contacts of simulated motions."""
+    """A map of contacts over restitution and load, and contacts in simulated motions."""
 
     restitutions: several(system.RESTITUTION, "increasing restitutions of the motions", least=2)
     frequencies: several(system.FREQUENCY, "increasing frequencies of the motions", least=1)
@@ -77,14 +77,14 @@ class ContactModel(
 
 
 class RigidCells(Section):
-    """Cells of the map along frequency and contact stiffness."""
+    """Numbers of cells of the map along frequency and along contact stiffness."""
 
     frequencies: points_of("cells of the map along frequency")
     stiffnesses: points_of("cells of the map along contact stiffness")
 
 
 class RigidLimit(system.WithDamper):
-    """The quiet motion between rigid walls, compared with compliant walls."""
+    """The quiet motion with rigid walls, compared with the quiet motion with compliant walls."""
 
     frequency: system.FREQUENCY
     frequencies: system.FREQUENCIES
@@ -139,7 +139,7 @@ class MissedContacts(system.WithOscillator):
 
 
 class StableSteps(system.WithDamper):
-    """The quiet motion by fixed-step methods, over contact stiffness and step."""
+    """The quiet motion computed by fixed-step methods, over contact stiffness and step."""
 
     frequency: system.FREQUENCY
     stiffnesses: system.range_of(system.CONTACT_STIFFNESS, points=True)

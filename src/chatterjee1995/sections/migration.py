@@ -1,4 +1,4 @@
-"""Migration control, from one motion to another by switching the damper, and basins."""
+"""Sections on migration control (switching the damper to change the motion) and on basins."""
 
 from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage
@@ -46,7 +46,7 @@ class ReleaseScan(system.WithDamper):
 
 
 class Basins(system.MaybeWithDamper):
-    """Planes of states of the primary mass, and the motions to which they lead."""
+    """Planes of states of the primary mass, and the motions to which the states lead."""
 
     frequency: system.FREQUENCY
     displacement: number("half width of the plane in Z1", above=0, most=FARTHEST)
@@ -63,7 +63,7 @@ class Basins(system.MaybeWithDamper):
 
 
 class ReleasePolicies(system.WithOscillator):
-    """Policies of migration compared for several dampers, over frequency."""
+    """Policies of migration (rules for the release) for several dampers, over frequency."""
 
     dampers: entries(system.keys_of(system.DAMPER, needed=system.NEEDED, without=[system.COMMON]))
     frequencies: several(system.FREQUENCY, "increasing forcing frequencies", least=1, distinct=True)

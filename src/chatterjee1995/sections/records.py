@@ -10,22 +10,22 @@ class Stage(NamedTuple):
 
     name: str
     section: str
-    # Method of an entry. It takes the whole configuration and returns the keywords of `function`,
-    # in forms that `workflow.job.made` reads.
+    # Method of an entry. It takes the whole configuration and returns the arguments of `function`.
+    # Some arguments describe objects that `workflow.job.made` makes.
     job: Callable
-    function: str  # computes the dataset, as "module:function"
-    message: str  # printed for a job
-    reads: dict = {}  # keyword of `function` -> stages; their datasets of the same entry are passed
-    files: dict = {}  # keyword of `function` -> JSON file of the project; its content is passed
-    together: bool = False  # whether one job computes all entries, to save starts of jobs
-    # 2 for jobs for which other jobs wait, 1 for the longest jobs, which should not start last.
+    function: str  # "module:name" of the function that computes the dataset
+    message: str  # printed for each job
+    reads: dict = {}  # argument of `function` -> stages whose datasets of the entry it gets
+    files: dict = {}  # argument of `function` -> JSON file whose content it gets
+    together: bool = False  # whether one job computes all entries, since jobs start slowly
+    # 2: other jobs wait for these jobs. 1: the longest jobs, which should not start last.
     priority: int = 0
     paper: bool = True  # whether `snakemake` without a target computes the stage
     page: bool = False  # whether each entry has its own page
 
 
 def stage(function, message, **options):
-    """Mark a method of a section as the job of a stage, which gets the method's name by default."""
+    """Mark a method of a section as a stage's job. The stage's name is by default the method's."""
 
     def mark(job):
         job.stage = {"name": job.__name__, "function": function, "message": message} | options
@@ -36,12 +36,12 @@ def stage(function, message, **options):
 
 @dataclass(frozen=True)
 class Shown:
-    """A table or kind of figure of a chapter, made from datasets by a function of a module."""
+    """A table, or a kind of figure, of a chapter. A function of `module` makes it from datasets."""
 
     name: str
     chapter: str
     module: str  # name in the package `tables` or `figures`, or full name
-    stages: tuple[str, ...]  # stages read; drawn entries of `curves` must list the first stage
+    stages: tuple[str, ...]  # stages read; a drawn entry of `curves` must list the first of them
 
     room: ClassVar[str]
 
@@ -61,10 +61,10 @@ class Table(Shown):
 
 @dataclass(frozen=True)
 class Kind(Shown):
-    """A kind of figure, drawn by the function `draw_<name>`; a schematic by one named in `data`."""
+    """A kind of figure, drawn by `draw_<name>`. For a schematic, `data` names the function."""
 
     room = "figures"
     most: int = 6  # largest number of entries in a figure
-    # Entries of `curves` must have a damper (True) or must have none (False). If True, a figure
-    # that reads `branches` also draws the branches of the same oscillators without a damper.
+    # If True, entries of `curves` must have a damper; if False, they must have none. If True, a
+    # figure that reads `branches` also draws the branches of its oscillators without a damper.
     damper: bool = True

@@ -28,13 +28,13 @@ def reference() -> str:
 
 
 def _table(model, keys=None):
-    """Return the Markdown table of the keys of a model, or of some of them."""
+    """Return the Markdown table of a model's keys, or of those in `keys` only."""
     fields = {key: each for key, each in model.model_fields.items() if keys is None or key in keys}
     return "\n".join([COLUMNS, *_rows("", fields), ""])
 
 
 def _rows(prefix, fields):
-    """Yield a line for each field; for a section, yield the lines of the section's fields."""
+    """Yield a table line for each field. In place of a section, yield the lines of its fields."""
     for key, field in fields.items():
         kind, key = field.annotation, prefix + key
         if get_origin(kind) is dict:
@@ -54,13 +54,13 @@ def _rows(prefix, fields):
 
 
 def _item(kind):
-    """Return the allowed values of an entry of a list, in words."""
+    """Return in words which values an element of a list may have."""
     words, inner = _allowed(kind.__metadata__).words, get_args(kind)[0]
     return f"{words}, each {_item(get_args(inner)[0])}" if get_origin(inner) is list else words
 
 
 def _ranges(kind):
-    """Return the keys of the range that may replace a number."""
+    """Return a list with the fields of each range that may replace a number."""
     parts = [get_args(part)[0] for part in get_args(kind) if hasattr(part, "__metadata__")]
     return [part.model_fields for part in parts if _section(part)]
 

@@ -6,7 +6,7 @@ from chatterjee1995.sections.registry import KINDS, PAPER, STAGES, TABLES, secti
 from impact_damper.model.parameters import SYMBOLS
 from impact_damper.model.text import number
 
-MANY = 3  # length above which the text gives only the smallest and the largest value of a list
+MANY = 3  # length above which a list is written as its smallest and largest value only
 # Key of an entry that holds several values of a parameter -> name of the parameter.
 SWEPT = {
     "mass_ratios": "mass_ratio",
@@ -25,13 +25,13 @@ def entries(config, stage) -> list:
 
 
 def job(config, stage, name) -> dict:
-    """Return the parameters of the job of an entry, except its name."""
+    """Return the parameters of an entry's job, without the entry's name."""
     entry = getattr(config, STAGES[stage].section)[name]
     return STAGES[stage].job(entry, config)
 
 
 def read_by(config, stage, name) -> dict:
-    """Return a dict: keyword of a job -> stages whose datasets of its entry `name` are read."""
+    """Return a dict: argument of a stage's function -> stages whose datasets of `name` it gets."""
     return {
         key: [each for each in stages if name in entries(config, each)]
         for key, stages in STAGES[stage].reads.items()
@@ -39,7 +39,7 @@ def read_by(config, stage, name) -> dict:
 
 
 def figure_data(config, name) -> dict:
-    """Return the entries that a figure draws, by stage; of `branches` also those without damper."""
+    """Return a dict: stage -> entries that a figure draws, with those that `Kind.damper` adds."""
     figure = config.figures[name]
     kind, found = KINDS[figure.kind], {}
     for stage in kind.stages:
@@ -131,7 +131,7 @@ def _case(config, section, name):
 
 
 def caption(title, cases, text, remark) -> str:
-    """Return the caption as one paragraph of reStructuredText, with the symbols of the axes."""
+    """Return a figure's caption, a paragraph of reStructuredText with the symbols of the axes."""
     head = f"{title}: {cases}." if cases else f"{title}."
     whole = "\n".join(part for part in (head, text.strip(), remark) if part)
     whole = re.sub(r"\bW(?=p?(²|\b))", "Ω", whole)
@@ -150,7 +150,7 @@ def cases_in_words(cases) -> str:
 
 
 def in_words(values) -> list:
-    """Return the values of parameters as text: "h = 0.215", "W from 1 to 3", "d0 by (19)"."""
+    """Return a text for each parameter, such as "h = 0.215", "W from 1 to 3" or "d0 by (19)"."""
     return [
         f"{symbol} {_value(values[name])}"
         for name, symbol in SYMBOLS.items()

@@ -43,13 +43,12 @@ CLEARANCE_OR_RULE = number_or_word(
     f"{MEANINGS['clearance']}, or the word `rule` for the clearance by equation (19) of the paper",
     **BOUNDS["clearance"],
 )
-# The contact stiffness is a key of the whole configuration, common to all dampers.
-COMMON = "contact_stiffness"
+COMMON = "contact_stiffness"  # key of the whole configuration, since all dampers share it
 NEEDED = ("mass_ratio", "clearance", "restitution")  # parameters that a damper must have
 
 
 def keys_of(names, *, needed=(), without=()):
-    """Return a base class with keys for parameters, of which only `needed` are required."""
+    """Return a base class with a key for each parameter. Only those in `needed` are required."""
     types = {
         name: PARAMETERS[name] if name in needed else (PARAMETERS[name], None)
         for name in names
@@ -59,7 +58,7 @@ def keys_of(names, *, needed=(), without=()):
 
 
 def given(section, names) -> dict:
-    """Return the values of some keys of a section; keys without a value are left out."""
+    """Return a dict: key -> value, for those keys in `names` that have a value in the section."""
     found = {name: getattr(section, name, None) for name in names}
     return {name: value for name, value in found.items() if value is not None}
 
@@ -82,7 +81,7 @@ class Range(Section):
 
 
 def range_of(kind, *, points=False):
-    """Return the model of a range; `kind` is the type of its ends, `points` adds a key `points`."""
+    """Return the type of a range with ends of the type `kind`. If `points`, add a key `points`."""
     types = {"first": kind, "last": kind} | (
         {"points": points_of("points of the grid")} if points else {}
     )
@@ -103,7 +102,7 @@ class Oscillators(keys_of(OSCILLATOR, needed=("damping", "linear_frequency"))):
 
 
 class WithOscillator(Section):
-    """An entry with an oscillator; `counts` are the keys whose product is the number of runs."""
+    """An entry with an oscillator. The product of the values of the keys `counts` has a bound."""
 
     oscillator: text("name of an entry of `oscillators`")
 
@@ -146,13 +145,13 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
         return bool(given(self, self.whole))
 
     def system(self, config) -> dict:
-        """Return the oscillator and the damper or None, as parameters of a job."""
+        """Return the oscillator, and the damper (or None), as parameters of a job."""
         damper = {"Damper": damper_values(self, config)} if self.has_damper() else None
         return super().system(config) | {"damper": damper}
 
 
 def damper_values(entry, config) -> dict:
-    """Return the arguments of `Damper` for an entry; a number replaces the clearance `rule`."""
+    """Return the arguments of `Damper` for an entry, with a number in place of the word `rule`."""
     values = {COMMON: config.contact_stiffness} | given(entry, DAMPER)
     if values.get("clearance") == "rule":
         oscillator = Oscillator(**config.oscillators[entry.oscillator].values())
@@ -161,7 +160,7 @@ def damper_values(entry, config) -> dict:
 
 
 def too_many(path, section, keys):
-    """Yield a line if the product of the values of some dotted keys is too large for a job."""
+    """Yield an error line if the product of values (or lengths of lists) at `keys` is too large."""
     counts = []
     for key in keys:
         value = section

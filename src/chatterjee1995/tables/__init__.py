@@ -1,1 +1,1 @@
-"""Tables of the paper. A CSV file has all columns of a table, a Markdown file the first nine."""
+"""Tables of the paper. A CSV file has all columns; a Markdown file has the first `SHOWN`."""

@@ -9,10 +9,8 @@ from chatterjee1995.tables.files import parameter_columns
 from impact_damper.data.datasets import decode, is_settled, parameters_of
 from impact_damper.data.shares import wilson
 
-# Largest relative difference at which an amplitude of harmonic balance is near the exact one.
-NEAR = 0.2
-# Errors of the amplitude for which the table lists the harmonics needed.
-ACCURACIES = {0.01: "1 %", 1e-3: "1e-3", 1e-6: "1e-6"}
+NEAR = 0.2  # largest relative difference of an amplitude that counts as near the exact one
+ACCURACIES = {0.01: "1 %", 1e-3: "1e-3", 1e-6: "1e-6"}  # error of the amplitude -> text
 # Question about each cell of a map -> variable whose flag is the answer.
 QUESTIONS = {
     "quiet motion": "quiet_verdict",
@@ -31,7 +29,7 @@ TRUTHS = {
 
 
 def harmonic_balance(datasets) -> pd.DataFrame:
-    """Return for each curve d0 by rule (19), and amplitudes at Wp by balance and exact orbits."""
+    """Return for each curve: d0 by rule (19), and amplitudes at Wp by balance and exact orbit."""
     rows = []
     for name, data in reading.damped(datasets, "harmonic_balance").items():
         peak = float(data.peak_frequency)
@@ -78,7 +76,7 @@ def _exact_orbit(orbit):
 
 
 def harmonic_convergence(datasets) -> pd.DataFrame:
-    """Return for each motion the harmonics needed, the decrease of errors and the cold starts."""
+    """Return for each motion: harmonics needed, decrease of the error, and ends of cold starts."""
     return pd.DataFrame(
         {"motion": name} | _convergence(data)
         for name, data in datasets.get("harmonic_convergence", {}).items()
@@ -125,7 +123,7 @@ def _needed(highest, error, accuracy):
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Return the numbers of map cells with each verdict, with chaos, and with a near amplitude."""
+    """Return how many cells of a map have each verdict, chaos, or a nearly exact amplitude."""
     rows = []
     for name, data in datasets.get("balance_map", {}).items():
         found = []
@@ -141,7 +139,7 @@ def balance_map(datasets) -> pd.DataFrame:
 
 
 def _answers(meaning):
-    """Return the answers of harmonic balance and of the exact motions from a flag's meaning."""
+    """Return two answers from a flag's meaning: of harmonic balance, and of the exact motions."""
     balance, _, truth = meaning.partition("_")
     if balance not in ("none", "stable", "unstable") or not truth:
         balance, truth = "", meaning
@@ -150,7 +148,7 @@ def _answers(meaning):
 
 
 def _cells(question, balance, truth, count, total):
-    """Return a row: a count of cells, its share, and the Wilson interval for a random sample."""
+    """Return a row: a count of cells, its share of `total`, and the share's Wilson interval."""
     share, lower, upper = wilson(int(count), int(total))
     return {
         "question": question,
@@ -165,7 +163,7 @@ def _cells(question, balance, truth, count, total):
 
 
 def _summary(data):
-    """Yield rows on chaos among violent motions, and on cells with stable balance and orbit."""
+    """Yield rows: on chaos among violent motions, and on cells with balance and orbit stable."""
     kinds = decode(data["high_run_motion"])
     chaotic = np.sum(kinds == "high_chaotic")
     settled = np.sum(kinds == "high")

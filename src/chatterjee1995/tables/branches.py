@@ -50,14 +50,14 @@ def orbits(datasets) -> pd.DataFrame:
 
 
 def _branches(datasets):
-    """Return (name, dataset) for the datasets of branches, first those without a damper."""
+    """Return pairs (name, dataset) of branches; branches without a damper come first."""
     return [*reading.free(datasets, "branches").items()] + [
         *reading.damped(datasets, "branches").items()
     ]
 
 
 def _ends_of(data, branch):
-    """Return the reason for each end of a branch, with the number of a branch met there, if any."""
+    """Return for both ends of a branch a text: why it ends, and which branch it meets, if any."""
     ends, met = data["branch_end"][branch], data["branch_met"].values[branch]
     names = [LEFT.get(name, name) for name in map(reading.meaning, ends)]
     return [
@@ -67,7 +67,7 @@ def _ends_of(data, branch):
 
 
 def _stable_ranges(value, stable, *, closed):
-    """Return the stable ranges of W as text; a closed branch is cut open at an unstable orbit."""
+    """Return the stable ranges of W as text. A closed branch is first cut at an unstable orbit."""
     if closed:
         cut = np.argmin(stable)
         value, stable = np.roll(value, -cut), np.roll(stable, -cut)
@@ -77,7 +77,7 @@ def _stable_ranges(value, stable, *, closed):
 
 
 def bifurcations(datasets) -> pd.DataFrame:
-    """Return bifurcations and changes of contacts at or next to stable orbits, sorted by W."""
+    """Return bifurcations and changes of contacts, at or next to stable orbits."""
     rows = []
     for name, data in _branches(datasets):
         for k in np.flatnonzero(_next_to_stable(data)):
@@ -103,7 +103,7 @@ def bifurcations(datasets) -> pd.DataFrame:
 
 
 def _next_to_stable(data):
-    """Return for each event whether the orbit at, before or after it on the branch is stable."""
+    """Return for each event whether the orbit at, just before or just after the event is stable."""
     found = np.zeros(data.sizes["event"], bool)
     for branch in range(data.sizes["branch"]):
         points = np.flatnonzero(data["orbit_branch"].values == branch)

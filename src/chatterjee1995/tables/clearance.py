@@ -1,4 +1,4 @@
-"""Tables of the optimum d0, with the smallest max |Z1| or first harmonic, and of rules for it."""
+"""Tables of the optimum d0 (with the least max |Z1| or first harmonic) and of rules for d0."""
 
 import numpy as np
 import pandas as pd
@@ -8,7 +8,7 @@ from chatterjee1995.reading import datasets as reading
 from chatterjee1995.tables.files import parameter_columns
 from impact_damper.data.datasets import damper_of, decode, oscillator_of, parameters_of
 
-WITHIN = (1, 10)  # error bounds in per cent; the table counts the optima predicted within each
+WITHIN = (1, 10)  # the table counts the optima predicted within these errors, in per cent
 # Rule -> value of rm W^2 d0 that the rule gives, or model from which the rule follows.
 RULE_NAMES = {
     "balance": "(18): 1",
@@ -22,7 +22,7 @@ CRITERIA = {"displacement": "max |Z1|", "first_harmonic": "first harmonic of Z1"
 
 
 def optimum(datasets) -> pd.DataFrame:
-    """Return for each sweep the optimum d0 by simulation, (7), rules and straight flight."""
+    """Return for each sweep the optimum d0 by simulation, by (7), and by rules."""
     rows = []
     for name, data in datasets.get("optimum", {}).items():
         best, rule = float(data.optimum_clearance), float(data.rule_clearance)
@@ -73,7 +73,7 @@ def _grids(datasets):
 
 
 def _sweeps(datasets):
-    """Yield a frame for each sweep, with columns as in `_grids`; all found optima are stable."""
+    """Yield a frame for each sweep, with columns as in `_grids`. Optima of sweeps are stable."""
     for data in datasets.get("optimum", {}).values():
         parameters = parameters_of(data)
         oscillator, damper = oscillator_of(data), damper_of(data, clearance=1.0)

@@ -19,7 +19,7 @@ def _count(values, meaning):
 
 
 def contact_model(datasets) -> pd.DataFrame:
-    """Return for each exit rule the numbers of map cells by verdict, and contacts without load."""
+    """Return for each exit rule: map cells counted by verdict, and contacts without load."""
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
@@ -89,7 +89,7 @@ VERDICTS = {
 
 
 def _needed(own):
-    """Return the stiffness above which rigid walls are accurate, or why none is known."""
+    """Return for each error the r1 above which rigid walls err less, or why none is known."""
     columns = {}
     for k, level in enumerate(own.threshold.values):
         value = float(own.needed_stiffness[k])

@@ -10,8 +10,7 @@ from impact_damper.data.datasets import parameters_of
 from impact_damper.data.whole_files import whole
 from impact_damper.model.text import number
 
-# Significant digits of numbers: DIGITS in CSV files, FEW_DIGITS in Markdown files.
-DIGITS, FEW_DIGITS = 6, 4
+DIGITS, FEW_DIGITS = 6, 4  # significant digits of numbers in CSV files, and in Markdown files
 SHOWN = 9  # number of columns that the page of a table shows
 HEADS = {
     "damping": "damping h",
@@ -36,7 +35,7 @@ def as_markdown(frame) -> str:
 
 
 def save_table(frame, csv_path, markdown_path, document=as_markdown) -> None:
-    """Write a table as CSV and, by `document`, as Markdown; NaN and None become empty cells."""
+    """Write a table as CSV, and as Markdown made by `document`. Cells of NaN and None are empty."""
     values = frame.map(_rounded).astype(object)
     _write(csv_path, values.to_csv(index=False, lineterminator="\n"))
     shown = frame.map(partial(_rounded, digits=FEW_DIGITS)).astype(object)
@@ -69,7 +68,7 @@ def _write(path, content):
 
 
 def _rounded(value, digits=DIGITS):
-    """Return the text of a table cell for its value."""
+    """Return the text of a table cell for a value."""
     if isinstance(value, str | numbers.Integral) or np.isinf(value or 0):
         return str(value)
     return "" if value is None or np.isnan(value) else number(value, digits)

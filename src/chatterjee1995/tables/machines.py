@@ -11,7 +11,7 @@ ADVICE = {"build": "build it", "do_not_build": "do not build it"}
 
 
 def machines(datasets) -> pd.DataFrame:
-    """Return each machine's gap, and displacements without damper, with damper, with absorber."""
+    """Return for each machine the gap, and displacements: no damper, damper, absorber."""
     return pd.DataFrame([_row(name, data) for name, data in datasets.get("machines", {}).items()])
 
 

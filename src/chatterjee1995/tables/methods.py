@@ -59,7 +59,7 @@ def models(datasets) -> pd.DataFrame:
 
 
 def cheapest(data, labels):
-    """Return the index of the accurate run with the least work by methods in `labels`, or None."""
+    """Return the index of the accurate run with the least work by a method in `labels`, or None."""
     meets = decode(data["meets_accuracy"]).values == "yes"
     meets &= np.isin(data["method"].values, labels)
     work = np.where(meets, data["operations"].values, np.inf)
@@ -67,7 +67,7 @@ def cheapest(data, labels):
 
 
 def _most_accurate(data, method):
-    """Return the index, or None, of a method's run with the best max |Z1| (chaos: contact rate)."""
+    """Return the index of a method's best run by max |Z1| (in chaos by contact rate), or None."""
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
         return None
@@ -79,7 +79,7 @@ def _most_accurate(data, method):
 
 
 def _errors(of):
-    """Return the columns with the errors of a run on a scene with one motion."""
+    """Return the columns with the errors of a run on a scene without chaos."""
     return {
         "error of max |Z1|": float(of.amplitude_error),
         "error of the state": float(of.state_error),
@@ -100,7 +100,7 @@ def _averages(data, of):
 
 
 def missed_contacts(datasets) -> pd.DataFrame:
-    """Return the contacts that each method finds and misses near grazing, over all depths."""
+    """Return how many contacts near grazing each method finds and misses, over all depths."""
     rows = []
     for name, data in datasets.get("missed_contacts", {}).items():
         contacts = int(reading.parameter(data, "passages")) * data.sizes["depth"]
@@ -130,7 +130,7 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return for each method, accuracy and r1 the largest step below which all are accurate."""
+    """Return for each method, accuracy and r1 the step below which all steps are accurate."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         cycle = 2 * np.pi / reading.parameter(data, "frequency")

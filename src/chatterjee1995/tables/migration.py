@@ -1,4 +1,4 @@
-"""Tables of migration control: the paper's cases, scans and policies of release (damper off)."""
+"""Tables of migration control: cases, scans and policies. A release switches the damper off."""
 
 import numpy as np
 import pandas as pd
@@ -58,7 +58,7 @@ def _destination(motion):
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """Return W at which releases from each kind of motion lead to each set of free motions."""
+    """Return for each kind of damped motion at which W its releases lead to which free motions."""
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
         ends = list(scan.free_motion.values)
