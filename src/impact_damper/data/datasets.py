@@ -117,10 +117,7 @@ def _converted(data, convert, scales):
 
 
 def _kind(name, data):
-    """Return the kind of a variable; for "followed", the kind of the parameter that varies.
-
-    A clearance of a machine is shown as the gap, the full play.
-    """
+    """Return the kind of a variable; for "followed", the kind of the parameter that varies."""
     kind = VARIABLES[name].kind
     if kind == "followed":
         parameter = parameters_of(data).get("parameter")

@@ -14,10 +14,7 @@ DOUBT = 0.05
 
 
 def wilson_intervals(successes, total):
-    """Return the ends of Wilson's 95 % intervals of k successes in n > 0 trials, shape (..., 2).
-
-    With q = QUANTILE the ends are [k + q^2/2 -+ q sqrt(k (n - k)/n + q^2/4)]/(n + q^2).
-    """
+    """Return the ends of Wilson's 95 % intervals of k successes in n > 0 trials, shape (..., 2)."""
     k, n = np.broadcast_arrays(np.asarray(successes, float), total)
     middle, square = k + QUANTILE**2 / 2, QUANTILE**2
     half = QUANTILE * np.sqrt(k * (n - k) / n + square / 4)
@@ -34,16 +31,16 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return k: the k-th largest of `total` values bounds at least a share of all values.
+    """Return the rank k at which the k-th largest of `total` values bounds a share of all values.
 
     The bound holds with the confidence 1 - doubt for any distribution (S. S. Wilks, Ann. Math.
-    Stat. 12, 1941). k is 0 if there are too few values.
+    Stat. 12, 1941). If there are too few values, k is 0.
     """
     return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= doubt))
 
 
 def starts_needed(share) -> int:
-    """Return the least number of values of which the largest bounds a share of all values."""
+    """Return the fewest values for which the largest bounds a share of all values (95 %)."""
     return math.ceil(math.log(DOUBT) / math.log(share))
 
 

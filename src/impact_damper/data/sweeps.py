@@ -10,7 +10,7 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 
 
 class Family(NamedTuple):
-    """A motion over a sweep: outcome, period in cycles or 0, and number of starts that reach it.
+    """A motion over a sweep: outcome, period in cycles or 0, number of starts that lead to it.
 
     `places` is the mask of the motion's entries in arrays of the sweep, shape (value, motion).
     """

@@ -21,15 +21,12 @@ class BrokenFileError(OSError):
 
 @contextmanager
 def whole(path):
-    """Yield a temporary path to write to, which is renamed to `path` on success.
-
-    First all temporary files for the same `path` are removed: a killed process leaves some.
-    """
+    """Yield a temporary path to write to, which is renamed to `path` on success."""
     path = Path(path)
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        for left in path.parent.glob(f"{glob.escape(path.name)}.part-*"):
+        for left in path.parent.glob(f"{glob.escape(path.name)}.part-*"):  # by a killed process
             left.unlink(missing_ok=True)
         yield part
         os.replace(part, path)

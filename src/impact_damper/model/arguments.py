@@ -20,16 +20,16 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, describe
 from impact_damper.model.units import UNITLESS, Scales
 
-# Kinds of a state's components, their units for a machine, and the largest modulus of each kind.
+# STATE: kinds of the components of a state. STATE_UNITS: their units for a machine.
 STATE = ("displacement", "velocity", "displacement", "velocity")
 STATE_UNITS = "m, m/s, m, m/s"
 FARTHEST_STATE = dict(zip(STATE, (FARTHEST, FASTEST) * 2, strict=True))
-# Coordinates of datasets that hold the forcing phase of a state taken from the dataset.
+# Names of coordinates that hold the forcing phase of the states in a dataset.
 PHASES = ("state_phase", "orbit_phase")
 
 
 class Model(NamedTuple):
-    """A system with or without a damper, dimensionless; for a machine also in SI units."""
+    """A dimensionless system with or without a damper; for a machine also its SI values."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -96,14 +96,14 @@ def read_swept_damper(system, damper, frequency) -> Model:
 
 
 def read_numbers(scales, name, values, kind="number", **bounds) -> np.ndarray:
-    """Return a number or a sequence as a dimensionless array; the bounds are dimensionless too."""
+    """Return a number or a sequence as a dimensionless array; `bounds` are dimensionless too."""
     return np.array(
         [scales.read(f"{name}[{i}]", value, kind, **bounds) for i, value in _numbered(values)]
     )
 
 
 def _numbered(values):
-    """Return pairs of position and value; values of a dataset or of pint keep their units."""
+    """Return pairs (position, value); values from a dataset or from pint keep their units."""
     if isinstance(values, (list, tuple)) or getattr(values, "ndim", 0) == 1:
         return enumerate(values)
     return enumerate(np.atleast_1d(values) if not hasattr(values, "units") else [values])
@@ -152,7 +152,7 @@ def read_pair(scales, name, values) -> np.ndarray:
 
 
 def _components(scales, name, values, kinds, words):
-    """Return dimensionless displacements and velocities; `words` tell in errors what is needed."""
+    """Return dimensionless displacements and velocities; error messages say `words` are needed."""
     numbered = list(_numbered(values))
     if len(numbered) != len(kinds):
         raise ValueError(f"{name} = {shown(values)}: must be {words}")
@@ -168,8 +168,8 @@ def _components(scales, name, values, kinds, words):
 def read_state(model, state) -> np.ndarray:
     """Return the argument `state` of a public function as Z1, Z1', Z2, Z2', shape (4,).
 
-    Without a damper the two numbers Z1 and Z1' are enough; then Z2 = Z1 and Z2' = Z1'. Warn the
-    user if the penetration of a wall exceeds the clearance.
+    Without a damper `state` may be Z1 and Z1' only; then Z2 = Z1 and Z2' = Z1'. Warn the user if
+    the penetration of a wall exceeds the clearance.
     """
     scales, damper = model.scales, model.damper
     if hasattr(state, "coords"):
@@ -213,8 +213,8 @@ def carried_phase(state):
 def read_start(model, state, start) -> float:
     """Return the time T of a state, from the argument `start` of a public function.
 
-    If `start` is None, T follows from the phase of a dataset's state; without a phase, T is 0. A
-    `start` with another phase than the state's phase is an error.
+    If `start` is None, T follows from the phase that a state of a dataset has, or is 0 without a
+    phase. A `start` that contradicts this phase is an error.
     """
     phase, frequency = carried_phase(state), model.frequency
     if start is None:

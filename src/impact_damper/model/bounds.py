@@ -1,4 +1,4 @@
-"""Ranges of parameters and arguments, and checks of values; within the ranges every run ends.
+"""Ranges of parameters and arguments, and checks of values. Within the ranges every run ends.
 
 A range is a dictionary of keyword arguments of `check_number` or `check_count`.
 """
@@ -24,7 +24,7 @@ AMPLITUDE_RANGE = {"least": 0.0, "most": 1e6}
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
 # Largest natural frequency of the contact divided by the forcing frequency.
 MOST_STIFF = 1e6
-# Radius of the ball of random initial states. MOST_RADIUS bounds the ratio of radius to clearance.
+# Radius of the ball of random initial states. MOST_RADIUS: largest ratio of radius to clearance.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 MOST_RADIUS = 1e3
 # Bounds of the fields of `settling.Settling`.
@@ -36,11 +36,11 @@ FURTHER_RANGE = {"least": 0, "most": 10**7}
 # Largest number of runs of one call. The results of all runs are in memory.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# Numbers of forcing cycles: of a run, and of a run for the LIFETIME of a chaotic transient.
+# Number of forcing cycles in a run. LIFETIME_RANGE: in a run that measures a chaotic transient.
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest moduli of displacement and velocity in an initial state. Beyond, a cycle takes minutes.
+# Largest |displacement| and |velocity| of an initial state. Beyond, a cycle runs for minutes.
 FARTHEST, FASTEST = 1e3, 1e6
 # Highest harmonic N of a harmonic balance. Memory grows as N^2, and computing time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
@@ -60,7 +60,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return the number of an array without dimensions, or another value; units are an error."""
+    """Return the number in an array without dimensions, or another value; units are an error."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")
@@ -79,8 +79,8 @@ def check_number(
 ) -> float:
     """Return `value` as a float, or raise an error if it is not allowed.
 
-    Raise TypeError for a value that is no real number, such as True, and ValueError if the value is
-    not finite or out of bounds. This second message has the reason `why`, and `given` as the value.
+    Raise TypeError for a value that is no real number, such as True. Raise ValueError if the value
+    is not finite or out of bounds; the message shows `given` as the value, and the reason `why`.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -128,7 +128,7 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Raise an error unless `starts` is `least`, or more with at most MOST_RUNS at `points`."""
+    """Raise an error unless `starts` is from `least` to MOST_RUNS / `points`, or just `least`."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 
@@ -140,9 +140,9 @@ def nearest(name, known) -> str:
 
 
 def names_arguments(function):
-    """Decorate a public function or class; errors for wrong names list the known names.
+    """Decorate a public function or class: an error for a wrong argument lists the known names.
 
-    The docstring of a dataclass gets a list of the fields with a `meaning`.
+    The docstring of a dataclass gets a list of the fields that have a `meaning`.
     """
     call = function.__init__ if inspect.isclass(function) else function
     signature = inspect.signature(call)

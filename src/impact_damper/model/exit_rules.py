@@ -1,10 +1,11 @@
 """The two rules for the end of a contact, and the damping for a restitution under each rule.
 
-The penetration of a free contact obeys u'' + 2 z u' + u = 0 in natural units of time, with the
-damping ratio z, and the wall pushes with u + 2 z u'. Under `zero_penetration`, the paper's rule
-(25), a contact ends when u = 0; before, a wall with damping pulls. Under `no_tension` a contact
-ends when the force falls to 0, and the restitution is exp(-(pi - 2 A) tan A) with z = sin(A)
-(Schwager and Poeschel, Physical Review E 78, 2008, 051304), or exp(-2 B coth B) if z = cosh(B) > 1.
+With no other force the penetration u obeys u'' + 2 z u' + u = 0 in natural units of time. z is the
+damping ratio, and u + 2 z u' is the force of the wall. Under `zero_penetration`, the paper's rule
+(25), a contact ends when u = 0; just before, a wall with damping pulls. Under `no_tension` a
+contact ends when the force falls to 0. If z = sin(A), the restitution is exp(-(pi - 2 A) tan A)
+(Schwager and Poeschel, Physical Review E 78, 2008, 051304). If z = cosh(B) > 1, the restitution is
+exp(-2 B coth B).
 """
 
 import math
@@ -28,7 +29,7 @@ def restitution(ratio) -> float:
 
 @cache
 def damping_ratio(restitution_, rule=ZERO_PENETRATION) -> float:
-    """Return the damping ratio z of the relative motion that gives a restitution under a rule."""
+    """Return the damping ratio z that gives a restitution under a rule."""
     logarithm = math.log(1 / restitution_)
     if rule == ZERO_PENETRATION or not logarithm:
         return logarithm / math.hypot(math.pi, logarithm)

@@ -9,13 +9,13 @@ from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
-# Parameters that can vary along a branch, each with its dataclass (None for the frequency). The
-# coordinate of a branch is the parameter if LINEAR names it, otherwise its logarithm.
+# Parameters that can vary along a branch, each with its dataclass (None for the frequency). If
+# LINEAR has the name of the parameter, it is the coordinate along the branch, else its logarithm.
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
-# Indices in the packed array (see `packed`) of the two terms of the forcing amplitude.
+# Indices of the two terms of the forcing amplitude in the packed array (see `packed`).
 FORCING = {"force": FORCE, "unbalance": UNBALANCE}
 
 
@@ -31,7 +31,7 @@ def facts_of(parameter) -> tuple:
 def read_followed(model, parameter, span) -> tuple:
     """Return the arguments `parameter` and `span` of a branch, dimensionless.
 
-    Machines have other names for some PARAMETERS. The span must contain the model's own value.
+    Machines have other names for some PARAMETERS. The span must contain the parameter's own value.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}
@@ -51,10 +51,10 @@ def read_followed(model, parameter, span) -> tuple:
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
-    """Return a function that maps the coordinate of one parameter to the packed parameters.
+    """Return a function that maps the coordinate along a branch to the packed parameters.
 
     Also return the coordinate of the given system, and the coordinates of both ends of the span.
-    Raise ValueError if the contact is too stiff at an end.
+    Raise ValueError if the contact is too stiff at an end of the span.
     """
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)

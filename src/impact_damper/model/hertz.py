@@ -14,7 +14,7 @@ from impact_damper.model.units import convert, optional, physical
 # Duration of an impact, divided by the ratio of largest compression to speed:
 # (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
 DURATION = 2.9432752
-# Pressure p0 at the centre of a ball's contact at which a material begins to yield, divided by the
+# Pressure p0 at the centre of a ball's contact when a material begins to yield, divided by the
 # yield strength, for nu = 0.3 (Johnson, section 6.1).
 YIELD = 1.6
 POISSON_RANGE = {"least": 0, "most": 0.5}
@@ -111,6 +111,6 @@ class HertzContact:
     def stiffness(self, speed, mass) -> float:
         """Return the stiffness, N/m, of the linear spring with the same largest compression.
 
-        The spring stores the same energy; its largest force is 4/5 of the largest force of Hertz.
+        The spring then stores the same energy. Its largest force is 4/5 of that in Hertz's contact.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

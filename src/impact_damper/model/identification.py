@@ -1,6 +1,6 @@
 """Machines that fit measured curves by least squares.
 
-NumPy and SciPy are imported in functions, because Snakemake reads this module at every dry run.
+Functions import NumPy and SciPy, because Snakemake imports this module in every dry run.
 """
 
 import csv
@@ -15,16 +15,16 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# FOLD: lower bound on the derivative of the balance, which is 0 at a fold. PASSES: number of fits.
+# FOLD: lower bound for the derivative of the balance, which is 0 at a fold. PASSES: number of fits.
 FOLD, PASSES = 0.1, 6
 
 
 class Identified(NamedTuple):
     """A machine found by a fit, and the uncertainties of its values.
 
-    `uncertainties`, keyed by field of the machine, are standard uncertainties in SI units; they
-    assume independent errors of equal size. `noise` is the standard deviation of the residuals, in
-    m for a free decay, as a fraction of the amplitude for a response. `ended`: how the fit ended.
+    `uncertainties`, keyed by field of the machine, are standard uncertainties in SI units. They are
+    valid if errors are independent and of equal size. `noise` is the standard deviation of the
+    residuals: m for a free decay, a fraction for a response. `ended` says how the fit ended.
     """
 
     machine: object
@@ -81,9 +81,10 @@ def from_response(cls, data, *, force) -> Identified:
     """Find the machine whose response to a known force is nearest to a measured curve.
 
     All branches obey the balance of the first harmonic, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2
-    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). The residual divided by
-    the balance's derivative is nearly the relative error of an amplitude. If 3/4 k3 a^2 exceeds
-    k/10, the neglected harmonics bias stiffness by about 1 %, and damping near a jump by 10 %.
+    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). The residual is divided by
+    the balance's derivative; so it is nearly the relative error of an amplitude. If 3/4 k3 a^2
+    exceeds k/10, the neglected harmonics change the stiffness found by about 1 %, and near a jump
+    the damping by 10 %.
 
     Parameters
     ----------
@@ -156,7 +157,7 @@ def _fit(residuals, guess, scale):
 
 
 def _free(time, parameters):
-    """Return displacements of free decays of unit mass, shape (times, columns of parameters)."""
+    """Return free decays of a unit mass for columns of parameters, shape (times, columns)."""
     import numpy as np
     from scipy.integrate import solve_ivp
 
@@ -176,7 +177,7 @@ def _free(time, parameters):
 
 
 def _decay(time, measured):
-    """Return a guess of the 6 parameters of a decay from its analytic signal, and their scales."""
+    """Guess the 6 parameters of a decay by its analytic signal; return them and their scales."""
     import numpy as np
     from scipy.signal import hilbert
 
@@ -201,7 +202,7 @@ def _decay(time, measured):
 
 
 def _resonance(w, amplitude, force):
-    """Return a guess of k, c, k3, m and their scales; given c the balance is linear in the rest."""
+    """Guess k, c, k3, m; return them and scales. For given c the balance is linear in the rest."""
     import numpy as np
 
     top = np.argmax(amplitude)
@@ -234,7 +235,7 @@ def _read(data, kinds):
 
 
 def _columns(path, kinds):
-    """Return the columns of a CSV file that `kinds` name, as tuples of numbers in SI units."""
+    """Return those columns of a CSV file that `kinds` name, as tuples of numbers in SI units."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         reader = csv.DictReader(file)
         matches = filter(None, map(COLUMN.fullmatch, reader.fieldnames or ()))

@@ -12,11 +12,11 @@ from impact_damper.model.text import with_unit
 from impact_damper.model.units import Scales, check_si, convert, optional, physical
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
-# Acceleration of gravity, m/s^2. Ranges of the angle (radian) and of the friction coefficient.
+# GRAVITY: acceleration, m/s^2. ANGLES: range, radian. FRICTIONS: range of a friction coefficient.
 GRAVITY = 9.81
 ANGLES = {"least": 0, "most": 1.5708}
 FRICTIONS = {"least": 0, "most": 10}
-# Keys of a damper in a machine's file that `mounting` takes and `MachineDamper` does not.
+# Keys of a damper in a machine's file that are arguments of `mounting`, not of `MachineDamper`.
 MOUNT = ("inclination", "friction_coefficient", "normal_force")
 GRAVITIES = {"least": -1e3, "most": 1e3}
 # Largest damping ratio. At 1, critical damping, the machine no longer vibrates.
@@ -24,13 +24,13 @@ MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """A value that a machine computed from other values; each copy of the machine does so again."""
+    """A value that a machine computes from its others; each copy of the machine does so again."""
 
 
 @bounds.names_arguments
 @dataclass(frozen=True, kw_only=True)
 class MachineDamper:
-    """A loose mass in a gap of a machine, in SI units; made and checked by `Machine.damper`."""
+    """A loose mass in a gap of a machine, in SI units. `Machine.damper` makes and checks it."""
 
     mass: float = physical("mass", "loose mass", above=0)
     gap: float = physical("clearance", "full play of the loose mass from wall to wall", above=0)
@@ -52,8 +52,8 @@ class MachineDamper:
     def check_for(self, machine):
         """Raise ValueError, with the range allowed, if the damper does not fit a machine.
 
-        The gap must exceed the static play, the compression of both contacts under the force on the
-        loose mass m2. This force is m2/(m1 + m2) times the static force on the machine's mass m1.
+        The gap must exceed the static play: the compressions of both contacts, added, under the
+        force F m2/(m1 + m2) on the loose mass m2, with the static force F on the machine's mass m1.
         """
         scales = machine.scales
         gaps = scales.range_to_si(bounds.CLEARANCE_RANGE, "gap")
@@ -177,7 +177,7 @@ class Machine:
             )
 
     def _derive(self):
-        """Derive stiffness, natural frequency, damping ratio from values given in their place."""
+        """Compute stiffness, natural frequency, damping ratio from values given in their place."""
         if self.natural_frequency is None:
             found = math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
             object.__setattr__(self, "natural_frequency", Derived(found))
@@ -237,7 +237,7 @@ class Machine:
         """Scales with which the dimensionless equations describe the machine.
 
         The length is the geometric mean of the static deflection and the displacement at resonance.
-        So motions and useful gaps are of order 1. The scale of time makes omega_l^2 + |k3| = 1.
+        So motions and useful gaps are of order 1. The time makes omega_l^2 + |k3| equal to 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -247,8 +247,9 @@ class Machine:
     def _static_deflection(self):
         """Return the deflection under the force or under the base's acceleration, m.
 
-        For an unbalance: unbalance/mass. For a base's displacement: its amplitude. Without these
-        excitations: the deflection of equal linear and cubic forces, or 1 mm if one is 0.
+        For an unbalance: unbalance/mass. For a base's displacement: its amplitude. Without
+        excitation: the deflection at which the linear force of the spring equals the cubic force,
+        or 1 mm if the spring lacks one of them.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
@@ -265,7 +266,7 @@ class Machine:
     def resonant_displacement(self) -> float:
         """Displacement of a linear machine at resonance, m: static deflection times max(1, m w/c).
 
-        w^2 is the secant stiffness, at the static deflection, divided by the mass.
+        w^2 is the secant stiffness of the spring at the static deflection, divided by the mass.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -357,9 +358,9 @@ def mounting(
     """Return gravity along the gap (m/s^2) and friction (N) of a loose mass (kg), keyed by name.
 
     `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
-    default 0; `normal_force` (N) presses the loose mass on its floor, by default the weight
-    normal to the gap. Gravity or friction may be given in place of the values they follow from.
-    Raise ValueError if two values exclude each other.
+    default 0. `normal_force` (N) presses the loose mass on its floor; the default is the weight's
+    component normal to the gap. `gravity` may be given in place of `inclination`, and `friction` in
+    place of `friction_coefficient` and `normal_force`. Raise ValueError if both are given.
     """
     mass = check_si("mass", mass, "mass", above=0)
     coefficient = check_si("friction_coefficient", friction_coefficient, "number", **FRICTIONS)

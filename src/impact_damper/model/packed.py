@@ -12,9 +12,9 @@ from impact_damper.model.parameters import (
 )
 from impact_damper.model.text import number
 
-# Names of the numbers in their order: W; the fields of `Oscillator`, where omega_l^2 replaces
-# omega_l; d0; r1; 1/rm; coefficient of the dashpot; LAG (0 if walls may pull, otherwise the time
-# DASHPOT / CONTACT_STIFFNESS); gravity along the gap; friction per unit of loose mass.
+# Names of the numbers in their order: W; the fields of `Oscillator`, with omega_l^2 in place of
+# omega_l; d0; r1; 1/rm; coefficient of the dashpot; LAG; gravity along the gap; friction per unit
+# of loose mass. LAG is 0 if walls may pull, otherwise the time DASHPOT / CONTACT_STIFFNESS.
 FIELDS = [each.name for each in parameters_in(Oscillator)]
 NAMES = (
     "FREQUENCY",

@@ -1,8 +1,7 @@
 """Dataclasses of the oscillator and of the damper, dimensionless as in section 2.1 of the paper.
 
 Lengths are scaled by x0 = (F/k1)^(1/3) and times by 1/w0 = sqrt(m1/(k1 x0^2)), with the amplitude F
-of the force, the coefficient k1 of the cubic spring and the primary mass m1. This module imports no
-NumPy, because Snakemake reads it at every dry run.
+of the force, the coefficient k1 of the cubic spring and the primary mass m1.
 """
 
 import math
@@ -16,15 +15,15 @@ from impact_damper.model.units import UNITLESS, Scales
 def parameter(limits, kind, symbol, meaning, *, machine=None, power=None, **default):
     """Return a dataclass field for a dimensionless number, with all facts about it.
 
-    `kind` is a key of `units.QUANTITIES`. `machine` is the parameter's name in machines, if it
-    differs. `power` is the power of Z1 in the term of the spring's force with this coefficient.
+    `kind` is a key of `units.QUANTITIES`. `machine` is the parameter's name in machines, if it is
+    different. A coefficient of the spring's force belongs to a term Z1^`power`.
     """
     facts = {"bounds": limits, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
     return field(metadata=facts | {"meaning": f"{symbol}, {meaning}"}, **default)
 
 
 def _check(part):
-    """Check the parameters of a frozen dataclass; an array without dimensions becomes a float."""
+    """Check the parameters of a frozen dataclass; turn an array without dimensions into a float."""
     for each in parameters_in(part):
         value = getattr(part, each.name)
         number = bounds.check_number(each.name, value, **each.metadata["bounds"])
@@ -43,9 +42,9 @@ def check_damper(damper):
 class Oscillator:
     """Harmonically forced Duffing oscillator, equation (3) without the damper, dimensionless.
 
-    The forcing has the amplitude F + U W^2. U stands for a rotating unbalance, or for a moving base
-    with a constant amplitude. On a moving base Z1 is the displacement relative to the base, and the
-    forcing is the force of inertia. This force acts on the loose mass too, so `base` is 1.
+    The forcing has the amplitude F + U W^2. U stands for a rotating unbalance, or for a base that
+    moves with a constant amplitude. On a moving base Z1 is relative to the base, and the forcing is
+    the force of inertia. This force acts on the loose mass too, so `base` is 1.
 
     Raises
     ------
@@ -211,7 +210,7 @@ class Damper:
 
 
 def beyond_closed_forms(oscillator, damper) -> list:
-    """Return part and name of each nonzero parameter that closed forms with a damper refuse."""
+    """Return pairs (part, name): the nonzero parameters that closed forms with a damper refuse."""
     terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
     return [(part, name) for part, name in terms if getattr(part, name)]
 
@@ -230,7 +229,7 @@ def parameters_in(part) -> list:
     return [each for each in fields(part) if each.type in (int, float)]
 
 
-# Powers of Z1 in the nonlinear terms of the spring's force, keyed by name. SPRING_POWER: highest.
+# Powers of Z1 in the spring's nonlinear terms, keyed by name. SPRING_POWER: the highest power.
 NONLINEAR = {
     each.name: each.metadata["power"]
     for each in parameters_in(Oscillator)
@@ -246,7 +245,7 @@ SYMBOLS = {
 
 
 def describe(*parts) -> dict:
-    """Return the parameters of several dataclasses, some of which may be None, in a dictionary."""
+    """Return the parameters of several dataclasses in a dictionary; a part may be None."""
     return {
         each.name: getattr(part, each.name)
         for part in parts

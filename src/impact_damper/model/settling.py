@@ -1,7 +1,4 @@
-"""Settings for the length and the accuracy of the runs of motions.
-
-This module imports no NumPy, because Snakemake reads it at every dry run.
-"""
+"""Settings for the length and the accuracy of the runs of motions."""
 
 from dataclasses import dataclass
 
@@ -22,13 +19,14 @@ class Settling:
         Number of forcing cycles after which a motion is stopped if it is strongly chaotic, or if
         the loose mass hardly moves and has touched no wall during these cycles.
     limit : int
-        Number of forcing cycles after which every motion is stopped: as chaotic if this is certain,
-        as drifting if on an orbit without contacts for `patience` cycles, otherwise as undecided.
+        Number of forcing cycles after which every motion is stopped. Its outcome is chaotic if this
+        is certain, drifting if the primary mass is on an orbit and the loose mass has touched no
+        wall for `patience` cycles, and otherwise undecided.
     watched : int
         Number of further forcing cycles in which an unsettled motion is measured.
     further : int
-        Largest number of further forcing cycles of an undecided motion. They show whether the
-        motion is quasi-periodic, periodic with a long period, chaotic, or remains unresolved.
+        Largest number of further forcing cycles of an undecided motion. They can show that the
+        motion is quasi-periodic, chaotic, or periodic with a long period.
 
     Raises
     ------

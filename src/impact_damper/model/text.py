@@ -1,11 +1,8 @@
-"""Numbers as text for people: rounded, with units, and "none" for a missing number.
-
-This module imports no NumPy, because Snakemake reads it at every dry run.
-"""
+"""Numbers as text for people: rounded, with units, and "none" for a missing number."""
 
 import math
 
-# Rounded numbers from 1 to below 10**POSITIONAL are written without an exponent.
+# Numbers from 1 to below 10**POSITIONAL are written without an exponent, after rounding.
 POSITIONAL = 5
 
 
@@ -38,7 +35,7 @@ def with_unit(value, unit, digits=6) -> str:
 
 
 def plain(value) -> str:
-    """Return a number as text: with six digits if they are exact, otherwise with all digits."""
+    """Return a number as text: with six digits if these are exact, otherwise with all digits."""
     value = float(value)
     if not math.isfinite(value):
         return repr(value)

@@ -1,7 +1,4 @@
-"""Physical quantities in SI units, and the scales that make the equations dimensionless.
-
-The import of pint takes a third of a second. A plain number does not cause this import.
-"""
+"""Physical quantities in SI units, and the scales that make the equations dimensionless."""
 
 import math
 import numbers
@@ -15,9 +12,9 @@ from impact_damper.model.text import number, with_unit
 
 
 class Quantity(NamedTuple):
-    """A kind of physical quantity: the SI unit of its numbers, and exponents of its dimensions.
+    """A kind of physical quantity: its SI unit, and the exponents of its dimensions.
 
-    Datasets use the unit `shown`, if there is one; 1 `unit` is `factor` times the unit `shown`.
+    Datasets use the unit `shown`, if there is one. 1 `unit` is `factor` times the unit `shown`.
     """
 
     unit: str
@@ -55,7 +52,7 @@ QUANTITIES = {
     "impulse": Quantity("N s", length=1, time=-1, mass=1),
     "power": Quantity("W", length=2, time=-3, mass=1),
 }
-# Text may hold only a number and units with powers. pint would evaluate any long expression.
+# Text may only be a number and units with powers, because pint would evaluate any expression.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
 TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")
@@ -116,7 +113,7 @@ def _from_dataset(value):
 @cache
 def _factor(text, unit):
     """Return the factor from the unit `text` to an SI unit; None if there is no such factor."""
-    import pint
+    import pint  # takes a third of a second, which plain numbers need not wait for
 
     registry = pint.get_application_registry()
     try:
@@ -137,7 +134,7 @@ def check_si(name, value, quantity, **bounds) -> float:
 
 
 def absolute_value(value, quantity) -> float | None:
-    """Return a deviation that has a unit of the quantity, in SI units; None for a fraction."""
+    """Return a deviation in SI units if it has a unit of the quantity; None for a fraction."""
     if quantity is None or not (isinstance(value, str) or hasattr(value, "units")):
         return None
     try:
@@ -178,9 +175,9 @@ class Scales(NamedTuple):
     si: bool = False
 
     def unit(self, kind) -> float:
-        """Return the SI value that corresponds to 1, for a kind (a key of QUANTITIES).
+        """Return the SI value of the dimensionless number 1, for a kind (a key of QUANTITIES).
 
-        A frequency in Hz is W w0/(2 pi), a gap is twice the clearance. Without `si` the value is 1.
+        A frequency in Hz is W w0/(2 pi), a gap is twice the clearance. If `si` is false, return 1.
         """
         if not self.si:
             return 1.0

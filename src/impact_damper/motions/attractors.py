@@ -1,7 +1,8 @@
-"""Attractors, their neighbourhoods, labels of states, and the release set of migration control.
+"""Attractors, labels of states by attractor, and the release set of migration control.
 
-A neighbourhood is an ellipse around the state of a free orbit at the strobe. A motion that enters
-it provably tends to the orbit (docs/explanation/neighbourhoods.md), so the integration stops there.
+A free motion or orbit is one without the damper. A neighbourhood is an ellipse around a state of a
+free orbit at the strobe (W T = pi/2). A motion whose state enters the ellipse provably tends to the
+orbit (docs/explanation/neighbourhoods.md). So the run of the motion is stopped.
 """
 
 import math
@@ -19,16 +20,16 @@ from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_time
 
-# Proof of a neighbourhood of radius r0. STEPS: number in a forcing cycle. FACTOR: largest ratio of
-# the radius after a period to r0. HALVINGS: bisections of r0.
+# Proof of a neighbourhood. STEPS: time steps in a forcing cycle. FACTOR: largest ratio of the
+# radius after a period to the first radius. HALVINGS: bisections that find the first radius.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
-# ALIKE: largest difference of the strobe states of equal free orbits. SAME: largest relative
-# difference of max |Z1| of equal damped motions.
+# ALIKE: two free orbits are equal if their states at the strobe differ by less than this number.
+# SAME: two damped motions are equal if their max |Z1| differ by less than this fraction.
 ALIKE, SAME = 1e-6, 1e-5
-# Search for orbits. REACH: width of the region, divided by the largest displacement and speed of
-# the free motions. SEARCHED: number of grid points on each axis.
+# Grid of states for the search for orbits. REACH: width of the grid in Z1 (Z1'), divided by the
+# largest |Z1| (|Z1'|) of the free motions. SEARCHED: number of points on each axis.
 REACH, SEARCHED = 3.0, 24
-# Labels of motions by outcome. A settled motion has the index of its attractor as its label.
+# Label of a motion by its outcome. The label of a settled motion is the index of its attractor.
 LABELS = {
     records.UNRESOLVED: BASIN_LABEL["unresolved"],
     records.DIVERGED: BASIN_LABEL["escaped"],
@@ -38,16 +39,16 @@ LABELS = {
     records.DRIFTING: BASIN_LABEL["no_contact"],
     records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
 }
-# Release set. PHASES: even number in a forcing cycle. WIDTH: half width of the grid over max |Z1|
-# of the resonance motion. REFINED: fine cells along the edge of a coarse cell, a power of 2.
+# Release set. PHASES: number in a forcing cycle, even. WIDTH: half width of the grid, divided by
+# max |Z1| of the resonance motion. REFINED: fine cells along a coarse cell's edge, a power of 2.
 PHASES, WIDTH, REFINED = 16, 1.6, 4
 
 
 class Attractors(NamedTuple):
     """Attracting orbits of the free oscillator, by ascending max |Z1|, and their m neighbourhoods.
 
-    A state z at a strobe lies in a neighbourhood if |shape (z - centre)| < 1. `owner` (m,) holds
-    indices of the neighbourhoods' orbits. `shape` (m, 2, 2) is infinite where the proof fails.
+    `owner` (m,) holds the index of each neighbourhood's orbit. A state z at a strobe lies in a
+    neighbourhood if |shape (z - centre)| < 1. If its proof fails, `shape` (m, 2, 2) is infinite.
     """
 
     records: np.ndarray
@@ -64,14 +65,14 @@ def find_attractors(p, states, settling) -> Attractors:
 
 
 def free_attractors(p, window, settling) -> Attractors:
-    """Return the attractors to which a grid of states leads; `window`: the grid's half widths."""
+    """Return the attractors to which a grid of states leads, with the half widths `window`."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return find_attractors(p, states, settling)
 
 
 def with_neighbourhoods(p, records) -> Attractors:
-    """Return the `Attractors` of orbits, an array of records.MOTION."""
+    """Return the `Attractors` of the orbits in an array of `records.MOTION`."""
     orbits = [orbit_states(p, record, STROBE)[:, :2] for record in records]
     shapes = [neighbourhood(p, state, len(states)) for states in orbits for state in states]
     owner = np.repeat(np.arange(len(records)), records["period"])
@@ -104,7 +105,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 (n,) and the transition matrices (n, 2, 2) of an orbit, STEPS in each cycle."""
+    """Return Z1 (n,) and d(state)/d(first state), (n, 2, 2), along an orbit, STEPS in a cycle."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]
@@ -116,7 +117,7 @@ def linear_flow(p, state, periods):
 
 
 def neighbourhood(p, state, periods):
-    """Return the matrix S of a state's neighbourhood |S d| < 1, infinite if the proof fails."""
+    """Return the matrix S of the neighbourhood |S (z - state)| < 1; infinite if the proof fails."""
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
     if not np.max(np.abs(values)) < 1:
@@ -138,10 +139,10 @@ def neighbourhood(p, state, periods):
 
 
 def _radius(coefficients, step, contraction):
-    """Return the largest radius r0 for which `contraction` r(P) < FACTOR r0 after the period P.
+    """Return the largest radius r(0) for which `contraction` r(P) < FACTOR r(0), with the period P.
 
-    The radius follows r' = a r^2 + b r^3 and grows, so r' is largest at the end of a step. If
-    r(begin) + step (a ahead^2 + b ahead^3) is at most `ahead`, this sum bounds r there.
+    The radius obeys r' = a r^2 + b r^3. It grows, so r' is largest at the end of a step. If
+    r(begin) + step (a ahead^2 + b ahead^3) is at most `ahead`, this sum bounds r at the step's end.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -158,10 +159,10 @@ def _radius(coefficients, step, contraction):
 
 
 def label_damped(p, states, phase, settling, known=(), workers=1, progress=None):
-    """Run states (n, 4) from a phase with the damper; return labels, cycles run and attractors.
+    """Run damped motions from states (n, 4) at a phase; return labels, cycles run, attractors.
 
-    A label is the index of an attractor or a flag of `basin_label`. The `known` attractors stand
-    first; new attractors follow by ascending max |Z1|.
+    A label is the index of an attractor or a flag of `basin_label`. The attractors are the `known`
+    ones, and then the new ones by ascending max |Z1|.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     if begin > strobe_time(p):
@@ -191,9 +192,9 @@ def label_damped(p, states, phase, settling, known=(), workers=1, progress=None)
 class ReleaseSet(NamedTuple):
     """The states of the free oscillator at one frequency that lead to the goal of migration.
 
-    The goal is the smaller free motion of period 1; `goal` is its index among the attractors.
-    `depth`, over phase, Z1' and Z1, is the distance of a state (Z1, Z1'/W) from the boundary of the
-    set, positive inside. `half` holds the half widths of the grid in Z1 and Z1'.
+    The goal is the smallest free motion of period 1; `goal` is its index among the attractors. Each
+    number in `depth` is the distance of a state (Z1, Z1'/W) from the boundary of the set, positive
+    inside. Its axes are phase, Z1' and Z1. `half` holds the grid's half widths in Z1 and Z1'.
     """
 
     p: np.ndarray
@@ -204,10 +205,10 @@ class ReleaseSet(NamedTuple):
 
 
 def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> ReleaseSet:
-    """Compute the release set at one frequency on a grid at each of PHASES phases.
+    """Compute the release set at one frequency, on a grid of states at each of PHASES phases.
 
-    The goal is its own mirror image. So the set half a cycle later is the mirror image of the set,
-    and only half of the phases are computed.
+    The goal is its own mirror image. So the sets at two phases half a cycle apart are mirror images
+    of each other, and only half of the phases are computed.
     """
     p = pack(oscillator, None, frequency)
     known = free_motions(oscillator, frequency, settling)
@@ -236,10 +237,9 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return the mask (n, n) of the fine cells in a set; only cells at the boundary are refined."""
+    """Return the mask (n, n) of the fine cells in a set. Only cells at its boundary are refined."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
-        # A cell at the boundary has a neighbour on the boundary's other side.
         edge = maximum_filter(mask, 3) != minimum_filter(mask, 3)
         fine, edge = (np.kron(each, np.ones((2, 2), bool)) for each in (mask, edge))
         cells *= 2
@@ -249,13 +249,13 @@ def _refined(inside, half, cells):
 
 
 def _centres(half, cells):
-    """Return the centres of the cells of a grid, shape (cells^2, 2), in rows of equal Z1'."""
+    """Return the centres (Z1, Z1') of a grid's cells, shape (cells^2, 2), in rows of equal Z1'."""
     middles = (np.arange(cells) + 0.5) * 2 / cells - 1
     return np.stack(np.meshgrid(half[0] * middles, half[1] * middles), axis=-1).reshape(-1, 2)
 
 
 def signed_distance(inside):
-    """Return the distance of cells from a set's boundary, in cell widths, negative outside."""
+    """Return each cell's distance from the boundary of a set, in cell widths, negative outside."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
     # The boundary lies midway between the centres of two cells.

@@ -23,9 +23,9 @@ from impact_damper.motions.steady import run_chunks, settle_with
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
-# Number of states to label in one call of a kernel. Ctrl-C waits for its end.
+# Number of states that are labelled in one call of a kernel. Ctrl-C waits until the call ends.
 LABELLED = 4096
-# Labels of states that lead to no known orbit: escaped, unresolved (flags of `basin_label`).
+# Labels of states (flags of `basin_label`): GONE if the motion escapes, UNKNOWN if unresolved.
 GONE, UNKNOWN = -2, -1
 
 
@@ -42,9 +42,9 @@ def settle(
 ):
     """Run motions from states (m, 4) until `watch` ends each; return an array of `records.MOTION`.
 
-    `parameters` has a row of packed parameters for each motion. `start` is the time T of all
-    states, in the forcing cycle before the first strobe. With `from_strobe` the states are at the
-    first strobe. If another thread sets `stop[0]`, the records are incomplete.
+    `parameters` has a row of packed parameters for each motion. With `from_strobe` all states are
+    at the first strobe. Otherwise their time T is `start`, in the forcing cycle before this strobe.
+    If another thread sets `stop[0]`, the records are incomplete.
     """
     parameters = np.ascontiguousarray(parameters, float)
     strobes = 0.5 * np.pi / parameters[:, FREQUENCY]
@@ -55,7 +55,7 @@ def settle(
 
 @kernel
 def settle_many(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Run motions from states at the times `start`; `watch` fills their records `out`."""
+    """Run motions from states at the times `start`; `watch` fills the records `out`."""
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
     seen = np.zeros(size, SEEN)
@@ -88,7 +88,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Put motion i, if it exists, at index m of the pool, whose motions run side by side."""
+    """Put motion i, if there is one, at index m of the pool, whose motions run side by side."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])
@@ -98,7 +98,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Put the free motion from state i, if it exists, at index m of the pool (see `take`)."""
+    """Put the motion from state i without damper, if there is one, at index m of the pool."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
@@ -107,7 +107,7 @@ def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes
 
 
 def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
-    """Return the label of each free state, and the number of forcing cycles that decide the label.
+    """Return labels of states without damper, and the forcing cycles until each label is known.
 
     `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`. A label is the index of an orbit in
     `attractors.records`, GONE after an escape, or UNKNOWN after `limit` cycles.
@@ -130,7 +130,7 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
 
 @kernel
 def label_many(p, begin, tolerance, limit, neighbourhoods, states, labels, periods, stop):
-    """Fill the `labels` and `periods` of `label_states`, for states at the time `begin`."""
+    """Fill the results `labels` and `periods` of `label_states`, for states at the time `begin`."""
     owner, centre, shape = neighbourhoods
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

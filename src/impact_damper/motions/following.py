@@ -14,14 +14,14 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which a step grows after success.
 GROWTH = 1.5
-# Largest correction of a predicted state (REACH) and of the first (NUDGE) within the same orbit.
+# Larger corrections lead to another orbit. REACH: of a predicted state. NUDGE: of the first state.
 REACH, NUDGE = 0.03, 1e-3
-# Shortest step of the parameter, which is the accuracy of the end of a branch.
+# Shortest step of the parameter. The end of a branch is found with this accuracy.
 RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """Last two parameter values and orbits, last status, and whether the target is reached."""
+    """The last two parameter values and their orbits, last status; `arrived`: at the target."""
 
     values: tuple[float, float]
     orbits: tuple
@@ -35,7 +35,7 @@ class Followed(NamedTuple):
 
 
 class StrobeOrbit(NamedTuple):
-    """State of an orbit at the strobe, shape (4,), and its dominant Floquet multiplier."""
+    """State of an orbit at the strobe, shape (4,), and the orbit's dominant Floquet multiplier."""
 
     state: np.ndarray
     multiplier: complex
@@ -56,9 +56,10 @@ def follow(
     """Follow an orbit from one value of a parameter to another, or as far as possible.
 
     `correct` takes a value and a predicted state (4,). It returns an orbit (None on failure) and a
-    status. The first step leads to `target`. After success a step is multiplied by `growth`. A step
-    is halved if the correction fails, or if Z1, Z1' or Z2 changes by `reach` or more: the new orbit
-    may lie on another branch. `behind` is the orbit at the value 2 start - target, or None.
+    status. The first step leads to `target`. After success the step is multiplied by `growth`. The
+    step is halved if `correct` fails, or if Z1, Z1' or Z2 changes by `reach` or more: then the new
+    orbit may lie on another branch. A step below `shortest` ends the following. The orbit `behind`,
+    if given, belongs to the value 2 start - target, and improves the first prediction.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -82,11 +83,12 @@ def follow(
 
 
 def follow_stable(p, state, periods, parameter, target) -> tuple:
-    """Follow a stable orbit while the packed parameter number `parameter` changes to `target`.
+    """Follow a stable orbit while the packed parameter at index `parameter` changes to `target`.
 
-    Following stops where the orbit becomes unstable or repeats after fewer cycles. Return the
-    packed parameters and the last `StrobeOrbit`. After success the parameter is exactly `target`.
-    The multiplier is NaN if there is no orbit near the given state.
+    Following stops where Newton's method fails, as at a fold; where the orbit jumps or becomes
+    unstable; or where it repeats after fewer cycles. Return the packed parameters and the
+    `StrobeOrbit` at the last value. After success the parameter is exactly `target`. If Newton's
+    method fails at every value, the state is the given one, and the multiplier is NaN.
     """
     # A period in a record is a two-byte integer, for which numba would compile the kernels again.
     periods = int(periods)
@@ -112,6 +114,6 @@ def follow_stable(p, state, periods, parameter, target) -> tuple:
 
 
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
-    """Follow an orbit to a value; return its record there, or None if following stops before."""
+    """Follow a stable orbit to a value; return its record there, or None if it is not reached."""
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

@@ -1,7 +1,7 @@
 """Legs of a run of migration control: the motions between two switchings of the damper.
 
-A leg begins when the damper is switched, at any forcing phase. Z1 and Z1' are continuous there. The
-state is never moved onto an orbit, so Z1 and Z1' are continuous over the whole run.
+A leg begins when the damper is switched on or off, at any forcing phase. No switching changes Z1 or
+Z1', and no state is moved onto an orbit. So Z1 and Z1' are continuous over the whole run.
 """
 
 import math
@@ -17,18 +17,19 @@ from impact_damper.motions.records import ESCAPED, MOTION, NEVER, UNRESOLVED, me
 from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
 from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
 
-# Forcing cycles in one call of a compiled function. Ctrl-C waits for the end of a call.
+# Forcing cycles in one call of a kernel. Ctrl-C waits until the call ends.
 STROBES_AT_ONCE = 50_000
 # Kinds of rules by which `hold` releases a motion, that is, switches the damper off.
 SETTLED, HOLD, PHASE, STATE = range(4)
 
 
 def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
-    """Run a motion until it is near a stable orbit, for at most `limit` cycles after a strobe.
+    """Run a motion until it settles or escapes, for at most `limit` cycles after the first strobe.
 
-    The motion begins at y (4,), `ahead` forcing cycles before the strobe number `strobe`; the last
-    state replaces y. Return the path and a `records.MOTION`, measured if the motion has settled. A
-    row of the path (m, 5) is strobe number and state, at the beginning and at each strobe.
+    The motion begins at the state y (4,), `ahead` forcing cycles before the strobe with the number
+    `strobe`. The last state replaces y. Return the path and a `records.MOTION`. The record is
+    measured if the motion has settled. The path (m, 5) has a row for the beginning and for each
+    strobe: the time in forcing cycles, counted like the strobes, and the state.
     """
     records, path = np.zeros(1, MOTION), np.empty((limit + 2, 5))
     out = records[0]
@@ -54,7 +55,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Do the part of `run` from strobe `first` to `last` - 1; return the last `side` and `near`."""
+    """Do the strobes `first` to `last` - 1 of `run`; return the new `side` and `near`."""
     work = workspace()
     none = np.empty((0, 4))
     for k in range(first, last):
@@ -78,15 +79,15 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
-    """Call `wait_and_switch` at the strobe number `strobe`, then return the result of `run`."""
+    """Call `wait_and_switch` at the strobe with the number `strobe`; return what `run` returns."""
     wait_and_switch(before, after, y, wait, place, tolerance)
     return run(after, y, 1.0 - wait % 1.0, strobe + math.floor(wait) + 1.0, tolerance, limit, stop)
 
 
 def wait_and_switch(before, after, y, wait, place, tolerance):
-    """Run from a strobe for `wait` forcing cycles, then switch the damper; return the time T.
+    """Run from a strobe for `wait` forcing cycles, then switch the damper; return the last time T.
 
-    `before` and `after` are the packed parameters on both sides of the switching. When the damper
+    `before` and `after` are the packed parameters before and after the switching. When the damper
     is switched on, the loose mass has Z2 = `place` times the clearance and Z2' = 0.
     """
     t = strobe_time(before)
@@ -100,10 +101,10 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 
 
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
-    """Wait, switch the damper on, and later off; return a path as `run` does.
+    """Wait, switch the damper on, and later off; return a path with rows as in `run`.
 
     The damper is switched off when the state is in the release set `releases`, or after `longest`
-    cycles. The free state at this time replaces y, and is the last row.
+    cycles. The state after switching off replaces y. It is also the last row of the path.
     """
     begin = wait_and_switch(off, on, y, wait, place, tolerance)
     path = np.full((longest + 2, 5), np.nan)
@@ -122,7 +123,7 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
 
 @kernel
 def depth_of(depth, half, phase, x, v):
-    """Return the `depth` of a `ReleaseSet` at a state (x, v); minus infinity outside the grid."""
+    """Return `depth` of a `ReleaseSet` at the state Z1 = x, Z1' = v; -infinity outside the grid."""
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf
     cells = depth.shape[1]
@@ -135,11 +136,12 @@ def depth_of(depth, half, phase, x, v):
 def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, work):
     """Run a motion from the time `begin` with the damper on, until a rule releases it.
 
-    `rule` is a kind, a number n of forcing cycles, and the index of a phase. HOLD releases after n
-    cycles, PHASE at the phase after n or more cycles, STATE in the release set or after n cycles.
-    SETTLED releases the fraction `draw` of a period after the strobe states begin to repeat. A row
-    of `path` (m, 5) is forcing cycles since `begin` and the state, at each strobe. Return the time,
-    whether the rule has released the motion within `limit` cycles, and the contacts begun.
+    `rule` holds a kind, a number n of forcing cycles, and the index of a phase. HOLD releases the
+    motion after n cycles. PHASE releases it when this phase comes after n or more cycles. STATE
+    releases it when its state is in the release set, but at the latest after n cycles. SETTLED
+    waits until the strobe states repeat, and then for the fraction `draw` of the period. A row of
+    `path` (m, 5) receives the forcing cycles since `begin`, and the state, at a strobe. Return the
+    last time, whether the rule released the motion within `limit` cycles, and the contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

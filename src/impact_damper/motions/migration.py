@@ -1,4 +1,4 @@
-"""Migration control: switch the damper until the large free motion has become the small one."""
+"""Migration control: switch the damper until the resonance motion has become the small motion."""
 
 from typing import NamedTuple
 
@@ -17,12 +17,13 @@ from impact_damper.motions.records import NEVER
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.free_oscillator import main_solutions
 
-# MARGIN: forcing cycles that `course` adds before and after a run. SAMPLES: in a forcing cycle.
+# MARGIN: forcing cycles that `course` adds on both sides. SAMPLES: samples in a forcing cycle.
 MARGIN, SAMPLES = 10, 40
-# Largest difference between max |Z1| of equal free motions.
+# Two free motions are equal if their max |Z1| differ by less than this number.
 ALIKE = 1e-6
-# Log entry of one switching, on and off. Times are in forcing cycles from the first strobe. The
-# run of the free motion ends at `end_time`. released_*: period and max |Z1| of the damped motion.
+# Log entry of one switching, on and off. Times are in forcing cycles from the first strobe. At
+# `end_time` the run of the free motion after the switching ends. released_period and
+# released_displacement (max |Z1|) belong to the damped motion before switching off.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
     + [("released_period", "i2"), ("released_displacement", "f8"), ("destination", "i1")]
@@ -64,8 +65,9 @@ def migrate(
     frequency : float
         Forcing frequency W, or Hz for a machine; both free motions of period 1 must exist there.
     release : {"settled", "state"}
-        With "settled" the damper is switched off at a random phase after the motion has settled, as
-        in the paper; with "state" as soon as the primary mass's state leads to the small motion.
+        With "settled", as in the paper, the damper is switched off at a random phase after the
+        motion has settled. With "state" the damper is switched off as soon as the state of the
+        primary mass leads to the small motion.
     seed : int or numpy.random.SeedSequence
         Seed of the random switching phases and places of the loose mass.
     longest_hold : int
@@ -73,7 +75,7 @@ def migrate(
     periods : int
         Forcing cycles from the beginning, after which the damper is not switched on again.
     switchings : int
-        Largest number of switchings, on and off counted as one.
+        Largest number of switchings; switching on and then off is one switching.
     settling : Settling, optional
         Used for motions without the damper; with the damper only the `tolerance` is used.
 
@@ -82,7 +84,8 @@ def migrate(
     xarray.Dataset
         For each `time` T: the displacement of the primary mass. For each `switching`: the times T
         when the damper is switched on, when it is switched off, and when the free motion has
-        settled; the motion before and after switching off. Totals of the run, in forcing cycles.
+        settled; the motion before and after switching off. For the run: whether it reaches the
+        small motion, the number of switchings, and durations in forcing cycles.
 
     Raises
     ------
@@ -128,8 +131,8 @@ def migrate(
 def _free_motion(oscillator, frequency, start, which, settling):
     """Return the record of a free motion of period 1 at a frequency, or None.
 
-    A run from the harmonic-balance solution number `which` finds the motion at the frequency
-    `start`. The motion is followed from there.
+    A run at the frequency `start` finds the motion. The run begins on the solution of harmonic
+    balance with the index `which`. The motion is then followed to `frequency`.
     """
     p = pack(oscillator, None, start)
     free = main_solutions(oscillator, start)
@@ -142,7 +145,7 @@ def _free_motion(oscillator, frequency, start, which, settling):
 
 
 def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
-    """Return the `ReleaseCase` of a damper; ValueError without both free motions of period 1.
+    """Return the `ReleaseCase` of a damper; raise ValueError if a free motion does not exist.
 
     With a hardening spring the resonance motion is followed upward from a lower frequency, and the
     non-resonance motion downward from a higher one, each towards its fold. With a softening spring
@@ -167,17 +170,14 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return the flags (`DAMPED_MOTION`) of motions, given arrays of their periods and max |Z1|.
-
-    A motion of period 1 is quiet if max |Z1| is below half the value of the free resonance motion.
-    """
+    """Return the flags (`DAMPED_MOTION`) of motions, given arrays of their periods and max |Z1|."""
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
     return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
 
 
 def destination(known, record):
-    """Return the flag (`FREE_MOTION`) that names the free motion in a record."""
+    """Return the flag (`FREE_MOTION`) of the free motion in a record."""
     if not is_settled(record):
         return FREE_MOTION["unresolved"]
     if record["period"] == 3:
@@ -191,10 +191,11 @@ def destination(known, record):
 def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """Return the path and the log (`SWITCHING`) of one run of migration control.
 
-    A row of `draws` holds the phase at which the damper is switched on, as a fraction of the
-    period; the place of the loose mass, as a fraction of the gap; the phase at which the damper is
-    switched off. `releases` is a `ReleaseSet` for release by state, otherwise None. Each strobe and
-    switching is a row of the path (m, 5): forcing cycles from the first strobe, and the state.
+    A row of `draws` holds three numbers from 0 to 1: the time at which the damper is switched on,
+    as a fraction of the motion's period; the place of the loose mass, as a fraction of the gap; and
+    the time at which the damper is switched off, like the first. `releases` is the `ReleaseSet` for
+    release by state, otherwise None. The path (m, 5) has a row for each strobe and switching:
+    forcing cycles from the first strobe, and the state.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit
@@ -233,7 +234,7 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
 def course(case, path, log, tolerance):
     """Return times T and Z1 along a run, with MARGIN forcing cycles before and after the run.
 
-    Every part begins at a state of the path again, because errors grow along a chaotic motion.
+    Each part is computed from a state of the path, because errors grow along a chaotic motion.
     """
     period = 2 * np.pi / case.on[FREQUENCY]
     path = np.vstack([np.append(-MARGIN, case.state), path])
@@ -252,7 +253,7 @@ def course(case, path, log, tolerance):
 
 
 def switching_data(logs, case):
-    """Return a dict of dataset variables of the switchings, with dimensions (..., switching)."""
+    """Return a dict of dataset variables of switchings, each of the shape (..., switching)."""
     period = 2 * np.pi / case.on[FREQUENCY]
     kind = kinds(logs["released_period"], logs["released_displacement"], case.known)
     absent = logs["destination"] == FREE_MOTION["none"]

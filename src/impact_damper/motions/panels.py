@@ -1,8 +1,8 @@
 """Motions in panels: integrals, largest values and contact forces.
 
-Time is divided at the beginnings and ends of contacts. Each part is divided into panels. The states
-at the Chebyshev nodes of a panel represent the motion in it to about twelve digits (L. N.
-Trefethen, Spectral Methods in MATLAB, 2000, chapters 6 and 12).
+Time is divided at the beginnings and ends of contacts. Each part is divided into panels. In a panel
+a polynomial through the states at Chebyshev nodes represents the motion to about twelve digits
+(L. N. Trefethen, Spectral Methods in MATLAB, 2000, chapters 6 and 12).
 """
 
 from typing import NamedTuple
@@ -21,29 +21,31 @@ from impact_damper.model.packed import (
 )
 from impact_damper.motions.traces import states_at, trace
 
-# NODES of a panel, scaled to [-1, 1]. COEFFICIENTS: matrix that maps values at the nodes to
-# coefficients of Chebyshev polynomials. WEIGHTS of Clenshaw-Curtis quadrature.
+# A panel is scaled to [-1, 1]. NODES: Chebyshev nodes. COEFFICIENTS: matrix that maps values at the
+# nodes to coefficients of Chebyshev polynomials. WEIGHTS: weights of Clenshaw-Curtis quadrature.
 NODES = -np.cos(np.pi * np.arange(14) / 13)
 COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
 WEIGHTS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))] @ COEFFICIENTS
-# Search for the largest value: points of a panel, steps of Newton's method from the best point, and
-# matrix that maps coefficients of a polynomial to coefficients of its derivative.
+# Search for the largest modulus in a panel. POINTS: points that are tried. NEWTON: steps of
+# Newton's method from the best point. SLOPE: matrix that maps coefficients of a polynomial to
+# coefficients of its derivative.
 POINTS, NEWTON = np.linspace(-1, 1, 33), 5
 SLOPE = np.vstack([chebyshev.chebder(np.eye(len(NODES))), np.zeros(len(NODES))])
 # Largest length of a panel, in radians of the fastest oscillation.
 LONGEST_ANGLE = 2.0
 # Number of contacts whose panels are in memory at once.
 PIECE = 100_000
-# States in a forcing cycle from which the largest displacement is estimated.
+# Number of states in a forcing cycle from which the largest stiffness of the spring is estimated.
 SAMPLES = 32
 
 
 class Panels(NamedTuple):
     """A motion in n panels.
 
-    A row of `log` is a contact: wall, beginning, end, and the relative velocities at both times.
-    `lengths` (n,) and `times` (n, nodes) are in units of T. `states` (n, nodes, 4) are NaN after an
-    escape. `contact` (n,) is the contact's row in the log, -1 in flight; `wall` (n,) 0 in flight.
+    A row of `log` is a contact: wall, beginning, end, and Z2' at both times. `lengths` (n,) are the
+    durations of the panels. `times` and `states` belong to the nodes, shapes (n, nodes) and
+    (n, nodes, 4). After an escape `states` are NaN. `contact` (n,) is the row of a panel's contact
+    in `log`, and `wall` (n,) is the wall; in flight they are -1 and 0.
     """
 
     log: np.ndarray
@@ -64,8 +66,8 @@ def sampled(p, state, begin, end, tolerance) -> Panels:
 def contact_forces(p, state, span, course, tolerance):
     """Return the largest force in each contact of a motion, divided by the primary mass.
 
-    `course` is the result of `trace`. The motion is run again with the same steps, so that even a
-    chaotic motion has the same contacts.
+    `course` is the result of `trace` for the motion. The motion is run again with the same steps,
+    so even a chaotic motion has the same contacts again.
     """
     states, log = course
     forces = np.zeros(len(log))
@@ -78,9 +80,9 @@ def contact_forces(p, state, span, course, tolerance):
 
 
 def _divided(p, state, span, course, tolerance, flights):
-    """Return the panels of a motion in a span of time, with `flights` also panels in flight."""
+    """Return the panels of all contacts of a motion; with `flights` also those between contacts."""
     (begin, end), (states, log) = span, course
-    # Edges: `begin`, beginning and end of each contact, `end`. Intervals 1, 3, ... are contacts.
+    # The edges are `begin`, both ends of each contact, and `end`. Intervals 1, 3, ... are contacts.
     ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
     edges = np.concatenate([[begin], np.column_stack([log[:, 1], ends]).ravel(), [end]])
     walls = np.zeros(len(edges) - 1)
@@ -107,12 +109,12 @@ def _divided(p, state, span, course, tolerance, flights):
 
 
 def integrals(panels, values):
-    """Return the integral over each panel of a function with `values` at the nodes."""
+    """Return the integral of a function over each panel, from its `values` at the nodes."""
     return values @ WEIGHTS * panels.lengths / 2
 
 
 def peaks(values):
-    """Return the largest modulus in each panel of a function with `values` at the nodes."""
+    """Return the largest modulus of a function in each panel, from its `values` at the nodes."""
     series = values @ COEFFICIENTS.T
 
     def at(points, coefficients):
@@ -130,7 +132,7 @@ def peaks(values):
 
 
 def largest(values) -> float:
-    """Return the largest modulus of a function with `values` at the nodes; 0 without panels."""
+    """Return the largest modulus of a function in all panels; 0 if there are no panels."""
     return float(np.max(peaks(values), initial=0.0))
 
 
@@ -141,7 +143,7 @@ def base_displacement(p, times):
 
 
 def penetration(p, states, wall):
-    """Return penetration and penetration rate of states (..., 4) at a wall, 0 in flight."""
+    """Return the penetration of a wall and its rate, of states (..., 4); both are 0 in flight."""
     return np.where(wall, wall * states[..., 2] - p[CLEARANCE], 0.0), wall * states[..., 3]
 
 

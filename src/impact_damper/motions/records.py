@@ -20,17 +20,17 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
 from impact_damper.motions.traces import record_beginning
 
-# Largest ratio of two harmonics at which the smaller one is a rounding error without a phase.
+# A harmonic is a rounding error, and has no phase, if its ratio to another is at most this number.
 PHASELESS = 1e-9
-# Largest asymmetry of a motion that is symmetric.
+# Largest asymmetry of a symmetric motion.
 SYMMETRIC = 1e-6
-# Number of samples in a forcing cycle, from which harmonics are computed.
+# Number of samples in a forcing cycle from which harmonics are computed.
 SAMPLES = 64
 # Cosine and sine of the phases of the samples with the numbers 0 to SAMPLES - 1.
 COSINE, SINE = (f(STROBE + 2 * np.pi * np.arange(SAMPLES) / SAMPLES) for f in (np.cos, np.sin))
-# Pieces of a step, in each of which a polynomial is assumed to have at most one turning point.
+# Number of pieces of a step. In each piece at most one turning point of a polynomial is expected.
 PIECES = 8
-# Number of windows of an envelope in one call of the kernel. Ctrl-C waits for its end.
+# Number of windows of an envelope in one call of the kernel. Ctrl-C waits until the call ends.
 AT_ONCE = 1024
 # Argument `stop` of a run that no other thread stops.
 NEVER = np.zeros(1, bool)
@@ -47,7 +47,7 @@ NEVER = np.zeros(1, bool)
     QUASI_PERIODIC,
     DRIFTING,
 ) = range(9)
-# Fields of a record. `watch` fills the fields before `maximum_displacement`, `measure` the others.
+# Fields of a record. A run fills the fields before `maximum_displacement`, `measure` the others.
 # period       period of the orbit in forcing cycles, 0 without an orbit
 # periods_run  forcing cycles until the outcome was known
 # residual     largest difference between the state and the state a period later
@@ -68,8 +68,8 @@ MOTION = np.dtype(
 def extremum(c, order, length, start):
     """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
 
-    A polynomial exceeds its values at the ends by at most length^2/8 times its largest second
-    derivative. Unless this bound decides, Newton's method finds the turning point in each piece.
+    A polynomial exceeds its values at both ends by at most length^2/8 times its largest second
+    derivative. If it may exceed `start`, Newton's method finds the turning points.
     """
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)
@@ -94,7 +94,7 @@ def extremum(c, order, length, start):
 
 @kernel_only
 def turning_time(c, order, begin, end, first, last):
-    """Return the time of slope 0 between two times at which the slopes are `first` and `last`."""
+    """Return the time of slope 0 between `begin` and `end`, where the slopes are given."""
     t = begin + (end - begin) * first / (first - last)
     for _ in range(4):
         _, slope = polynomial(c, order, t)
@@ -109,12 +109,13 @@ def turning_time(c, order, begin, end, first, last):
 
 @kernel
 def survey(p, states, phases, times, tolerance, log, sums):
-    """Record contacts, the largest |Z1| and first harmonics of a motion in m segments.
+    """Run a motion in m segments; record contacts, the largest |Z1| and first harmonics.
 
-    The states at the ends of segments replace the `states` (m, 4) at the beginnings. `phases` and
-    `times` (m + 1,) are W T and T at the edges of segments. `log` (n, 5) receives the first n
-    contacts, in rows as in `traces.trace`. `sums` (2, 2) receives the mean of 2 exp(-i W T) Z for
-    Z1 and Z2, real and imaginary part. Return the number of contacts and the largest |Z1|.
+    `states` (m, 4) are the states at the beginnings of segments; the states at the ends replace
+    them. `phases` and `times` (m + 1,) are W T and T at the edges of segments. `log` (n, 5)
+    receives the first n contacts, in rows as in `traces.trace`. `sums[0]` receives the real and
+    the imaginary part of the mean of 2 exp(-i W T) Z1, and `sums[1]` the same of Z2. Return the
+    number of contacts and the largest |Z1|.
     """
     work, start = workspace(), np.empty(4)
     frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
@@ -159,7 +160,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 def add_samples(c, order, moments, sample, count, sums):
     """Add values of a polynomial, times cosine and sine of their phases, to the two `sums`.
 
-    Four values are computed side by side, and the first `count` are added.
+    Four values are computed side by side. Only the first `count` of them are added.
     """
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
@@ -215,9 +216,9 @@ def measure(parameters, tolerance, watched, out, stop):
     """Complete the records `out` by measurements that begin at their states at the strobe.
 
     A motion with a `period` is integrated over the period, others over `watched` forcing cycles.
-    The asymmetry is the distance between the mirrored first state and the state after half the
-    time, NaN for an even number of cycles. A harmonic is the amplitude c of Re(c exp(i W T)). If
-    another thread sets `stop[0]`, the remaining records are not completed.
+    If the number of cycles is odd, the asymmetry is the distance between the mirrored first state
+    and the state after half the time; otherwise it is NaN. A harmonic is the amplitude c of
+    Re(c exp(i W T)). If another thread sets `stop[0]`, the remaining records are not completed.
     """
     for i in range(len(out)):
         if stop[0]:
@@ -264,9 +265,10 @@ def tabulate(records):
 def envelope(parameters, lengths, y, tolerance):
     """Run a motion through n windows of time, with packed parameters (n, COUNT) and `lengths` (n,).
 
-    Return the largest |Z1| and the number of contacts begun in each window; in the window of an
-    escape |Z1| is infinite and the number NaN, later both NaN. The last state replaces y. Windows
-    begin at the strobe, where no force acts, so W can change. With forcing a window is one cycle.
+    Return two arrays (n,): the largest |Z1| in each window, and the number of contacts begun. In
+    the window of an escape |Z1| is infinite and the number is NaN; later both are NaN. The last
+    state replaces y. Each window begins at the strobe. There the forcing is 0, so W can change from
+    window to window. With forcing each window must be one cycle long.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)
@@ -315,7 +317,7 @@ def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
 
 @kernel
 def follow_peaks(parameters, states, periods, tolerance, largest, stop):
-    """Run motions in place from a strobe; raise `largest` to max |Z1|, infinity after an escape."""
+    """Run motions in place from a strobe; raise `largest` to max |Z1|, infinite after an escape."""
     work = workspace()
     for i in range(len(states)):
         p, y = parameters[i], states[i]

@@ -1,7 +1,7 @@
 """All motions at each frequency, and lives of chaotic transients.
 
-The life of a chaotic transient is its length. Lives are distributed exponentially, so the number of
-transients that end, divided by the sum of all lives, estimates the rate of ending.
+The life of a chaotic transient is its duration. Lives are distributed exponentially. So the number
+of transients that end, divided by the sum of all lives, estimates the rate at which they end.
 """
 
 from dataclasses import replace
@@ -27,9 +27,9 @@ from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.sweep import sweep
 from impact_damper.motions.watch import NEAR
 
-# Runs that measure lives. APART: largest difference of first Z1 and Z1' from the chaotic motion.
-# CAPTURE: distance from an orbit at which a transient ends. CHECKED: number of further forcing
-# cycles of a lasting run, which show whether the run is still chaotic.
+# Runs that measure lives. APART: largest difference of Z1 (Z1') between the first state of a run
+# and the chaotic motion. CAPTURE: distance from an orbit at which a transient ends. CHECKED: number
+# of forcing cycles for which a run that has not ended is continued, to see if it is still chaotic.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 
@@ -64,8 +64,9 @@ def frequency_response(
     starts : int
         Random starts (initial states) at each frequency.
     radius : float, optional
-        Radius of a ball around rest with uniform random starts, the loose mass in its gap. Without
-        a radius, starts are scaled by the motions without the damper, or lie on these motions.
+        Random starts are uniform in a ball with this radius around rest, and the loose mass is in
+        its gap. Without a radius, random starts are scaled by the motions without the damper, and
+        further starts are placed, for example on these motions.
     whole_gap : bool
         Used with a radius. If False, all four components of a start lie in the ball, as in the
         paper. If True, only Z1 and Z1' lie in the ball; the loose mass is at relative rest anywhere
@@ -74,9 +75,9 @@ def frequency_response(
         Seed of the random starts.
     settling : Settling, optional
     life_runs : int
-        Runs of each chaotic motion that measure how long it lasts; 0 for none.
+        Number of runs for each chaotic motion that measure how long it lasts; 0 for none.
     life_periods : int
-        Largest length of these runs in forcing cycles.
+        Largest length of each of these runs in forcing cycles.
     workers : int
         Number of threads. The result does not depend on this number.
     progress : str, optional
@@ -85,9 +86,10 @@ def frequency_response(
     Returns
     -------
     xarray.Dataset
-        - For each (frequency, motion): what `steady_motion` returns, with outcome `absent` in rows
-          with fewer motions; the branch; `motion_starts`, the number of random starts that lead to
-          the motion; the 95 % interval of their share; the mean life of a chaotic motion.
+        - For each (frequency, motion): what `steady_motion` returns; the branch; `motion_starts`,
+          the number of random starts that lead to the motion; the 95 % interval of their share; the
+          mean life of a chaotic motion. At a frequency with fewer motions than at others, the
+          remaining entries have the outcome `absent`.
         - For each (frequency, start): outcome and length of the run. For each `end`: the end of a
           branch. For each `frequency`: the largest start and the largest motion without the damper.
         - `missed_share`: upper bound (95 %) of the share of starts that lead to motions not found.
@@ -128,9 +130,10 @@ def frequency_response(
 
 
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
-    """Return variables (n, m) of the lives of the chaotic motions of a sweep.
+    """Return a dict of dataset variables (n, m): the lives of the chaotic motions in a sweep.
 
-    `runs` runs of at most `periods` forcing cycles begin near each of the `states` (n, m, 4).
+    Near the state of each chaotic motion begin as many runs as `runs` says, each of at most
+    `periods` forcing cycles. `states` has the shape (n, m, 4).
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}
@@ -154,7 +157,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 def _lives(parameters, states, periods, settling, **running):
     """Return the life of each run in forcing cycles, or `periods` + 1 if the run does not end.
 
-    A life ends near an orbit: the time from there until the run has settled is subtracted.
+    A life ends at the distance CAPTURE from an orbit. The time from then on is subtracted.
     """
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 
@@ -175,7 +178,7 @@ def _lives(parameters, states, periods, settling, **running):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]
         approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
     lives = np.maximum(lives - approach, 1)
-    # A lasting run that settles or ends when continued has the life `periods`.
+    # A run may settle or escape only when it is continued. Then its life is `periods`.
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives

@@ -17,10 +17,10 @@ CONTACT = "contact_wall contact_begin contact_end approach_velocity departure_ve
 
 
 def random_states(count, radius, damper, seed, *, within_gap=True):
-    """Return random states (count, 4), uniform in a ball of a radius around the origin.
+    """Return random states (count, 4), uniform in a ball with a given radius around the origin.
 
     Without a damper the ball is a disk of (Z1, Z1'). With `within_gap`, a state with |Z2| above the
-    clearance is drawn again, because the contact spring would store a large energy.
+    clearance is drawn again, because its contact spring would store a large energy.
     """
     if damper is not None and within_gap:
         most = bounds.MOST_RADIUS * damper.clearance
@@ -63,14 +63,14 @@ def simulate(
     frequency : float
         Forcing frequency W, or Hz for a machine.
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
-        Z1, Z1', Z2, Z2' at the time `start`; or a state of a dataset, which has its phase.
+        Z1, Z1', Z2, Z2' at the time `start`; or a state of a dataset, which includes a phase.
     periods : float
         Length of the motion in forcing cycles.
     samples : int
         Samples in a forcing cycle.
     start : float, optional
-        Time T of the first state, in s for a machine; the forcing is cos(W T). The default is the
-        time of the phase of the state, or 0 if the state has no phase.
+        Time T of the first state, in s for a machine. The forcing is proportional to cos(W T). The
+        default is the time at the phase of the state, or 0 if the state has no phase.
     tolerance : float
         Largest local error of a step of the integrator, dimensionless.
 

@@ -1,11 +1,12 @@
 """Start states of a search for motions: random states, and states on known motions.
 
-With a radius all starts are random. They are uniform in a ball, as in the paper (section 3, iii),
-or the primary mass lies in a disk and the loose mass anywhere in its gap. Without a radius, sizes
-of random starts are distributed on a logarithmic scale, at most SPREAD times the largest free
-motion. Further starts are placed on free motions and at rest, with several states of the loose
-mass; on solutions of harmonic balance; at the ends of slow ramps of a parameter. Ramps find violent
-motions of weakly damped machines, whose small basins are rarely hit by random starts.
+A start is an initial state. Free motions are motions without the damper. If a radius is given, all
+starts are random: uniform in a ball, as in the paper (section 3, iii), or with the primary mass in
+a disk and the loose mass anywhere in its gap. Without a radius, the sizes of random starts are
+uniform on a logarithmic scale, up to SPREAD times the largest free motion. Then further starts are
+placed on free motions and at rest, with several states of the loose mass; on solutions of harmonic
+balance; and on motions after slow changes (ramps) of a parameter. Ramps lead to violent motions of
+weakly damped machines. Random starts rarely lead to these motions.
 """
 
 import math
@@ -25,31 +26,34 @@ from impact_damper.motions.simulate import random_states
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 from impact_damper.theory.single_harmonic import impacting_solutions
 
-# Search for free motions. PHASES: number of starts on a solution of harmonic balance. SAMPLES: in a
-# forcing cycle. MOST_STATES: largest number of states stored of one motion.
+# Search for free motions. PHASES: number of starts on a solution of harmonic balance. SAMPLES:
+# samples in a forcing cycle. MOST_STATES: largest number of states that are stored of one motion.
 PHASES, SAMPLES, MOST_STATES = 6, 256, 5
-# SPREAD: largest random start over largest free motion. SMALLEST: smallest over largest start.
+# Random starts. SPREAD: size of the largest, divided by the size of the largest free motion.
+# SMALLEST: size of the smallest, divided by the size of the largest.
 SPREAD, SMALLEST = 3.0, 0.01
-# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by the larger of free
-# motions' speed and the crossing speed (`_crossing_speed`); at rest by the crossing speed.
+# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by the crossing speed
+# (`_crossing_speed`) or, on free motions, by their largest speed if this is larger.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
-# States of the loose mass for `sweep.stable_orbits`: number; largest |Z1' - Z2'|, divided by
-# the speed of the free motions or by the crossing speed, whichever is larger.
+# States of the loose mass for `sweep.stable_orbits`. LOOSE_STATES: number. LOOSE_SPEED: largest
+# |Z1' - Z2'|, divided by the crossing speed or by the free motions' largest speed if it is larger.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# Largest |Z1| and |Z1'| of random starts with a softening spring, divided by `barrier`'s values.
+# With a softening spring: largest |Z1|, |Z1'| of random starts, divided by those of `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps. STEP: relative change of a parameter in a step. PERIODS: cycles in a step. BELOW: first
-# frequency over lowest fold, or highest fold over first frequency. RAISED: first over last force.
+# frequency of a ramp upward, divided by the lowest fold; or the highest fold, divided by the first
+# frequency of a ramp downward. RAISED: first force divided by the last.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
 class Search(NamedTuple):
     """Start states at T = 0 of a search in n systems, and sizes of the starts and free motions.
 
-    `random` has the shape (n, m, 4). `placed` and `loose`, an argument of `sweep.stable_orbits`,
-    hold an array for each system, empty if a radius is given. `displacement` and `speed` (n,) bound
-    the random starts; `free_displacement` and `free_speed` are largest values of free motions.
+    `random` has the shape (n, m, 4). `placed` and `loose` hold an array for each system; it is
+    empty if a radius is given. `loose` is an argument of `sweep.stable_orbits`. `displacement` and
+    `speed` (n,) bound |Z1| and |Z1'| of random starts. `free_displacement` and `free_speed` (n,)
+    are the largest |Z1| and |Z1'| of the free motions.
     """
 
     random: np.ndarray
@@ -71,7 +75,7 @@ class Search(NamedTuple):
 
 
 def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_gap=False) -> Search:
-    """Return the starts of a search in systems (damper or None, W), `count` random ones in each.
+    """Return the starts of a search; `count` are random in each of `systems` (damper or None, W).
 
     With `whole_gap` starts near rest are wanted, so a small radius causes no warning.
     """
@@ -95,18 +99,18 @@ def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_g
 
 
 def describe_search(starts, radius, seed, whole_gap=False) -> dict:
-    """Return the parameters of a search for a dataset, without unused ones."""
+    """Return the parameters of a search that are stored in a dataset, without unused ones."""
     parameters = {"starts": starts, "seed": seed} | ({"whole_gap": True} if whole_gap else {})
     return parameters if radius is None else parameters | {"radius": radius}
 
 
 def missed_share(starts) -> float:
-    """Return the upper bound (95 %, rule of three) of the share of starts to missed motions."""
+    """Return the bound (95 %, rule of three) on the share of starts that lead to missed motions."""
     return min(1.0, 3.0 / starts) if starts else 1.0
 
 
 def free_sizes(oscillator, frequencies) -> dict:
-    """Return largest free displacement and speed, by harmonic balance, keyed by frequency."""
+    """Return the largest free |Z1| and |Z1'|, by harmonic balance, as a dict keyed by frequency."""
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
     return {w: (size, size * w) for w, size in sizes.items()}
 
@@ -129,7 +133,7 @@ def warn_if_narrow(oscillator, frequencies, radius) -> None:
 
 
 def gap_states(count, radius, damper, seed):
-    """Return random states (count, 4): Z1, Z1' in a disk; with a damper Z2 in the gap, Z2' = 0."""
+    """Return random states (count, 4): Z1, Z1' in a disk; with a damper, Z2 in the gap, Z2' = 0."""
     states = radius * random_states(count, 1.0, None, seed)
     if damper is not None:
         generator = np.random.default_rng(np.append(seed, count))
@@ -139,7 +143,7 @@ def gap_states(count, radius, damper, seed):
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return the fields of a `Search` without a radius for one system, as a tuple."""
+    """Return the fields of a `Search` without a radius, for one system, as a tuple."""
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
@@ -203,9 +207,10 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
 
 
 def ramped(oscillator, damper, frequency, tolerance) -> list:
-    """Return the states at T = 0 after slow ramps of a parameter, except for escaped motions.
+    """Return the states at T = 0 of motions after slow ramps of a parameter, without escapes.
 
-    Ramps of the frequency W begin outside the folds of the free response, an octave or more from W.
+    A ramp of the frequency begins beyond all folds of the free response, and at least an octave
+    from the last frequency.
     """
     folds = [fold.frequency for fold in free_folds(oscillator)] or [frequency]
     lowest = max(BELOW * min(frequency / 2, *folds), FREQUENCY_RANGE["least"])
@@ -217,7 +222,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """Start at rest, ramp parameters from `factor` x `target` to `target`; return the end state."""
+    """From rest, ramp parameters from `factor` x `target` to `target`; return the last state."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent
@@ -247,7 +252,7 @@ class FreeMotions(NamedTuple):
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
     """Find the free motions at one frequency W, by runs from rest and from harmonic balance.
 
-    Starts with the amplitude of the resonance peak find motions near a fold that balance misses.
+    Harmonic balance can miss motions near a fold. Starts with the peak's amplitude find them.
     """
     p = pack(oscillator, None, frequency)
     angles = 2 * np.pi * np.arange(PHASES) / PHASES

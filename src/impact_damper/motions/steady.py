@@ -1,6 +1,6 @@
-"""The steady motion that a state leads to; motions that run until they settle, on several threads.
+"""The steady motion that a state leads to; many motions on several threads until they settle.
 
-This module imports no kernels for several trajectories side by side, which take long to compile.
+This module imports no kernels that run motions side by side, because they take long to compile.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -21,9 +21,9 @@ from impact_damper.motions.strobe_map import STROBE, one_period, strobe_time
 from impact_damper.motions.undecided import name_undecided
 from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
-# Number of motions in one call of a kernel. Ctrl-C waits for its end.
+# Number of motions in a chunk. Ctrl-C waits until a call of a kernel ends.
 CHUNK = 128
-# MOST_CHUNKS: largest number of chunks settled in one call. SLICES: least number of calls a thread.
+# MOST_CHUNKS: largest number of chunks settled in one call. SLICES: fewest calls for each thread.
 MOST_CHUNKS, SLICES = 8, 3
 
 
@@ -81,7 +81,7 @@ def steady_motion(
 def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None):
     """Return one period of the steady motion that a state leads to, as a dataset of `simulate`.
 
-    The period begins at W T = pi/2. Raises ArithmeticError if the state leads to no periodic orbit.
+    The period begins at W T = pi/2. Raise ArithmeticError if the state leads to no periodic orbit.
     """
     settling = check_settling(settling)
     steady = steady_motion(system, damper, frequency, state, settling=settling)
@@ -118,7 +118,7 @@ def settle_with(
 ):
     """Return the `records.MOTION` of motions from states (m, 4) at the times `begins` (m,).
 
-    `settle` is `settle_each` or `ensemble.settle_many`; other arguments as of `ensemble.settle`.
+    `settle` is `settle_each` or `settle_many`. The others are arguments of `ensemble.settle`.
     """
     bounds.check_count("workers", workers, most=4096)
     states = np.ascontiguousarray(states, float)
@@ -129,7 +129,7 @@ def settle_with(
     def work(part):
         rows, out = parameters[part], records[part]
         settle(rows, states[part], begins[part], *settings, out, stop)
-        # Results may depend on these slices, which are the same for each number of workers.
+        # Results may depend on these slices. They are the same for each number of workers.
         for first in range(0, max(len(out), 1), CHUNK):
             some = slice(first, first + CHUNK)
             name_undecided(rows[some], out[some], settling.limit, settling.further, stop)
@@ -137,7 +137,8 @@ def settle_with(
 
     # This call compiles the kernels in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
-    # Lanes idle near the end of a slice. Several workers need some slices each to end together.
+    # Near the end of a slice some lanes (places for motions in a kernel) are empty, so slices are
+    # large. But several workers end at about the same time only if each gets several slices.
     share = len(states) // CHUNK if workers == 1 else len(states) // (SLICES * workers * CHUNK)
     size = CHUNK * min(max(share, 1), MOST_CHUNKS)
     run_chunks(work, len(states), workers, progress, stop, size=size)
@@ -146,7 +147,7 @@ def settle_with(
 
 @kernel
 def settle_each(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Run motions one after the other as `ensemble.settle_many` does side by side."""
+    """Run motions one after the other; otherwise the same as `ensemble.settle_many`."""
     work, ring = workspace(), np.empty((RING, 4))
     seen, tangent = np.empty(1, SEEN), np.empty((1, 4))
     for i in range(len(out)):

@@ -16,11 +16,12 @@ from impact_damper.model.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MAS
 
 # Phase W T of the strobe.
 STROBE = math.pi / 2
-# Newton's method: largest number of corrections, largest last correction, smallest determinant.
+# Newton's method. ITERATIONS: largest number of corrections. CONVERGED: largest last correction.
+# REGULAR: smallest determinant.
 ITERATIONS, CONVERGED, REGULAR = 10, 1e-9, 1e-12
 # Largest local error of a step in the integration of orbits.
 POLISH_TOLERANCE = 1e-12
-# Largest difference of two states at which `repeats_sooner` takes them as the same.
+# Two states are the same in `repeats_sooner` if they differ by less than this number.
 SAME_STATE = 1e-4
 
 
@@ -59,7 +60,7 @@ def distance(a, b, weight):
 def flow(p, state, tangents, begin, periods, half, tolerance):
     """Integrate over `periods` forcing cycles from `begin`, and half a cycle more if `half`.
 
-    State (4,) and tangents (n, 4) are changed in place, because numba loses a Ctrl-C in kernels
+    Change the state (4,) and the tangents (n, 4) in place, because numba loses a Ctrl-C in kernels
     that return arrays. Return the number of contacts begun and the time in contact.
     """
     period = 2.0 * math.pi / p[FREQUENCY]
@@ -77,7 +78,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state `periods` cycles after y, the matrix d(state)/dy, and contacts begun."""
+    """Return the state `periods` cycles after y, d(state)/dy, and the number of contacts begun."""
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents, matrix = y.copy(), np.empty((4, 4)), np.empty((4, 4))
     for i in range(16):
@@ -90,10 +91,7 @@ def period_map(p, y, periods, tolerance):
 
 @kernel
 def solve(matrix, right):
-    """Solve a small linear system in place by elimination with pivoting; return the determinant.
-
-    `numpy.linalg.solve` would take longer to compile than the rest of this module.
-    """
+    """Solve a small linear system in place by elimination with pivoting; return the determinant."""
     size = len(right)
     determinant = 1.0
     for k in range(size):
@@ -130,7 +128,7 @@ def largest_modulus(values):
 
 @kernel
 def dominant(values):
-    """Return the value with the largest modulus, conjugated if its imaginary part is negative."""
+    """Return the number with the largest modulus, conjugated if its imaginary part is negative."""
     best = values[0]
     for value in values:
         if abs(value) > abs(best):
@@ -142,8 +140,8 @@ def dominant(values):
 def polish(p, y, periods, reach, tolerance):
     """Move a state y onto the periodic orbit near it, by Newton's method on the map over `periods`.
 
-    Without contacts only Z1 and Z1' are unknown. Return whether the method has converged to an
-    orbit within `reach` of y in Z1, Z1' and Z2, the residual, and the dominant multiplier.
+    Without contacts only Z1 and Z1' are unknown. A change of Z1, Z1' or Z2 by `reach` or more is a
+    failure. Return whether the method has converged, the residual, and the dominant multiplier.
     """
     orbit = y.copy()
     for _ in range(ITERATIONS):

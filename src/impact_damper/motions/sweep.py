@@ -1,8 +1,9 @@
 """Find the motions along a sweep of one parameter, by runs from start states and by following.
 
-At each value Newton's method also finds stable orbits to which hardly any random start leads.
-Settled motions are followed to the next values, upward and downward. Motions that have not settled
-are matched between neighbouring values by outcome, period and size.
+At each value of the parameter Newton's method also finds stable orbits to which hardly any random
+start leads. Settled motions are followed to the next values, upward and downward. Other motions at
+neighbouring values belong to one branch if their outcomes and periods are equal and their sizes
+similar.
 """
 
 import math
@@ -21,13 +22,15 @@ from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
-# Limits for records of one motion. SAME: relative difference of max |Z1|, asymmetry of a symmetric
-# motion. ROUNDING: difference of max |Z1| near rest. SIMILAR: ratio of sizes of unsettled motions.
+# Limits for two records of one motion. SAME: relative difference of max |Z1|; also the asymmetry of
+# a symmetric motion. ROUNDING: difference of max |Z1| near rest. SIMILAR: ratio of the sizes of
+# motions that have not settled.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
-# Outcomes with infinite or no displacement. Records that share one of them are one motion.
+# Outcomes with infinite or no displacement. Two records with the same of these are one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
-# Newton's method for further orbits. LONGEST: period in cycles. REACH: distance from the start over
-# the largest known motion or the clearance. SAME_ORBIT: largest difference of equal orbits.
+# Newton's method for further orbits. LONGEST: longest period in cycles. REACH: largest distance
+# from the start, divided by the largest |Z1| or |Z1'| of known motions or, if larger, by the
+# clearance. SAME_ORBIT: largest difference of equal orbits.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch. CRITICAL: smallest modulus of the multiplier at a bifurcation.
 # COMPLEX: smallest imaginary part of a complex multiplier. CLOSE: largest difference of max |Z1|
@@ -38,8 +41,9 @@ CRITICAL, COMPLEX, CLOSE = 0.98, 1e-3, 0.05
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
     """Find all motions along a sweep of one parameter; return a dict of registered variables.
 
-    The rows of packed `parameters` differ in the column `index`, which is named `dimension`.
-    Motions have dimensions (dimension, motion), runs (dimension, start), ends of branches (end).
+    The rows of packed `parameters` differ in the column `index`; `dimension` is the name of this
+    parameter. Variables of motions have the dimensions (dimension, motion), those of runs
+    (dimension, start), and those of the ends of branches (end).
     """
     size, starts = search.random.shape[:2]
     rows, states = np.repeat(parameters, starts, axis=0), search.random.reshape(-1, 4)
@@ -60,7 +64,7 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
             catalogue.add(record, "placed_start")
     add_orbits(catalogues, search.loose, settling, workers)
     links, passes = [], []
-    # The second sweep upward also follows the motions that the sweep downward has found.
+    # Motions are followed upward, downward, and upward again from those found on the way down.
     for order in (catalogues, catalogues[::-1], catalogues):
         passes.append([])
         for source, target in pairwise(order):
@@ -88,7 +92,7 @@ def reached(data):
 def _follow(source, target, index, settling, links, ends):
     """Follow all motions of catalogue `source` to the next value, and add the results to `target`.
 
-    `links` receives number pairs of motions on one branch, `ends` a dict for each end of a branch.
+    `links` receives pairs of numbers: two motions on one branch. `ends` receives a dict per end.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
@@ -122,9 +126,9 @@ def _follow(source, target, index, settling, links, ends):
 
 
 def _end_event(record, multiplier, beyond):
-    """Return the name of the event that ends a branch of the motion `record`.
+    """Return the name of the event at which the branch with the motion `record` ends.
 
-    `multiplier` belongs to the branch's last orbit. `beyond` is the motion at the next value.
+    `multiplier` belongs to the last orbit on the branch. `beyond` is the motion at the next value.
     """
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
@@ -140,7 +144,7 @@ def _end_event(record, multiplier, beyond):
 
 
 def _branches(catalogues, links):
-    """Return the branch number of each motion. Links and matches join motions to branches."""
+    """Return the branch number of each motion. Linked or matched motions are on one branch."""
     links = links + [
         (first.numbers[i], second.numbers[j])
         for first, second in pairwise(catalogues)
@@ -186,8 +190,8 @@ def _tables(catalogues, branches, dimension, starts):
 class Catalogue:
     """Distinct motions at one value of the swept parameter, with packed parameters p.
 
-    A motion has a record, a number from the iterator `numbering`, the flag of its `origin`, and the
-    number of random starts that lead to the motion.
+    Each motion has a record, a number from the iterator `numbering`, the flag of its `origin`, and
+    the number of random starts that lead to the motion.
     """
 
     def __init__(self, p, numbering):
@@ -210,7 +214,7 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Add the record of a new motion, or replace a smaller record; return the index."""
+        """Add a motion, or replace a known motion's record by a larger one; return the index."""
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -249,7 +253,7 @@ def match_unsettled(first, second) -> list:
 def size_ratio(one, other):
     """Return the ratio, at least 1, of max |Z1| of two motions of the same period.
 
-    Without a period max |Z1| may be small by chance; the ratio of `reach` holds if it is smaller.
+    Without a period max |Z1| may be small by chance. Then a smaller ratio of `reach` is returned.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0
@@ -262,7 +266,7 @@ def size_ratio(one, other):
 
 
 def add_orbits(catalogues, loose, settling, workers) -> None:
-    """Add the orbits that `stable_orbits` finds from states `loose` to each of the catalogues."""
+    """Add to each catalogue the orbits that `stable_orbits` finds from its array in `loose`."""
     found, stop = [np.empty((0, 4))] * len(catalogues), np.zeros(1, bool)
 
     def work(part):
@@ -284,8 +288,8 @@ def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
     """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
 
     On most of these orbits the primary mass moves nearly as in a known motion. So Newton's method
-    starts with Z2 and Z1' - Z2' from each row of `loose` (n, 2), and with Z1 and Z1' at the strobe
-    of the known `motions` (m, 2) in turn.
+    starts with Z2 and Z1' - Z2' from a row of `loose` (n, 2), and with Z1 and Z1' from a row of
+    `motions` (m, 2), the known motions at the strobe. These rows are taken in turn.
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

@@ -1,7 +1,4 @@
-"""Traces of motions: states at given times, and a log of the contacts.
-
-This module imports no kernels with tangents. So `simulate` does not compile such kernels.
-"""
+"""Traces of motions: states at given times, and a log of the contacts."""
 
 import numpy as np
 
@@ -9,15 +6,15 @@ from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import LENGTH, assign, side_of, state_in_step, step, workspace
 
-# STEPS_AT_ONCE: steps in a call of the kernel, which takes a fraction of a second. ROWS: rows of
-# the log at first. The allocation of a larger log would take longer than a short motion.
+# STEPS_AT_ONCE: steps in one call of the kernel. ROWS: first number of rows of the log. To allocate
+# a larger log would take longer than a short motion.
 STEPS_AT_ONCE, ROWS = 50_000, 64
 
 
 def trace(p, state, begin, times, tolerance):
     """Return the states at increasing times, shape (n, 4), and the contacts, shape (k, 5).
 
-    After an escape the states are NaN. A contact is a row: wall, beginning, end, Z2' at both times.
+    After an escape the states are NaN. A row of contacts: wall, beginning, end, Z2' at both times.
     """
     y, t, times = np.array(state, float), float(begin), np.ascontiguousarray(times, float)
     states, log = np.empty((len(times), 4)), np.empty((ROWS, 5))
@@ -71,7 +68,7 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
 
 @kernel_only
 def record_beginning(log, contacts, side, t, speed):
-    """Begin a row of the contact log, if it has room; return the number of contacts begun."""
+    """Begin a row of the contact log if a row is left; return the number of contacts begun."""
     if contacts < len(log):
         log[contacts, 0], log[contacts, 1], log[contacts, 2] = side, t, np.nan
         log[contacts, 3], log[contacts, 4] = speed, np.nan

@@ -1,9 +1,10 @@
 """Run undecided motions longer, until their outcome is certain.
 
-The states of a quasi-periodic motion at the strobes lie on a closed curve. The rotation number is
-their mean advance along the curve. The weights of the mean over N states vanish at both ends with
-all derivatives. Such a mean converges faster than any power of 1/N (S. Das, Y. Saiki, E. Sander and
-J. A. Yorke, Nonlinearity 30, 4111-4140, 2017); for a chaotic motion it converges as N^(-1/2).
+The states of a quasi-periodic motion at the strobes lie on a closed curve, or on several. The
+rotation number is the mean advance along a curve. It is a weighted mean over N states; the weights
+vanish with all derivatives at the first and last state. Such a mean converges faster than any power
+of 1/N (S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017). For a
+chaotic motion it converges only as N^(-1/2).
 """
 
 import math
@@ -19,26 +20,27 @@ from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
-# FIRST: most forcing cycles of the first block. BATCHES: parts of a block, for the standard error.
+# FIRST: largest number of forcing cycles in the first block. BATCHES: parts of a block, from which
+# the standard error is computed.
 FIRST, BATCHES = 1500, 30
-# Smallest growth of the tangent of a chaotic motion in a block, as a natural logarithm. While a
-# motion leaves an unstable orbit from a rounding error, the tangent grows by ln(1e16) = 37.
+# Smallest growth of a chaotic motion's tangent in a block, as a natural logarithm. A motion that
+# leaves an unstable orbit because of a rounding error makes the tangent grow by ln(1e16) = 37.
 GROWN = 40.0
 # Largest modulus, in standard errors, of a Lyapunov exponent that is taken as 0.
 NEUTRAL = 3.0
-# LONGEST: period of an orbit in forcing cycles. REACH: distance of an orbit from the last state.
+# LONGEST: longest period of an orbit in forcing cycles. REACH: its distance from the last state.
 LONGEST, REACH = 256, 1e-2
-# Largest distance of a motion from the closed curves on which it lies.
+# A motion is on known closed curves if its states are nearer to points of the curves than this.
 NEIGHBOUR = 1e-3
 # Fields that are copied from a known quasi-periodic motion to a motion on the same closed curves.
 TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
 # AGREEMENT: largest error of a rotation number. FEWEST: smallest number of points.
 AGREEMENT, FEWEST = 1e-8, 100
-# Smallest empty interval on the circle of the angle's advances modulo 1, in revolutions.
+# The advances of an angle modulo 1 are points on a circle. Smallest empty interval between them.
 INTERVAL = 0.02
-# TURN: largest change of the angle between neighbouring points, sorted by phase, in revolutions.
-# WANDERING: largest sum of the moduli of all these changes.
+# Points are sorted by phase. TURN: largest change of the angle from point to point, in revolutions.
+# WANDERING: largest sum of the moduli of these changes.
 TURN, WANDERING = 0.05, 3.0
 
 
@@ -46,8 +48,8 @@ TURN, WANDERING = 0.05, 3.0
 def run_block(p, y, tangent, states, growth, stop):
     """Run a motion and its tangent (1, 4) in place over the forcing cycles of a block.
 
-    `states` (n, 4) and `growth` (n,) receive the state and the logarithm of the growth of the
-    tangent after each cycle. Return the number of contacts, and whether the motion escaped.
+    After each cycle `states` (n, 4) receives the state, and `growth` (n,) the logarithm of the
+    tangent's growth. Return the number of contacts, and whether the motion has escaped.
     """
     work = workspace()
     side = side_of(p, y)
@@ -88,7 +90,7 @@ class _Curves(NamedTuple):
 
 
 def _name_one(p, record, limit, further, known, stop):
-    """Continue the motion of a record, an array of length 1; return its last states."""
+    """Continue a motion and complete its record, an array of length 1; return the last states."""
     y, tangent = record["state"][0].copy(), np.full((1, 4), 0.5)
     period, count = 2 * math.pi / p[FREQUENCY], min(limit, FIRST)
     states = np.empty((LONGEST_PERIOD, 4))
@@ -124,7 +126,7 @@ def _name_one(p, record, limit, further, known, stop):
 
 
 def _is_known(record, known, states):
-    """Return whether states lie on known curves; if they do, complete the record."""
+    """Return whether the states lie on known closed curves; if so, complete the record."""
     for curves in known:
         apart = np.abs(states[:, None, :3] - curves.states[None, :, :3]).max(axis=2)
         if np.max(np.min(apart, axis=1)) < NEIGHBOUR:
@@ -142,13 +144,13 @@ def _exponent(growth):
 
 
 def _grows(growth, mean, error):
-    """Return whether a tangent certainly grows in a block, and also in the block's last quarter."""
+    """Return whether a tangent certainly grows in a block, and still grows in its last quarter."""
     lasting = np.mean(growth[-len(growth) // 4 :]) > mean / 2
     return lasting and mean > CONFIDENCE * error and np.sum(growth) > GROWN
 
 
 def _on_orbit(p, record, states, contacts, limit):
-    """Move a motion onto a stable orbit near it; return its outcome, else UNRESOLVED."""
+    """Move a motion onto a stable orbit near it; return the outcome, or UNRESOLVED."""
     last, components = states[-1], 2 if contacts == 0 else 3
     before = states[-2 : -2 - LONGEST : -1]
     near = np.max(np.abs(before - last)[:, :components], axis=1) < NEAR
@@ -172,8 +174,8 @@ def _on_orbit(p, record, states, contacts, limit):
 def _quasi_periodic(p, record, states, mean, error):
     """Return QUASI_PERIODIC if the states move along closed curves, otherwise UNRESOLVED.
 
-    `find_rotation` fails on a curve that has corners, where contacts begin or end, or that does not
-    enclose its centre. So all curves are tried, in the planes (Z1, Z1') and (Z2, Z2').
+    `find_rotation` fails on curves with corners, which are due to contacts, and on curves that do
+    not go around their mean point. So all curves are tried, in the planes (Z1, Z1') and (Z2, Z2').
     """
     if abs(mean) > NEUTRAL * error:
         return records.UNRESOLVED
@@ -200,18 +202,18 @@ def birkhoff_average(values):
 
 
 def find_rotation(points):
-    """Return the rotation number of complex points on a closed curve and its error, or None.
+    """Return the rotation number of complex points on a closed curve, and the number's error.
 
     The number (revolutions, 0 to 1/2) is the mean advance of the angle around the mean point. The
     curve is first stretched to the same spread in all directions, because on a slender curve the
-    angle advances mainly at the ends. The error is the largest difference between the numbers from
-    three parts of the points. The result is None if the points do not lie on a closed curve.
+    angle advances mainly at both tips. The error is the largest difference between the numbers from
+    three parts of the points. Return None if no closed curve is recognised.
     """
     if len(points) < FEWEST:
         return None
     angle = np.angle(_rounded(points)) / (2 * math.pi)
     advance = np.diff(angle) % 1
-    # The advances are points on a circle, which is cut in the widest interval between points.
+    # The advances are points on a circle. It is cut in the widest interval between two points.
     order = np.sort(advance)
     intervals = np.diff(order, append=order[0] + 1)
     widest = np.argmax(intervals)

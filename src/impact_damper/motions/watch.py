@@ -1,9 +1,9 @@
 """Judge once in each forcing cycle whether a motion has settled to an orbit or is chaotic.
 
 Near an orbit of period n the distances between states n cycles apart decrease geometrically. Once
-the sum of all further distances is small, Newton's method looks for a stable orbit close by. So a
-slow passage near a fold is not mistaken for an orbit. At a distance above NEAR, and at most 0.01,
-the motion must also follow the linearised map of the orbit (`is_linear`).
+the sum of all further distances is small, Newton's method looks for a stable orbit close by. A slow
+passage near a fold is then not mistaken for an orbit. If the sum is between NEAR and 0.01, the
+motion must also follow the linearised map of the orbit (`is_linear`).
 """
 
 import math
@@ -24,25 +24,27 @@ from impact_damper.motions.strobe_map import (
     speed_weight,
 )
 
-# Longest period of an orbit in forcing cycles. RING: length of the buffer of last strobe states.
+# LONGEST_PERIOD: of an orbit, in forcing cycles. RING: number of last strobe states that are kept.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# CONFIDENCE: least Lyapunov exponent of chaos in standard errors. WEAK: largest of weak chaos, 1/T.
+# CONFIDENCE: smallest Lyapunov exponent of chaos, in standard errors. WEAK: largest exponent of
+# weak chaos, in 1/T.
 CONFIDENCE, WEAK = 4.0, 0.05
-# BLOCK: forcing cycles of a batch, in which the logarithms of the growth of a tangent are summed.
-# RECENT: number of last batches in which the tangent of a chaotic motion must still grow.
+# A batch is a number of forcing cycles over which the logarithm of a tangent's growth is summed.
+# BLOCK: this number. RECENT: number of last batches in which a chaotic tangent must still grow.
 BLOCK, RECENT = 10, 5
 # Largest and smallest distance from an orbit at which Newton's method is tried.
 NEAR, NEAREST = 1e-4, 1e-9
-# Early trials of Newton's method. EARLY: distances at the two trials. RETURNS: number of returns
-# that must approach each other. NONLINEAR: largest nonlinear part. APPROACH: most further returns.
+# Early trials of Newton's method. EARLY: distances at the two trials. RETURNS: number of distances
+# between returns that must decrease. NONLINEAR, APPROACH: largest nonlinear part, and largest
+# number of further returns, in `is_linear`.
 EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 # Largest energy of an unforced motion at rest, divided by the first energy.
 REST = 1e-9
 # Data of one motion while it runs. untouched: number of last forcing cycles without contact. near,
-# early: distances at which Newton's method is tried next. periods: cycles with a tangent. batch:
-# growth of the tangent in this batch. mean, squares, recent: mean, sum of squared deviations and
-# last values of the growth in full batches.
+# early: distances at which Newton's method is tried next. periods: number of cycles with a tangent.
+# batch: growth of the tangent in the current batch. Growth in complete batches: mean; squares, the
+# sum of squared deviations; recent, the growth in the last batches.
 SEEN = np.dtype(
     [(name, "i8") for name in ("index", "strobes", "untouched", "periods")]
     + [(name, "f8") for name in ("near", "early", "energy", "batch", "mean", "squares")]
@@ -64,16 +66,13 @@ def normalise(tangent):
 
 @kernel_only
 def follow_tangent(tangent, growth):
-    """Normalise a tangent after a forcing cycle, and add the logarithm of its growth to the batch.
-
-    Welford's recurrence updates the mean and the sum of squares over complete batches.
-    """
+    """Normalise a tangent after a forcing cycle; add the logarithm of its growth to the batch."""
     growth.batch += normalise(tangent)
     growth.periods += 1
     if growth.periods % BLOCK == 0:
         count = growth.periods // BLOCK
         change = growth.batch - growth.mean
-        growth.mean += change / count
+        growth.mean += change / count  # Welford's recurrence for the mean and the squares
         growth.squares += change * (growth.batch - growth.mean)
         growth.recent[count % RECENT] = growth.batch
         growth.batch = 0.0
@@ -81,7 +80,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return mean growth in a batch, its error, and whether recent batches exceed half the mean."""
+    """Return mean growth in a batch, its error, and whether recent growth exceeds half the mean."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -92,7 +91,7 @@ def exponent(growth):
 
 @kernel_only
 def nearby_period(ring, k, weight, floor, tolerance):
-    """Return the period of an orbit whose distance from the motion is at most `tolerance`, or 0.
+    """Return the period of the orbit at most `tolerance` away from the motion; 0 without an orbit.
 
     `ring[k % RING]` is the last of k + 1 strobe states. `floor` is the error of the integration.
     """
@@ -117,8 +116,9 @@ def move_onto_orbit(p, y, periods, near, out):
     """Move a state y onto the stable orbit near it; return whether there is such an orbit.
 
     A motion that spirals towards an orbit may seem to repeat after a multiple of the period only.
-    So the divisors of `periods` are tried first. Newton's method can fail near a grazing contact. A
-    motion within NEAREST of an orbit is then taken as the orbit; residual and multiplier are NaN.
+    So the divisors of `periods` are tried first. Newton's method can fail near a grazing contact.
+    If the distance `near` is then NEAREST, the motion is taken as the orbit, and residual and
+    multiplier are NaN.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):
@@ -153,10 +153,10 @@ def approaches(ring, k, n, weight):
 def is_linear(p, y, ring, k, n, weight):
     """Return whether the last two returns of a motion to the orbit of y, of period n, are linear.
 
-    In a period the distance e from the orbit becomes M e + r. If |r| is at most c |e|^2, and c
-    times the sum of all further distances is small, the motion tends to the orbit. This is a test,
-    because c is measured in two returns, which lie further from the orbit than all later ones. None
-    of 7 000 motions left its orbit in a longer run: errors are below 0.05 % (95 % confidence).
+    In a period the distance e from the orbit becomes M e + r, with the matrix M. If |r| is at most
+    c |e|^2, and c times the sum of all further distances is small, the motion tends to the orbit.
+    The number c is measured in two returns only, which lie further from the orbit than all later
+    ones. In longer runs none of 7 000 motions left its orbit: fewer than 0.05 % do (95 % sure).
     """
     _, matrix, contacts = period_map(p, y, n, POLISH_TOLERANCE)
     # A loose mass that drifts slowly may still reach a wall.
@@ -185,7 +185,7 @@ def is_linear(p, y, ring, k, n, weight):
 
 @kernel_only
 def push_forward(matrix, apart, ahead):
-    """Multiply a distance from an orbit by the matrix of a period."""
+    """Set `ahead` to the matrix of a period times the distance `apart` from an orbit."""
     for i in range(4):
         ahead[i] = 0.0
         for j in range(4):
@@ -194,7 +194,7 @@ def push_forward(matrix, apart, ahead):
 
 @inlined
 def leave_transient(p, out):
-    """Replace the Lyapunov exponent of a transient by the orbit's, from the orbit's multiplier."""
+    """Replace the Lyapunov exponent of a transient by that of the orbit, from its multiplier."""
     duration = out.period * 2.0 * math.pi / p[FREQUENCY]
     out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
     out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan
@@ -202,7 +202,7 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Move the primary mass onto a stable orbit without contacts; return whether one is near."""
+    """Move the primary mass onto a stable orbit without contacts, if one is near; return if so."""
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
         if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:
@@ -229,7 +229,7 @@ def begin_watch(seen, index, out):
 
 @kernel_only
 def watch_free(p, y, seen, out):
-    """Judge an unforced motion as `watch` does; replace a state near rest by exact rest."""
+    """Judge a motion without forcing as `watch` does; replace a state near rest by exact rest."""
     left = energy(p, y)
     if seen.strobes == 0:
         seen.energy = left
@@ -250,12 +250,13 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
 
     - when it has settled, diverged or escaped, or after `limit` cycles;
     - as at_rest if there is no forcing and hardly any energy is left (REST);
-    - as non_colliding if it has settled without contacts; or if the primary mass is on an orbit,
-      and the loose mass has touched no wall for `patience` cycles and would drift by less than 1 %
-      of the clearance in `limit` cycles. A faster drift is named drifting after `limit` cycles;
+    - as non_colliding if it has settled without contacts. The outcome is the same if the primary
+      mass is on an orbit, and the loose mass has touched no wall for `patience` cycles and would
+      drift by less than 1 % of the clearance in `limit` cycles. After `limit` cycles a motion with
+      a faster drift is called drifting;
     - as chaotic after `patience` cycles if the largest Lyapunov exponent exceeds CONFIDENCE
-      standard errors and the tangent still grows, unlike after a transient. An exponent below WEAK
-      is judged just before `limit` only, because a slow spiral can look like weak chaos.
+      standard errors and the tangent still grows. After a transient it no longer grows. A slow
+      spiral can look like weak chaos, so an exponent below WEAK is judged just before `limit`.
 
     The tangent and `reach` are updated from cycle `patience`/2 on.
     """
