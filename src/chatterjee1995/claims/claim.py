@@ -23,7 +23,7 @@ def part(share, digits=2) -> str:
 
 
 def rounding(distance) -> str:
-    """Return in words whether a number is rightly rounded. `misrounding` computes `distance`."""
+    """Return in words whether a number is rounded rightly; `distance` is from `misrounding`."""
     return "a right rounding" if distance <= 1 else "not a rounding"
 
 

@@ -44,8 +44,8 @@ def release_phase(datasets):
 def _scanned(datasets, case):
     """Return a dict: W -> whether the phase of release selects the motion.
 
-    It selects if releases from one quiet motion lead to the non-resonance motion and also to the
-    subharmonic. Only scans with the oscillator and the damper of `case` count.
+    The phase selects it if releases from one quiet motion lead to the non-resonance motion and also
+    to the subharmonic. Only scans with the oscillator and the damper of `case` count.
     """
     wanted = oscillator_of(case), damper_of(case)
     found = {}

@@ -17,7 +17,7 @@ SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansi
 
 
 def misrounding(printed, computed):
-    """Return |printed - computed| in half units of the last printed digit; at most 1 is right."""
+    """Return |printed - computed|, divided by half a unit of the last printed digit."""
     decimals = len(f"{printed:g}".partition(".")[2])
     return abs(printed - computed) * 2 * 10**decimals
 

@@ -36,7 +36,7 @@ def excess(datasets):
 
 
 def _sweeps(datasets, *keys, **fixed):
-    """Return a dict: values of `keys` -> the sweeps (two or more) with these and with `fixed`."""
+    """Return a dict: values of `keys` -> two or more sweeps with these values and with `fixed`."""
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
         if all(reading.parameter(sweep, key) == value for key, value in fixed.items()):
@@ -83,7 +83,7 @@ def restitution(datasets):
 
 
 def _restitution_steps(group):
-    """Return ratios for each step to lower e. `overall` compares the lowest e with the highest."""
+    """Return ratios for each step to a lower e. `overall` compares the lowest and the highest e."""
     group = sorted(group, key=lambda sweep: -reading.parameter(sweep, "restitution"))
     return [
         {

@@ -7,11 +7,11 @@ from chatterjee1995.reading import orbits
 
 # Curves. LIGHT: small loose masses. HEAVY: a large loose mass. LOW_DAMPING: low damping h.
 LIGHT, HEAVY, LOW_DAMPING = reading.BY_MASS[:2], reading.BY_MASS[2], "figure_08"
-AS_LARGE = 0.95  # least ratio of damped to free size at which a subharmonic is called unchanged
+AS_LARGE = 0.95  # an unchanged subharmonic has at least this share of the free max |Z1|
 
 
 def _remaining(datasets, name):
-    """Return widths in W with stable subharmonics, and the largest ratios of max |Z1| to free."""
+    """Return widths in W with stable subharmonics, and their largest max |Z1| relative to free."""
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
     edges = reading.band_edges(reading.get(datasets, "harmonic_balance", name))
@@ -54,7 +54,7 @@ def by_damping(datasets):
 
 
 def _reduction(datasets, name):
-    """Return how much a damper reduces the subharmonic, over the range of W of the free one.
+    """Return how much a damper reduces the subharmonic, where the free one exists.
 
     `fall` is the mean reduction of max |Z1|; starts that lead to another motion count as 0.
     `relative` is `fall` divided by the mean max |Z1| without damper. `unchanged` is the share of

@@ -38,7 +38,7 @@ DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 @style.context()
 def draw_accuracy(*, accuracy):
-    """Draw a panel for each dataset of the stage accuracy, a colour and marker for each method."""
+    """Draw a panel for each dataset of the stage accuracy, with a marker for each method."""
     drawn, panels = style.grid(len(accuracy), 2.4, 1.5)
     for axes, data in zip(panels, accuracy, strict=True):
         _panel(axes, data)

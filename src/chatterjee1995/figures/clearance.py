@@ -12,7 +12,6 @@ from impact_damper.plot.sweeps import OPTIMUM
 from impact_damper.plot.sweeps import sweep as sweep_plot
 
 UNSTABLE = style.markers("optimum with an unstable motion", style.BLACK, "x", markersize=5.5)
-# Parameter that a dataset can sweep -> scale of the axis.
 SWEPT = {"restitution": "linear", "contact_stiffness": "log", "frequency": "linear"}
 TITLES = {
     "displacement": "optimum of the largest displacement",
@@ -80,7 +79,7 @@ def _draw_sweep(axes, data, name):
 
 
 def _draw_errors(axes, datasets):
-    """Draw for each rule, against an error, the share of optima predicted within this error."""
+    """Draw for each rule the share of optima predicted within an error, against this error."""
     for rule, look in RULES.items():
         errors = np.concatenate(
             [

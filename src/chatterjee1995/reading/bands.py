@@ -10,7 +10,7 @@ from chatterjee1995.reading import orbits
 
 
 class Band(NamedTuple):
-    """A suppression band in W. It begins between `lower` and `lower + resolution`."""
+    """A suppression band in W. Its lower end lies between `lower` and `lower + resolution`."""
 
     lower: float
     upper: float

@@ -34,9 +34,10 @@ def pieces(branches) -> pd.DataFrame:
     """Return a row for each piece of the branches; a piece joins two successive orbits.
 
     `lower` and `upper` are the ends in W. `size` is the mean max |Z1| of both orbits. `amplitude`
-    is the mean first harmonic of Z1, complex, with the phase of Z2 as zero. In `loose` the phase of
-    Z1 - Z2 is zero. `*_change` is the second orbit minus the first. `fewest` and `contacts` are the
-    least and largest number of contacts. `restitution` is the least departure / approach speed.
+    is the mean complex first harmonic of Z1, with its phase relative to Z2. `loose` is the same,
+    with the phase relative to Z1 - Z2. `*_change` is the second orbit minus the first. `fewest` and
+    `contacts` are the least and largest number of contacts. `restitution` is the least ratio of
+    departure to approach speed.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])

@@ -8,7 +8,7 @@ from impact_damper.command.section import choice, count, missing, number, proble
 from impact_damper.model.bounds import FREQUENCY_RANGE, HARMONIC_RANGE
 from impact_damper.model.text import plain
 
-MAPPED = ("damping", "mass_ratio", "clearance", "restitution")  # one changes from row to row
+MAPPED = ("damping", "mass_ratio", "clearance", "restitution")  # one of these changes along a map
 
 
 class HarmonicConvergence(system.MaybeWithDamper):

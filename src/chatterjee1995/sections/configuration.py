@@ -113,7 +113,7 @@ class Controller(Section):
 
 
 class Captions(Section):
-    """The caption of each table, and for each kind of figure a text in all its captions."""
+    """The caption of each table, and for each kind of figure a text that its captions share."""
 
     figures: entries(TEXT)
     tables: entries(TEXT)

@@ -1,4 +1,4 @@
-"""Frequency responses: curves over frequency, and single motions."""
+"""Sections on responses: curves over frequency, single motions, and starts that collide."""
 
 from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage

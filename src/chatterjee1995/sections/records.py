@@ -17,7 +17,7 @@ class Stage(NamedTuple):
     message: str  # printed for each job
     reads: dict = {}  # argument of `function` -> stages whose datasets of the entry it gets
     files: dict = {}  # argument of `function` -> JSON file whose content it gets
-    together: bool = False  # whether one job computes all entries, since jobs start slowly
+    together: bool = False  # whether one job computes all entries (jobs start slowly)
     # 2: other jobs wait for these jobs. 1: the longest jobs, which should not start last.
     priority: int = 0
     paper: bool = True  # whether `snakemake` without a target computes the stage

@@ -141,7 +141,7 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
                 yield missing((*path, key), reason)
 
     def has_damper(self) -> bool:
-        """Return whether any parameter of the damper in `whole` is given."""
+        """Return whether the entry gives any parameter in `whole`."""
         return bool(given(self, self.whole))
 
     def system(self, config) -> dict:

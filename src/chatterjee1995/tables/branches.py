@@ -8,7 +8,7 @@ from chatterjee1995.tables.files import DAMPER, parameter_columns
 from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true
 
-# End at which the computation leaves a branch although the orbits go on -> text of the table.
+# Reason to stop on a branch although its orbits go on -> text of the table.
 LEFT = {
     "unstable": "left among unstable orbits, since it winds through chaos there",
     "point limit": "left after the largest number of orbits, since it winds through chaos",

@@ -11,7 +11,7 @@ ADVICE = {"build": "build it", "do_not_build": "do not build it"}
 
 
 def machines(datasets) -> pd.DataFrame:
-    """Return for each machine the gap, and displacements: no damper, damper, absorber."""
+    """Return for each machine the gap, and displacements without and with damper or absorber."""
     return pd.DataFrame([_row(name, data) for name, data in datasets.get("machines", {}).items()])
 
 

@@ -58,7 +58,7 @@ def _outcomes(stage, name, counts):
 
 
 def quasi_periodic(datasets) -> pd.DataFrame:
-    """Return the quasi-periodic motions with both frequencies and the number of random starts."""
+    """Return each quasi-periodic motion, its frequencies, and how many random starts lead to it."""
     rows = []
     for name, data in reading.damped(datasets, "response").items():
         for motion in _motions(data, reading.is_outcome(data, "quasi_periodic")):
