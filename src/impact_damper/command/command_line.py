@@ -294,7 +294,7 @@ def answer(decide, made, machine_file, file, force, as_json):
 
 
 def damper(given, machine, gap):
-    """Return the damper with a gap and, as in a design, contact stiffness; None without a gap."""
+    """Return the damper that a file describes, with a given gap, or None if `gap` is None."""
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.task import Task
 

@@ -47,7 +47,7 @@ class AllowedQuantity(Allowed):
 
 
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
-    """Return the type of a quantity within bounds. Units of quantities in `absolute` also count."""
+    """Return the type of a quantity within bounds. Units of `absolute` quantities are allowed."""
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 
 
@@ -116,7 +116,7 @@ Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 
 def deviation_of(what, *absolute):
-    """Return an optional field for a deviation: a fraction, or text in a unit of `absolute`."""
+    """Return an optional field: a deviation as a fraction, or in units of `absolute` quantities."""
     meaning = f"largest deviation of {what}, as a fraction of it"
     return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 

@@ -74,7 +74,7 @@ def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
 
 
 def number_or_word(word, meaning, **bounds):
-    """Return the type of a finite number within bounds, or of one word."""
+    """Return the type of a finite number within bounds, or of the word `word`."""
     of_number = number(meaning, **bounds, also="text")
     words = f"{of_number.__metadata__[-1].words}, of the form {word}"
     return Annotated[of_number | Literal[word], Allowed(words, meaning)]
@@ -167,7 +167,7 @@ NAME = text("a name becomes part of a file name", pattern="[A-Za-z0-9][A-Za-z0-9
 
 # The loader of the C library libyaml, if it is installed, is several times as fast.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-# Numbers with an exponent. If the point or the exponent's sign is missing, YAML 1.1 reads text.
+# Numbers with an exponent. If a point or a sign of the exponent is missing, YAML 1.1 reads text.
 SCIENTIFIC = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 
 
@@ -181,7 +181,7 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     def contradictions(self, path, config):
-        """Yield a line for each contradiction; `path` is the section's place in `config`."""
+        """Yield a line for each contradiction. `path` is the place of the section in `config`."""
         yield from ()
 
     @model_validator(mode="wrap")

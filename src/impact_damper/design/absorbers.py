@@ -1,9 +1,9 @@
 """Tuned absorbers: their tuning to a machine, and the machine's response in closed form.
 
 A machine of mass m1 has the dynamic stiffness K = k + i c w - m1 w^2 at the angular frequency w.
-The mass m of an absorber is connected by the stiffness L = ka + i ca w. The acceleration of m is q
-times that of the machine, with q = L/(L - m w^2). A force F moves the machine by F/|K - m w^2 q|. A
-moving base also accelerates the absorber; the force of inertia F is multiplied by |1 + q m/m1|.
+An absorber is a mass m on a spring and a dashpot with the complex stiffness L = ka + i ca w. The
+acceleration of m is q = L/(L - m w^2) times that of the machine. A force F moves the machine by
+F/|K - m w^2 q|. A moving base also accelerates the absorber, which multiplies F by |1 + q m/m1|.
 """
 
 import math
@@ -18,8 +18,8 @@ from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 
-# POINTS: number of frequencies around the resonance, and number of frequencies over the band.
-# REACH: largest distance of the former from the resonance, in widths of the resonance.
+# POINTS frequencies surround the resonance, up to REACH times its width away. Over a given band
+# there are POINTS further frequencies.
 POINTS, REACH = 1001, 8.0
 # TUNINGS, DAMPINGS: bounds of the logarithms of the absorber's frequency ratio and damping ratio.
 TUNINGS, DAMPINGS, TOLERANCE, SEED = (-1.5, 1.0), (-7.0, 0.7), 1e-7, 1995
@@ -36,7 +36,7 @@ def absorber_responses(
 
     The tuned absorber has the mass `mass` (kg). It is tuned over the range `band` (Hz).
     `force_shares` multiply the excitation. `detunings` are relative changes of the absorbers'
-    stiffness. For a machine without linear stiffness the status of tuning is not_possible.
+    stiffness. A machine without linear stiffness has no tuned absorber.
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)
@@ -72,10 +72,7 @@ def absorber_responses(
 
 @cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the absorber that minimises the largest displacement of the linear machine.
-
-    The cubic spring is ignored. `mass` is in kg, `band` in Hz; by default the band is wide.
-    """
+    """Return the absorber that minimises the largest displacement over `band`, in linear theory."""
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
 
@@ -98,7 +95,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
 
 
 def _frequencies(machine, ratio, band):
-    """Return the frequencies (Hz) that are compared; if a band is given, all lie in the band."""
+    """Return the frequencies (Hz) of the search: in the band or, without one, at the resonance."""
     damping_ratio = machine.viscous_damping / (
         2 * math.sqrt(machine.linear_stiffness * machine.mass)
     )
@@ -115,8 +112,8 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     """Return largest amplitudes (m) at frequencies (Hz), shape (frequencies, force shares).
 
     Amplitudes of a linear machine are exact. With a cubic spring they follow from harmonic balance.
-    Solutions between two folds and above the barrier of a softening spring are left out. Without
-    another solution the amplitude is infinite. Other instabilities are not found.
+    Solutions between two folds are left out, and also those above the barrier of a softening
+    spring. If none is left, the amplitude is infinite. Other instabilities are not found.
     """
     oscillator = machine.oscillator()
     pairs = zip(*_dynamics(machine, absorber, np.asarray(frequencies)), strict=True)
@@ -128,7 +125,7 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
 
 
 def _dynamics(machine, absorber, frequencies):
-    """Return two dimensionless arrays over frequencies (Hz): linear stiffness, and force."""
+    """Return two dimensionless arrays over frequencies (Hz): linear dynamic stiffness, force."""
     scales, oscillator = machine.scales, machine.oscillator()
     w = scales.from_si(frequencies, "frequency")
     force = oscillator.force + oscillator.unbalance * w**2

@@ -28,7 +28,7 @@ WATCHED = 100
 
 
 def force_map(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of promised displacements over frequency and force. No value deviates."""
+    """Return a dataset of promised displacements over frequency and force, else nominal values."""
     critical = float(decision["promised_frequency"])
     frequencies, shares = task.few(FREQUENCIES, critical), np.array(SHARES)
     sets = np.tile(NOMINAL, (len(shares), 1))

@@ -2,8 +2,8 @@
 
 A cell is a gap, a forcing frequency and a set of factors. A factor multiplies a value that may
 deviate. A start is a random initial state. A record is the largest displacement of a motion so far.
-A regime is a set of motions of one cell that have not settled and have similar records. How its
-displacement is extrapolated stands in docs/explanation/promise.md.
+A regime is a set of motions of one cell that have not settled and have similar records.
+docs/explanation/promise.md says how the displacement of a regime is extrapolated.
 """
 
 from dataclasses import dataclass, fields
@@ -18,7 +18,7 @@ from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETT
 from impact_damper.motions.start_states import random_starts
 from impact_damper.motions.steady import run_chunks
 
-# Outcomes of motions whose displacement is known: LASTING after the first run, KEPT after others.
+# Outcomes with a known largest displacement: LASTING of the first run, KEPT of further runs.
 LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)
 KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 # Purposes for which starts are drawn. The index of a purpose is part of the seed. A choice and its
@@ -37,8 +37,8 @@ BLOCK, TAIL, HORIZON = 50, 50, 100_000
 POOLED, MOST_POOLED = 25_000, 200_000
 # Relative growth of a record that is assumed for each doubling of the cycles up to POOLED.
 MISSING = 0.03
-# A regime is a torus if its largest displacements in the QUARTERS parts of its run differ by at
-# most the fraction STEADY. A settled motion may exceed its orbit by the fraction SLACK.
+# A regime is a torus if its largest displacements in QUARTERS parts of the run differ by at most
+# the fraction STEADY. SLACK: largest fraction by which a settled motion exceeds its orbit.
 QUARTERS, STEADY, SLACK = 4, 0.002, 0.001
 # Number of cycles in which a motion may still settle before it is run further.
 CHECKED = 100
@@ -107,7 +107,7 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime) -> tuple:
-        """Return a regime's displacement, whether it is known, and whether later peaks agree."""
+        """Return a regime's displacement, whether it is known, and whether late peaks fit it."""
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
         pooled = BLOCK * np.isfinite(peaks).sum()
@@ -141,7 +141,7 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether later peaks of a regime of cell k disagree after MOST_POOLED cycles."""
+        """Return whether a regime of cell k exceeds its extrapolation after MOST_POOLED cycles."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 
@@ -162,7 +162,7 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Run a regime of cell k for as many cycles again, the first time at least POOLED/2 cycles.
+        """Run a regime of cell k for as many cycles as before; at first at least POOLED/2 cycles.
 
         Records of the first run are dropped, because they may include transients.
         """

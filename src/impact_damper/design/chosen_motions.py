@@ -16,7 +16,7 @@ from impact_damper.motions import traces
 from impact_damper.motions.response import frequency_response
 from impact_damper.motions.strobe_map import strobe_time
 
-# SAMPLES: states in a forcing cycle of which the largest displacement is taken.
+# SAMPLES: number of states in a forcing cycle from which the largest displacement is found.
 # WATCHED: number of cycles over which a motion that has not settled is measured.
 SAMPLES, WATCHED = 64, 200
 # STARTS: largest number of random starts at each frequency of the response.
@@ -42,7 +42,7 @@ def response_and_costs(task, decision, progress=None) -> xr.Dataset:
     searched |= {"workers": effort.workers, "progress": progress}
     damper = task.damper(1e-3 * float(decision["design_gap"]))
     motions = frequency_response(task.machine, damper, task.grid, **searched)
-    # Exactly the coordinate of the other steps, so that the datasets can be merged.
+    # The coordinate must be exactly that of the other steps, whose datasets are merged.
     motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
     return motions.merge(reached_motions(task, decision, motions))
 

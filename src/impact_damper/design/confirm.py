@@ -169,10 +169,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return a dataset of the largest displacements with absorbers: tuned, detuned, the task's own.
-
-    If an absorber does not exist, the displacement is NaN.
-    """
+    """Return a dataset of largest displacements with a tuned, a detuned and the task's absorber."""
     band = task.absorber_band
     found = absorber_responses(
         task.machine, task.mass, task.grid, [1.0], band=band, own=task.absorber
@@ -190,7 +187,7 @@ def rivals(task) -> xr.Dataset:
 
 
 def _end(beyond, size):
-    """Return what ends the range of gaps that keep the promise, by name (flag `keeping_end`).
+    """Return the name of the flag `keeping_end`: what ends the range that keeps the promise.
 
     `beyond` is the displacement (mm) just outside the range, NaN if the search ended there.
     """

@@ -18,9 +18,9 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 def measured_costs(p, y, begin, periods) -> dict:
     """Return the dimensionless costs of a motion over a number of forcing cycles.
 
-    `impact_rate` and `impact_speed` count only contacts that begin in these cycles. Forces and
-    powers are divided by the primary mass. They are NaN if the motion escapes, like rates and
-    accelerations. The absolute displacement is NaN without a moving base.
+    `impact_rate` and `impact_speed` are of contacts that begin in these cycles. Forces and powers
+    are divided by the primary mass. Rates, forces, accelerations and powers are NaN if the motion
+    escapes. Accelerations are absolute. The absolute displacement is NaN without a moving base.
     """
     time = periods * 2 * np.pi / p[FREQUENCY]
     panels = sampled(p, y, begin, begin + time, POLISH_TOLERANCE)

@@ -59,9 +59,8 @@ def design_damper(
         bodies depends on the speed of impact. This speed is taken as that of a loose mass which
         crosses the gap of the paper's rule (18) in half a cycle at mid-band.
     mount : dict, optional
-        Arguments of `impact_damper.model.machine.mounting`, which are `inclination` of the gap
-        (such as "90 deg"), `friction_coefficient` and `normal_force`, or `gravity` along the gap
-        and `friction`. By default the gap is horizontal and without friction.
+        Arguments of `impact_damper.model.machine.mounting`, such as {"inclination": "90 deg"} or
+        {"friction_coefficient": 0.1}. By default the gap is horizontal and without friction.
     tolerances : dict, optional
         Largest deviations of gap, restitution, contact_stiffness, gravity, friction, stiffness,
         damping and force. A deviation is relative, such as {"gap": "10 %"}, or absolute with a
@@ -84,7 +83,7 @@ def design_damper(
     -------
     xarray.Dataset
         The attribute `units` of a variable is its unit, such as mm, Hz or N. `design_gap` is the
-        gap. `promised_displacement` is the bound. `decision` is a flag that `decode` translates.
+        gap. `promised_displacement` is the bound. `decision` is a number that `decode` translates.
         `plot.conclusion` gives the result in sentences, and `plot.design` draws the result.
 
     Raises

@@ -11,17 +11,17 @@ from impact_damper.design.task import VARIED
 
 # Largest number of corners, which are sets of factors with each value at an end of its tolerance.
 CORNERS = 8
-# In each of at most SPLITS rounds, frequencies are added beside the peaks that are at least NEAR
-# times the largest one. An infinite peak is known. Any other peak is known if the last frequencies
-# raised it by at most the fraction PEAK, and if a parabola through an inner peak and its neighbours
-# is higher by at most the fraction PEAK.
+# The peak of a set of factors is its largest bound over the frequency. In at most SPLITS rounds,
+# frequencies are added beside the peaks that are at least NEAR times the largest one, until they
+# are known. An infinite peak is known. Any other peak is known if the last frequencies raised it by
+# at most the fraction PEAK, and inside the band a parabola through it by at most PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-# Other sets than the nominal one are run first at half of the grid's frequencies, at least FEWEST.
+# Sets that deviate are run first at half of the grid's frequencies, or at FEWEST if that is more.
 FEWEST = 9
 # The usual displacement of a cell is the one that twice the allowed share of its starts exceeds. A
 # cell has rare motions if its bound exceeds RARE times the largest usual displacement. Such cells
-# are run again with MORE times as many starts, in groups of SOME, the largest bounds first. The
-# last group is the first in which a new bound exceeds KEPT times the least old bound of the group.
+# are run again with MORE times as many starts, in groups of SOME, the largest bounds first. Runs
+# stop after a group in which a new bound exceeds KEPT times the least old bound of the group.
 RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
@@ -32,13 +32,13 @@ class Promise:
     ----------
     sets : array, shape (s, len(VARIED))
     cells : list of tuple
-        A cell is the index of a set and a frequency (Hz). The order is that of `motions`.
+        A cell is a tuple: index of the set, frequency (Hz). The order is that of `motions`.
     bounds : array, shape (cells,)
         Bound (mm) of each cell: at least the fraction `task.share` of all starts stays below it.
     peak_known : bool
         Whether the peak over the frequency is known within PEAK.
     grows : bool
-        Whether motions at a largest bound exceeded their extrapolation to the end of their run.
+        Whether motions at the largest bound exceeded their extrapolation until their run ended.
 
     docs/explanation/promise.md shows why the number of cells needs no correction.
     """
@@ -75,7 +75,7 @@ class Promise:
     def _repeat_rare(self) -> None:
         """Run cells with rare motions again, with more starts.
 
-        The probability that the first or the second bound of a cell is wrong is at most DOUBT.
+        The probability that at least one of the two bounds of a cell is wrong is at most DOUBT.
         """
         allowed = int(2 * (1 - self.task.share) * self.count) + 1
         usual, bounds = (self.motions.bounds(rank)[0] for rank in (allowed, self.rank))

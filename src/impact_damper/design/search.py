@@ -1,7 +1,7 @@
 """The search for the gap: a curve of displacements over the gap, refined where it is small.
 
-The first curve follows from few starts at few frequencies. Later, near the best gaps, other values
-also deviate. The value of a nominal gap is the largest displacement within the gap's tolerance.
+The first curve follows from few starts at few frequencies. Later runs near the best gaps also vary
+other values. The value of a nominal gap is the largest displacement within the gap's tolerance.
 """
 
 from typing import NamedTuple
@@ -13,10 +13,10 @@ from impact_damper.design.cells import STREAMS, Cell, run
 from impact_damper.design.promise import MORE, RARE, other_sets
 from impact_damper.design.task import NOMINAL, Task
 
-# The first search has at most GAPS gaps, frequencies `Task.few(FREQUENCIES)`, and STARTS starts.
+# The first search runs STARTS starts at each of at most GAPS gaps and `Task.few(FREQUENCIES)`.
 GAPS, FREQUENCIES, STARTS = 40, 9, 12
-# Near the best gaps, at most ROUNDS rounds have frequencies `Task.few(CLOSE_FREQUENCIES)` and
-# worst ones, and CLOSE_STARTS starts.
+# Near the best gaps at most ROUNDS rounds follow, each with CLOSE_STARTS starts at
+# `Task.few(CLOSE_FREQUENCIES)` and at the worst frequencies so far.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
 # Two neighbouring displacements whose ratio exceeds JUMP form a jump. An interval between two gaps
 # is split if the logarithm of their ratio exceeds SMOOTH or, at a jump, FINE.
@@ -26,7 +26,7 @@ JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
 # most ALIKE times the least value of all gaps are equally good. The widest of these is chosen.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
-# A chosen gap is rounded to DIGITS significant digits or, if needed, to more below MOST_DIGITS.
+# Least number of significant digits of a chosen gap, and number at which the gap is not rounded.
 DIGITS, MOST_DIGITS = 3, 9
 # Displacement in place of infinity, mm.
 HUGE = 1e9
@@ -65,9 +65,9 @@ class Curve:
                 self.close = np.insert(self.close, k, close)
 
     def within(self, lows, highs) -> np.ndarray:
-        """Return the largest displacement from each gap in `lows` to the gap beside it in `highs`.
+        """Return for each pair of gaps, from `lows` and `highs`, the largest displacement between.
 
-        At these two gaps the curve is interpolated. Inside a jump it is as high as its higher side.
+        At the two gaps the curve is interpolated. Inside a jump the larger of both sides counts.
         """
         logs, values = np.log(self.gaps), np.log(self.sizes)
         found = np.full(len(lows), -np.inf)
@@ -84,7 +84,7 @@ class Curve:
         return np.exp(np.maximum(found, np.where(inside, values, -np.inf).max(axis=1)))
 
     def nominal(self) -> tuple:
-        """Return two arrays: many nominal gaps, and the value of each (see the module)."""
+        """Return two arrays: many nominal gaps, and their values (see the top of this module)."""
         share, width = self.task.gap_tolerance
         first, last = (self.gaps[0] + width) / (1 - share), (self.gaps[-1] - width) / (1 + share)
         gaps = np.geomspace(first, max(last, first), NOMINAL_GAPS)
@@ -179,8 +179,8 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
     """Return three sequences over gaps (mm): displacement (mm), its frequency, its set of factors.
 
     The displacement is the largest over frequencies and sets. In each cell the largest motions are
-    left out, about the fraction (1 - share)/2 of all. Few starts hardly distinguish rare motions
-    from others. If rare motions decide on a gap, their cell is run again with more starts.
+    left out, about the fraction (1 - share)/2. Few starts hardly distinguish rare motions from
+    others. If rare motions decide on a gap, their cell is run again with more starts.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]

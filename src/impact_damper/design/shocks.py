@@ -13,7 +13,7 @@ from impact_damper.design.task import labelled
 from impact_damper.model.packed import FREQUENCY
 
 # SHOCKS: number of impulses of each sign. The largest impulse changes the velocity of the machine
-# by WIDEST W x. W is the forcing frequency, and x the largest displacement without damper or, if
+# by WIDEST W x, with the forcing frequency W. x is the largest displacement without damper or, if
 # this is infinite, the promised displacement.
 SHOCKS, WIDEST = 32, 2.0
 # A motion is run for LONGEST cycles. Its largest displacement is taken in blocks of BLOCK cycles.

@@ -38,8 +38,8 @@ NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 # Labels of the two ends of a range.
 SIDES = ["lower", "upper"]
-# MOST_DEVIATION: largest relative deviation that is allowed. ABSOLUTE: values whose deviation may
-# have a unit, with the physical quantity. The quantity of `force` depends on the machine.
+# MOST_DEVIATION: largest relative deviation that is allowed. ABSOLUTE: physical quantities of the
+# deviations that may have a unit. That of `force` depends on the excitation of the machine.
 MOST_DEVIATION = 0.9
 ABSOLUTE = {
     "gap": "displacement",
@@ -47,7 +47,7 @@ ABSOLUTE = {
     "stiffness": "stiffness",
     "damping": "damping",
 }
-# Least gap considered, divided by the least gap of rule (18) or, if smaller, by the greatest gap.
+# Least gap, divided by the smaller of two gaps: least gap of rule (18), greatest gap considered.
 LEAST_GAP = 0.15
 # Greatest gap, divided by the greatest gap of rule (18), if the machine without damper escapes at
 # all frequencies.
@@ -55,8 +55,8 @@ ESCAPING = 4.0
 # An absorber is tuned from ABSORBED[0] times the lowest frequency of band and resonance to
 # ABSORBED[1] times the highest one.
 ABSORBED = 0.5, 2.0
-# The first run of a motion (`cells.run`) stops after LONG x PATIENT decay times of the machine, at
-# least LEAST_LIMIT cycles. A chaotic motion is stopped after PATIENT decay times, at least
+# The first run of a motion (`cells.run`) stops after LONG x PATIENT decay times of the machine, but
+# not before LEAST_LIMIT cycles. A chaotic motion stops after PATIENT decay times, but not before
 # LEAST_PATIENCE cycles. `Effort.settling` may stop both sooner.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
@@ -217,7 +217,7 @@ class Task:
             )
 
     def _check_deviations(self):
-        """Raise ValueError unless nominal values, and those with all deviations, are allowed."""
+        """Raise ValueError if nominal values, or those at ends of tolerances, are not allowed."""
         gap = self.gap or 1e-3 * self.gap_span[0]
         widths = self.deviations(1e3 * gap)
         least = self.restitution * (1 - self.tolerances.get("restitution", 0.0))
@@ -233,7 +233,7 @@ class Task:
                 self.packed(gap, frequency, factors)
 
     def _checked_tolerances(self):
-        """Return the tolerances as relative numbers; one of the gap in mm becomes a text in m."""
+        """Return the tolerances as relative numbers. An absolute one of the gap is a text in m."""
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
@@ -284,7 +284,7 @@ class Task:
     def gap_span(self) -> tuple[float, float]:
         """Least and greatest gap that a design considers, mm.
 
-        In a greater gap the machine, unless it escapes, would not touch a loose mass at rest.
+        A loose mass at rest in the middle of a greater gap would not be touched, save at escapes.
         """
         rules = np.array([1e3 * self.rule_gap(f) for f in self.grid])
         sizes = self.bare[np.isfinite(self.bare)]
@@ -332,12 +332,12 @@ class Task:
         return self.bare_at(self.grid)
 
     def bare_at(self, frequencies) -> np.ndarray:
-        """Return the largest displacements (mm) without damper by harmonic balance."""
+        """Return largest displacements (mm) without damper at frequencies, by harmonic balance."""
         return self.millimetres(np.array([sizes[-1] for sizes in self._balances(frequencies)]))
 
     @property
     def migration_offer(self) -> str:
-        """The flag `yes` if the machine without damper has two motions at a frequency, or `no`."""
+        """Flag `yes` if the machine without damper has two motions at a frequency, else `no`."""
         return "yes" if any(len(sizes) > 1 for sizes in self._balances(self.grid)) else "no"
 
     def _balances(self, frequencies) -> list:
@@ -435,7 +435,7 @@ class Task:
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the least and the greatest frequency, Hz, of folds, peak and natural vibration."""
+    """Return the least and the greatest frequency (Hz) of natural vibration, peak and folds."""
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
     found = [point.frequency for point in free_folds(oscillator)]

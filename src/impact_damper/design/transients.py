@@ -86,7 +86,7 @@ def swept_sine(machine, damper, band, rate) -> xr.Dataset:
 
 
 def _swept(machine, damper, first, frequencies):
-    """Return the largest displacement (m) in each cycle after the first frequency was held."""
+    """Return the largest displacement (m) in each cycle of a sweep. Held cycles are left out."""
     decay_rate = machine.viscous_damping / (2 * machine.mass)
     held = min(math.ceil(-math.log(SETTLED) * first / decay_rate), HELD)
     rows = forced(machine, damper, np.concatenate([np.full(held, first), frequencies]))
@@ -95,9 +95,9 @@ def _swept(machine, damper, first, frequencies):
 
 
 def sweep_periods(first, slope, count):
-    """Return the beginnings (s) and the mean frequencies (Hz) of the cycles of a continuous sweep.
+    """Return two arrays over cycles of a continuous sweep: beginning (s), mean frequency (Hz).
 
-    At a beginning the phase in cycles, first t + slope t^2/2, is a whole number.
+    At each beginning the phase in cycles, first t + slope t^2/2, is a whole number.
     """
     phases = np.arange(count + 1)
     times = 2 * phases / (first + np.sqrt(first**2 + 2 * slope * phases))
@@ -116,7 +116,7 @@ def forced(machine, damper, frequencies):
 
 
 def ring_down(machine, damper, displacement) -> xr.Dataset:
-    """Return a dataset of the unforced decay from a displacement (m). Loose mass starts mid-gap."""
+    """Return a dataset of the unforced decay from a displacement (m) and a mid-gap loose mass."""
     runs, status = zip(
         *(decay(machine, each, displacement) for each in (None, damper)), strict=True
     )
@@ -134,8 +134,8 @@ def ring_down(machine, damper, displacement) -> xr.Dataset:
 def decay(machine, damper, displacement):
     """Return the unforced decay from a displacement (m) in windows of time, and how it ends.
 
-    A window is a row: time at its middle (s), inverse of its length (Hz), largest displacement (m),
-    and number of contacts. The decay ends "at_rest", "escaped", or at the "limit" of windows.
+    Each window is a row: time at its middle (s), inverse of its length (Hz), largest displacement
+    (m), number of contacts. The decay ends "at_rest", "escaped", or at the "limit" of windows.
     """
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
@@ -161,7 +161,7 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy at rest. The loose mass sticks by friction or lies where gravity leads."""
+    """Return the energy at rest. The loose mass sticks by friction or, under gravity, on a wall."""
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
     weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]
@@ -173,7 +173,7 @@ def lowest_energy(p, y) -> float:
 
 
 def _window(p, left):
-    """Return the length of a window: the undamped period at the energy `left`, or LONGEST."""
+    """Return the length of a window: the undamped period at the energy `left`, within LONGEST."""
     stiffness, cubic = cubic_spring(p)
     period = unforced_period(stiffness, cubic, unforced_amplitude(stiffness, cubic, left))
     if cubic >= 0:
