@@ -48,7 +48,7 @@ def shown_variable(name, values):
 def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
     """Return a dataset of registered variables, in the units of the machine if `model` has one.
 
-    `data` and `coordinates` hold dimensionless arrays by registered name, or pairs (dims, array).
+    Both dicts, keyed by registered name, hold dimensionless arrays, or pairs (dims, array).
     """
 
     def labelled(items):
@@ -96,7 +96,7 @@ def in_si(data, machine, damper=None) -> xr.Dataset:
 
 
 def from_si(data, scales) -> xr.Dataset:
-    """Return a dataset in dimensionless numbers: unchanged, or by the scales of a machine."""
+    """Return a dataset in dimensionless numbers, converted by `scales` if they are a machine's."""
     return _converted(data, lambda values, unit: values / unit, scales) if scales.si else data
 
 
@@ -146,7 +146,7 @@ def flag(name, meaning) -> int:
 
 
 def named(data, name) -> str:
-    """Return the name of the value of a flag variable that has a single value."""
+    """Return the name of the single number in a flag variable."""
     return decode(data[name]).item()
 
 

@@ -31,7 +31,7 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return the rank k at which the k-th largest of `total` values bounds a share of all values.
+    """Return k: the k-th largest of `total` sampled values bounds at least a share of all values.
 
     The bound holds with the confidence 1 - doubt for any distribution (S. S. Wilks, Ann. Math.
     Stat. 12, 1941). If there are too few values, k is 0.
@@ -40,7 +40,7 @@ def bounding_rank(share, total, doubt=DOUBT) -> int:
 
 
 def starts_needed(share) -> int:
-    """Return the fewest values for which the largest bounds a share of all values (95 %)."""
+    """Return the least number of sampled values whose largest bounds a share of all (95 %)."""
     return math.ceil(math.log(DOUBT) / math.log(share))
 
 

@@ -26,7 +26,7 @@ def whole(path):
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        for left in path.parent.glob(f"{glob.escape(path.name)}.part-*"):  # by a killed process
+        for left in path.parent.glob(f"{glob.escape(path.name)}.part-*"):  # of killed processes
             left.unlink(missing_ok=True)
         yield part
         os.replace(part, path)
@@ -57,7 +57,7 @@ def _reason(folder, error):
 
 
 def check_length(path) -> None:
-    """Raise BrokenFileError if the first bytes of a file show that it is not whole NetCDF-4."""
+    """Raise BrokenFileError if the first bytes of a file show that it is no whole NetCDF-4 file."""
     with open(path, "rb") as file:
         start = file.read(LENGTH.stop)
     if not start.startswith(SIGNATURE):

@@ -40,7 +40,7 @@ RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest |displacement| and |velocity| of an initial state. Beyond, a cycle runs for minutes.
+# Largest |displacement| and |velocity| of an initial state. Beyond these a cycle takes minutes.
 FARTHEST, FASTEST = 1e3, 1e6
 # Highest harmonic N of a harmonic balance. Memory grows as N^2, and computing time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
@@ -60,7 +60,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return the number in an array without dimensions, or another value; units are an error."""
+    """Return a value, or the number in an array without dimensions; units are an error."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")

@@ -9,8 +9,8 @@ from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
-# Parameters that can vary along a branch, each with its dataclass (None for the frequency). If
-# LINEAR has the name of the parameter, it is the coordinate along the branch, else its logarithm.
+# Parameters that can vary along a branch, each with its dataclass (None for the frequency). The
+# coordinate along a branch is a parameter of LINEAR itself, or the logarithm of another parameter.
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
@@ -31,7 +31,7 @@ def facts_of(parameter) -> tuple:
 def read_followed(model, parameter, span) -> tuple:
     """Return the arguments `parameter` and `span` of a branch, dimensionless.
 
-    Machines have other names for some PARAMETERS. The span must contain the parameter's own value.
+    Machines have other names for some PARAMETERS. The span must contain the parameter of the model.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}

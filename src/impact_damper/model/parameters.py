@@ -16,7 +16,7 @@ def parameter(limits, kind, symbol, meaning, *, machine=None, power=None, **defa
     """Return a dataclass field for a dimensionless number, with all facts about it.
 
     `kind` is a key of `units.QUANTITIES`. `machine` is the parameter's name in machines, if it is
-    different. A coefficient of the spring's force belongs to a term Z1^`power`.
+    different. `power` belongs to a coefficient of the spring: the power of Z1 in its term.
     """
     facts = {"bounds": limits, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
     return field(metadata=facts | {"meaning": f"{symbol}, {meaning}"}, **default)

@@ -52,7 +52,7 @@ QUANTITIES = {
     "impulse": Quantity("N s", length=1, time=-1, mass=1),
     "power": Quantity("W", length=2, time=-3, mass=1),
 }
-# Text may only be a number and units with powers, because pint would evaluate any expression.
+# A text is one number and units with powers only, because pint would evaluate any expression.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
 TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")

@@ -14,14 +14,14 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which a step grows after success.
 GROWTH = 1.5
-# Larger corrections lead to another orbit. REACH: of a predicted state. NUDGE: of the first state.
+# Largest corrections that stay on an orbit. REACH: of predicted states. NUDGE: of the first state.
 REACH, NUDGE = 0.03, 1e-3
 # Shortest step of the parameter. The end of a branch is found with this accuracy.
 RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two parameter values and their orbits, last status; `arrived`: at the target."""
+    """Last two parameter values, orbits at both, last status, and whether the target is reached."""
 
     values: tuple[float, float]
     orbits: tuple

@@ -55,7 +55,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Do the strobes `first` to `last` - 1 of `run`; return the new `side` and `near`."""
+    """Do the part of `run` from strobe `first` to strobe `last` - 1; return `side` and `near`."""
     work = workspace()
     none = np.empty((0, 4))
     for k in range(first, last):
@@ -137,11 +137,11 @@ def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, wo
     """Run a motion from the time `begin` with the damper on, until a rule releases it.
 
     `rule` holds a kind, a number n of forcing cycles, and the index of a phase. HOLD releases the
-    motion after n cycles. PHASE releases it when this phase comes after n or more cycles. STATE
+    motion after n cycles. PHASE releases it at this phase, once n cycles have passed. STATE
     releases it when its state is in the release set, but at the latest after n cycles. SETTLED
-    waits until the strobe states repeat, and then for the fraction `draw` of the period. A row of
-    `path` (m, 5) receives the forcing cycles since `begin`, and the state, at a strobe. Return the
-    last time, whether the rule released the motion within `limit` cycles, and the contacts begun.
+    waits until the strobe states repeat, and then for the fraction `draw` of the period. At each
+    strobe a row of `path` (m, 5) receives the forcing cycles since `begin` and the state. Return
+    the last time, whether the motion was released within `limit` cycles, and the contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

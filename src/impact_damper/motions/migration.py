@@ -17,12 +17,12 @@ from impact_damper.motions.records import NEVER
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.free_oscillator import main_solutions
 
-# MARGIN: forcing cycles that `course` adds on both sides. SAMPLES: samples in a forcing cycle.
+# MARGIN: forcing cycles in `course` before and after a run. SAMPLES: samples in a forcing cycle.
 MARGIN, SAMPLES = 10, 40
 # Two free motions are equal if their max |Z1| differ by less than this number.
 ALIKE = 1e-6
-# Log entry of one switching, on and off. Times are in forcing cycles from the first strobe. At
-# `end_time` the run of the free motion after the switching ends. released_period and
+# Log entry for switching the damper on and off once. Times are in forcing cycles from the first
+# strobe. At `end_time` the run of the following free motion ends. released_period and
 # released_displacement (max |Z1|) belong to the damped motion before switching off.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
@@ -192,10 +192,10 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """Return the path and the log (`SWITCHING`) of one run of migration control.
 
     A row of `draws` holds three numbers from 0 to 1: the time at which the damper is switched on,
-    as a fraction of the motion's period; the place of the loose mass, as a fraction of the gap; and
-    the time at which the damper is switched off, like the first. `releases` is the `ReleaseSet` for
-    release by state, otherwise None. The path (m, 5) has a row for each strobe and switching:
-    forcing cycles from the first strobe, and the state.
+    as a fraction of the motion's period; the place of the loose mass, as a fraction of the gap; the
+    time at which the damper is switched off, as a fraction of the period. `releases` is the
+    `ReleaseSet` for release by state, otherwise None. The path (m, 5) has a row for each strobe and
+    each switching: forcing cycles from the first strobe, and the state.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit

@@ -143,7 +143,7 @@ def base_displacement(p, times):
 
 
 def penetration(p, states, wall):
-    """Return the penetration of a wall and its rate, of states (..., 4); both are 0 in flight."""
+    """Return the penetration of a wall and its rate, for states (..., 4); both are 0 in flight."""
     return np.where(wall, wall * states[..., 2] - p[CLEARANCE], 0.0), wall * states[..., 3]
 
 

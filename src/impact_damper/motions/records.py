@@ -68,8 +68,8 @@ MOTION = np.dtype(
 def extremum(c, order, length, start):
     """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
 
-    A polynomial exceeds its values at both ends by at most length^2/8 times its largest second
-    derivative. If it may exceed `start`, Newton's method finds the turning points.
+    |polynomial| exceeds the larger of its values at 0 and `length` by at most length^2/8 times the
+    largest second derivative. Only if this bound exceeds `start`, turning points are searched for.
     """
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)
@@ -94,7 +94,7 @@ def extremum(c, order, length, start):
 
 @kernel_only
 def turning_time(c, order, begin, end, first, last):
-    """Return the time of slope 0 between `begin` and `end`, where the slopes are given."""
+    """Return the time of slope 0 between `begin` and `end`, with the slopes `first` and `last`."""
     t = begin + (end - begin) * first / (first - last)
     for _ in range(4):
         _, slope = polynomial(c, order, t)
@@ -158,10 +158,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Add values of a polynomial, times cosine and sine of their phases, to the two `sums`.
-
-    Four values are computed side by side. Only the first `count` of them are added.
-    """
+    """Add `count` values of a polynomial, times cosine and sine of their phases, to both `sums`."""
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
     for k in range(order - 1, -1, -1):

@@ -41,9 +41,9 @@ LOOSE_STATES, LOOSE_SPEED = 240, 2.0
 # With a softening spring: largest |Z1|, |Z1'| of random starts, divided by those of `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
-# Ramps. STEP: relative change of a parameter in a step. PERIODS: cycles in a step. BELOW: first
-# frequency of a ramp upward, divided by the lowest fold; or the highest fold, divided by the first
-# frequency of a ramp downward. RAISED: first force divided by the last.
+# Ramps. STEP: relative change of a parameter in a step. PERIODS: cycles in a step. RAISED: first
+# force divided by the last. A ramp upward to W begins at BELOW times the lowest fold, or W/2 if it
+# is lower. A ramp downward begins at the highest fold, or 2 W if it is higher, divided by BELOW.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
@@ -75,7 +75,7 @@ class Search(NamedTuple):
 
 
 def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_gap=False) -> Search:
-    """Return the starts of a search; `count` are random in each of `systems` (damper or None, W).
+    """Return the `Search` in systems (damper or None, W), with `count` random starts in each.
 
     With `whole_gap` starts near rest are wanted, so a small radius causes no warning.
     """
@@ -207,11 +207,7 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
 
 
 def ramped(oscillator, damper, frequency, tolerance) -> list:
-    """Return the states at T = 0 of motions after slow ramps of a parameter, without escapes.
-
-    A ramp of the frequency begins beyond all folds of the free response, and at least an octave
-    from the last frequency.
-    """
+    """Return the states at T = 0 after slow ramps of a parameter, without escaped motions."""
     folds = [fold.frequency for fold in free_folds(oscillator)] or [frequency]
     lowest = max(BELOW * min(frequency / 2, *folds), FREQUENCY_RANGE["least"])
     highest = min(max(2 * frequency, *folds) / BELOW, FREQUENCY_RANGE["most"])

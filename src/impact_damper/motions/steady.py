@@ -23,7 +23,7 @@ from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
 # Number of motions in a chunk. Ctrl-C waits until a call of a kernel ends.
 CHUNK = 128
-# MOST_CHUNKS: largest number of chunks settled in one call. SLICES: fewest calls for each thread.
+# MOST_CHUNKS: most chunks that are settled in one call. SLICES: fewest calls per thread if several.
 MOST_CHUNKS, SLICES = 8, 3
 
 
@@ -147,7 +147,7 @@ def settle_with(
 
 @kernel
 def settle_each(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Run motions one after the other; otherwise the same as `ensemble.settle_many`."""
+    """Do the same as `ensemble.settle_many`, but run the motions one after the other."""
     work, ring = workspace(), np.empty((RING, 4))
     seen, tangent = np.empty(1, SEEN), np.empty((1, 4))
     for i in range(len(out)):

@@ -22,11 +22,11 @@ from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
-# Limits for two records of one motion. SAME: relative difference of max |Z1|; also the asymmetry of
-# a symmetric motion. ROUNDING: difference of max |Z1| near rest. SIMILAR: ratio of the sizes of
-# motions that have not settled.
+# Two records of one motion differ by less than this. SAME: relative difference of max |Z1|; also
+# the asymmetry of a symmetric motion. ROUNDING: difference of max |Z1| near rest. SIMILAR: ratio of
+# the sizes of motions that have not settled.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
-# Outcomes with infinite or no displacement. Two records with the same of these are one motion.
+# Outcomes with infinite or no displacement. Records with the same one of them are one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # Newton's method for further orbits. LONGEST: longest period in cycles. REACH: largest distance
 # from the start, divided by the largest |Z1| or |Z1'| of known motions or, if larger, by the
@@ -92,7 +92,7 @@ def reached(data):
 def _follow(source, target, index, settling, links, ends):
     """Follow all motions of catalogue `source` to the next value, and add the results to `target`.
 
-    `links` receives pairs of numbers: two motions on one branch. `ends` receives a dict per end.
+    `links` receives pairs of numbers: two motions on one branch. `ends` receives ends of branches.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
@@ -200,7 +200,7 @@ class Catalogue:
         self.records, self.numbers, self.origins, self.starts = [], [], [], []
 
     def find(self, record):
-        """Return the index of the motion of a record or of its mirror image, None for a new one."""
+        """Return the index of the known motion that a record or its mirror image has, or None."""
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue
@@ -233,7 +233,7 @@ class Catalogue:
 
 
 def match_unsettled(first, second) -> list:
-    """Match unsettled motions at two neighbouring values, closest sizes first; return pairs."""
+    """Match unsettled motions at neighbouring values, closest sizes first; return index pairs."""
     pairs = sorted(
         (ratio, i, j)
         for i, one in enumerate(first)
@@ -289,7 +289,7 @@ def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
 
     On most of these orbits the primary mass moves nearly as in a known motion. So Newton's method
     starts with Z2 and Z1' - Z2' from a row of `loose` (n, 2), and with Z1 and Z1' from a row of
-    `motions` (m, 2), the known motions at the strobe. These rows are taken in turn.
+    `motions` (m, 2), the known motions at the strobe. The rows of `motions` are used in turn.
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

@@ -28,7 +28,7 @@ FIRST, BATCHES = 1500, 30
 GROWN = 40.0
 # Largest modulus, in standard errors, of a Lyapunov exponent that is taken as 0.
 NEUTRAL = 3.0
-# LONGEST: longest period of an orbit in forcing cycles. REACH: its distance from the last state.
+# Search for an orbit. LONGEST: longest period in forcing cycles. REACH: largest correction.
 LONGEST, REACH = 256, 1e-2
 # A motion is on known closed curves if its states are nearer to points of the curves than this.
 NEIGHBOUR = 1e-3

@@ -24,14 +24,14 @@ from impact_damper.motions.strobe_map import (
     speed_weight,
 )
 
-# LONGEST_PERIOD: of an orbit, in forcing cycles. RING: number of last strobe states that are kept.
+# LONGEST_PERIOD: longest period of an orbit in forcing cycles. RING: number of strobe states kept.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
 # CONFIDENCE: smallest Lyapunov exponent of chaos, in standard errors. WEAK: largest exponent of
 # weak chaos, in 1/T.
 CONFIDENCE, WEAK = 4.0, 0.05
-# A batch is a number of forcing cycles over which the logarithm of a tangent's growth is summed.
-# BLOCK: this number. RECENT: number of last batches in which a chaotic tangent must still grow.
+# In a batch of BLOCK forcing cycles the logarithms of a tangent's growth are summed. RECENT: number
+# of last batches in which the tangent of a chaotic motion must still grow.
 BLOCK, RECENT = 10, 5
 # Largest and smallest distance from an orbit at which Newton's method is tried.
 NEAR, NEAREST = 1e-4, 1e-9
@@ -43,8 +43,8 @@ EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 REST = 1e-9
 # Data of one motion while it runs. untouched: number of last forcing cycles without contact. near,
 # early: distances at which Newton's method is tried next. periods: number of cycles with a tangent.
-# batch: growth of the tangent in the current batch. Growth in complete batches: mean; squares, the
-# sum of squared deviations; recent, the growth in the last batches.
+# batch: growth of the tangent in the current batch. mean, squares: mean and sum of squared
+# deviations of the growth in complete batches. recent: growth in the last complete batches.
 SEEN = np.dtype(
     [(name, "i8") for name in ("index", "strobes", "untouched", "periods")]
     + [(name, "f8") for name in ("near", "early", "energy", "batch", "mean", "squares")]
@@ -151,7 +151,7 @@ def approaches(ring, k, n, weight):
 
 @kernel
 def is_linear(p, y, ring, k, n, weight):
-    """Return whether the last two returns of a motion to the orbit of y, of period n, are linear.
+    """Return whether a motion has approached the orbit of y (period n) linearly in two returns.
 
     In a period the distance e from the orbit becomes M e + r, with the matrix M. If |r| is at most
     c |e|^2, and c times the sum of all further distances is small, the motion tends to the orbit.
@@ -202,7 +202,7 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Move the primary mass onto a stable orbit without contacts, if one is near; return if so."""
+    """Move the primary mass onto a stable orbit without contacts; return False if none is near."""
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
         if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:
@@ -258,7 +258,7 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
       standard errors and the tangent still grows. After a transient it no longer grows. A slow
       spiral can look like weak chaos, so an exponent below WEAK is judged just before `limit`.
 
-    The tangent and `reach` are updated from cycle `patience`/2 on.
+    The tangent and `reach` are updated after the first `patience`/2 cycles.
     """
     k = seen.strobes
     bounded = p[CLEARANCE] < math.inf
