@@ -194,7 +194,7 @@ class MachineEntry(section.Section):
 
 def design_arguments(content, workers=1) -> dict:
     """Return the arguments of `design_damper`, except the machine, from the content of a file."""
-    # Imported here because it loads SciPy.
+    # A local import, because the module loads SciPy.
     from impact_damper.design.task import Effort
 
     damper, ball, band = content["damper"], content.get("contact"), content["band"]

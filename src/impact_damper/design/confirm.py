@@ -105,7 +105,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
     worst_set, worst_frequency = promise.worst
     bare = task.bare_at(frequencies)
     most = float(task.bare.max())
-    ratio = np.where(np.isfinite(bare), table[0] / bare, 0.0)  # 0: the bare machine escapes
+    ratio = np.where(np.isfinite(bare), table[0] / bare, 0.0)  # 0 at escapes without damper
     k = int(np.nanargmax(ratio))
     limit = np.nan if task.displacement_limit is None else 1e3 * task.displacement_limit
     ends, beyond = curve.keeping(found.gap, KEEPS * promise.size)

@@ -38,12 +38,12 @@ def migration(
 ):
     """Find gaps and frequencies at which releasing a damper leads to the small free motion.
 
-    Each release is like one of `migrate`. During the large free motion the damper is switched on at
-    a random phase, with the loose mass at a random place. The damper is switched off at a random
-    phase after the motion has settled, or after `longest_hold` cycles. The `gaps` are in m, by
-    default in the range of `design_damper`. `effort` has the numbers of frequencies, of gaps
-    (`candidates`) and of releases for each gap and frequency (`starts`). `progress` is the title of
-    a progress bar. Other arguments are as for `design_damper`.
+    During the large free motion the damper is switched on at a random phase, with the loose mass at
+    a random place. The damper is switched off at a random phase after the motion has settled, or
+    after `longest_hold` cycles. `gaps` are in m, by default from the range of `design_damper`.
+    `effort.candidates` is the default number of gaps, `effort.starts` the number of releases at
+    each gap and frequency. `progress` is the title of a progress bar. Other arguments are as for
+    `design_damper`.
 
     The dataset has for each gap and frequency: share of releases that succeed, median time of all
     releases, `migration_bound`. The fraction `share` of all releases succeeds within this bound,
