@@ -72,7 +72,7 @@ def absorber_responses(
 
 @cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the absorber that minimises the largest displacement over `band`, in linear theory."""
+    """Return the absorber that minimises the largest displacement over `band` (no cubic spring)."""
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
 
@@ -95,7 +95,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
 
 
 def _frequencies(machine, ratio, band):
-    """Return the frequencies (Hz) of the search: in the band or, without one, at the resonance."""
+    """Return the frequencies (Hz) of the search: over the band or, if None, near the resonance."""
     damping_ratio = machine.viscous_damping / (
         2 * math.sqrt(machine.linear_stiffness * machine.mass)
     )

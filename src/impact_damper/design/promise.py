@@ -14,7 +14,7 @@ CORNERS = 8
 # The peak of a set of factors is its largest bound over the frequency. In at most SPLITS rounds,
 # frequencies are added beside the peaks that are at least NEAR times the largest one, until they
 # are known. An infinite peak is known. Any other peak is known if the last frequencies raised it by
-# at most the fraction PEAK, and if no parabola through it is higher by more than this fraction.
+# at most the fraction PEAK, and if a parabola through it and two neighbours adds at most as much.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
 # Sets that deviate are run first at half of the grid's frequencies, or at FEWEST if that is more.
 FEWEST = 9

@@ -26,7 +26,7 @@ JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
 # most ALIKE times the least value of all gaps are equally good. The widest of these is chosen.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
-# Least number of significant digits of a chosen gap, and number at which the gap is not rounded.
+# A gap is rounded to at least DIGITS and less than MOST_DIGITS significant digits, or not rounded.
 DIGITS, MOST_DIGITS = 3, 9
 # Displacement in place of infinity, mm.
 HUGE = 1e9
@@ -65,7 +65,7 @@ class Curve:
                 self.close = np.insert(self.close, k, close)
 
     def within(self, lows, highs) -> np.ndarray:
-        """Return for each pair of gaps, from `lows` and `highs`, the largest displacement between.
+        """Return the largest displacement between each gap in `lows` and its partner in `highs`.
 
         At the two gaps the curve is interpolated. Inside a jump the larger of both sides counts.
         """
