@@ -8,7 +8,7 @@ from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading.datasets import Missing
 from impact_damper.data.datasets import flag, is_settled
 
-AROUND = 0.1  # largest |W/Wp - 1| of a frequency around the peak frequency Wp
+AROUND = 0.1  # largest |W/Wp - 1| at which W counts as around the peak frequency Wp
 BELOW = 0.75  # smallest W/Wp at which violent motions below the band are searched for
 ALL_DESIGNS = (*reading.CAPTIONS, *reading.RULES)  # names of all designs of figure 3
 

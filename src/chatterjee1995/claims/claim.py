@@ -96,7 +96,7 @@ class Claim:
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
-        """Return the verdict: not decidable if some number is NaN and no required bound fails."""
+        """Return the verdict: "not decidable" if no required bound fails but a number is NaN."""
         required, wished = (
             [Bound.read(text).holds(values) for text in bounds]
             for bounds in (self.required, self.full_agreement)

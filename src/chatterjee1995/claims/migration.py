@@ -17,7 +17,7 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return for each damped motion of the kind `kind` its share of releases to `free_motion`."""
+    """Return, for the damped motions of one kind, the shares of their releases to `free_motion`."""
     rows = case.damped_kind.values == flag("released_from", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]
@@ -60,7 +60,7 @@ def _scanned(datasets, case):
 
 
 def _nearest_range(decides, frequency):
-    """Return both ends of the range of W nearest to `frequency` with `decides` true, or NaN."""
+    """Return both ends of the range of true `decides` that is nearest to `frequency`, or NaN."""
     scanned = list(decides)
     ends = [
         (scanned[first], scanned[last - 1]) for first, last in runs_of_true(list(decides.values()))

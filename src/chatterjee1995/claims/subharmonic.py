@@ -11,7 +11,7 @@ AS_LARGE = 0.95  # an unchanged subharmonic has at least this share of the free 
 
 
 def _remaining(datasets, name):
-    """Return widths in W with stable subharmonics, and their largest max |Z1| relative to free."""
+    """Return widths in W of stable subharmonics, and largest ratios of max |Z1| to the free one."""
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
     edges = reading.band_edges(reading.get(datasets, "harmonic_balance", name))

@@ -175,7 +175,7 @@ def _draw_classes(axes, data, name, classes):
 
 
 def _draw_edge(axes, verdict):
-    """Draw the boundary of the cells with a stable solution of harmonic balance."""
+    """Draw the boundary of the cells in which harmonic balance has a stable solution."""
     stable = decode(verdict) == "stable"
     if stable.any() and not stable.all():
         line = {"colors": [style.BLACK], "linewidths": 1.0, "linestyles": "dashed"}

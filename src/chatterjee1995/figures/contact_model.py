@@ -53,7 +53,7 @@ def draw_contact_model(*, contact_model):
 
 
 def _draw_contacts(axes, data):
-    """Draw the loads of contacts in simulated motions over the restitution of the damper."""
+    """Draw the loads of contacts in simulated motions against the damper's restitution."""
     used = data["used"].values[data["contact_used"].values]
     load, size = data["contact_load"].values, data["contact_size"].values
     for place in reversed(range(len(MOTIONS))):

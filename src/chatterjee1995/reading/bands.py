@@ -35,7 +35,7 @@ def high_motions(response, free):
 
 
 def quiet_motions(response, free):
-    """Return the mask of the settled motions of period 1 with contact that are not violent."""
+    """Return the mask of the quiet motions: settled, of period 1, with contact, and not violent."""
     settled = reading.touching(response) & reading.is_outcome(response, "settled")
     return settled & (response.period == 1) & ~high_motions(response, free)
 

@@ -93,7 +93,7 @@ def within(data, lower, upper):
 
 
 def crossing(x, y, level):
-    """Return the first interpolated x at which y crosses a level between two points, or NaN."""
+    """Return the first x at which y, interpolated, crosses `level` between two points, or NaN."""
     side = np.sign(np.asarray(y) - level)
     changes = np.flatnonzero(side[:-1] * side[1:] < 0)
     if len(changes) == 0:

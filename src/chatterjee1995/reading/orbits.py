@@ -25,7 +25,7 @@ def free_of(datasets, data):
 
 
 def of_curve(datasets, name):
-    """Return the branches of the dataset `name`, and those without damper, or raise Missing."""
+    """Return branches of the curve `name`, and the branches of its oscillator without damper."""
     branches = reading.get(datasets, "branches", name)
     return branches, free_of(datasets, branches)
 
@@ -124,7 +124,7 @@ def largest_sizes(part, frequency):
 
 
 def resonance_fold(free):
-    """Return W and max |Z1| at the highest fold of free orbits of period 1, or raise Missing."""
+    """Return W and max |Z1| at the highest fold of free period-1 orbits, or raise Missing."""
     fold = free.event_kind.values == flag("event_kind", "fold")
     fold &= free.branch_period.values[free.event_branch.values] == 1
     if not fold.any():

@@ -123,7 +123,7 @@ def _needed(highest, error, accuracy):
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Return how many cells of each map have each verdict, chaos, or a nearly exact amplitude."""
+    """Return how many cells of each map have each verdict, are chaotic, or agree in amplitude."""
     rows = []
     for name, data in datasets.get("balance_map", {}).items():
         found = []

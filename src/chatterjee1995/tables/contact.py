@@ -89,7 +89,7 @@ VERDICTS = {
 
 
 def _needed(own):
-    """Return for each error the r1 above which rigid walls err less, or why none is known."""
+    """Return for each error the r1 above which rigid walls err less, or why this r1 is unknown."""
     columns = {}
     for k, level in enumerate(own.threshold.values):
         value = float(own.needed_stiffness[k])

@@ -34,6 +34,6 @@ def _row(name, data):
 
 
 def escape_or(size):
-    """Return a size as a number, or "escapes" for a motion that escapes, which has no size."""
+    """Return a size as a number, or the word "escapes" if the size is infinite."""
     size = float(size)
     return "escapes" if np.isinf(size) else size
