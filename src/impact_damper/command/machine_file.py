@@ -47,7 +47,10 @@ class AllowedQuantity(Allowed):
 
 
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
-    """Return the type of a quantity within bounds. Units of `absolute` quantities are allowed."""
+    """Return the type of a quantity within bounds.
+
+    A value may also be text in a unit of one of the quantities in `absolute`.
+    """
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 
 
@@ -116,7 +119,7 @@ Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 
 def deviation_of(what, *absolute):
-    """Return an optional field: a deviation as a fraction, or in units of `absolute` quantities."""
+    """Return an optional field for the deviation of `what`. Some deviations may have a unit."""
     meaning = f"largest deviation of {what}, as a fraction of it"
     return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 
@@ -222,7 +225,6 @@ _Loader.add_implicit_resolver(
     re.compile(f"(?:{section.SCIENTIFIC.pattern})$"),
     list("-+.0123456789"),
 )
-# Values of keys that a file may leave out.
 DEFAULTS = {"candidates": 8, "starts": 73, "share": 0.95, "tolerances": {"gap": 0.2}}
 POINTS = 9  # number of frequencies in the band
 

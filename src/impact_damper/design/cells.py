@@ -107,7 +107,7 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime) -> tuple:
-        """Return a regime's displacement, whether it is known, and whether late peaks fit it."""
+        """Return a regime's displacement, whether it is known, and whether it passed the test."""
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
         pooled = BLOCK * np.isfinite(peaks).sum()
@@ -120,6 +120,7 @@ class Motions:
         quarters = [part.max() for part in np.array_split(quarters, QUARTERS)]
         if np.ptp(quarters) <= STEADY * record:
             return (1 + STEADY) * record, True, True
+        # Test: late peaks do not exceed the displacement that is extrapolated from early peaks.
         middle = peaks.shape[1] // 2
         tested = np.nanmax(peaks[:, middle:]) <= return_level(peaks[:, :middle])
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
@@ -141,7 +142,7 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether a regime of cell k exceeds its extrapolation after MOST_POOLED cycles."""
+        """Return whether a regime of cell k fails the test in `measured` at MOST_POOLED cycles."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 

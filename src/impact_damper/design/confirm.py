@@ -187,9 +187,9 @@ def rivals(task) -> xr.Dataset:
 
 
 def _end(beyond, size):
-    """Return the name of the flag `keeping_end`: what ends the range that keeps the promise.
+    """Return the name of the flag `keeping_end`: what ends the gaps that keep the promise.
 
-    `beyond` is the displacement (mm) just outside the range, NaN if the search ended there.
+    `beyond` is the displacement (mm) at the next gap outside, NaN if the search ended there.
     """
     if np.isnan(beyond):
         return "search_ends"

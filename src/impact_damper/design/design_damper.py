@@ -63,9 +63,8 @@ def design_damper(
         {"friction_coefficient": 0.1}. By default the gap is horizontal and without friction.
     tolerances : dict, optional
         Largest deviations of gap, contact_stiffness, stiffness, damping, force, restitution,
-        gravity and friction. A deviation is relative, such as {"gap": "10 %"}. For the first five
-        it may be absolute with a unit, such as {"gap": "0.2 mm"}. By default only the gap
-        deviates, by 20 %.
+        gravity and friction. A deviation is relative, such as {"gap": "10 %"}. The first five may
+        have a unit, such as {"gap": "0.2 mm"}. By default only the gap deviates, by 20 %.
     displacement_limit : float or str, optional
         Largest displacement that is allowed, m. The promised displacement is compared with it.
     share : float

@@ -36,7 +36,6 @@ from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds,
 VARIED = tuple("gap restitution contact_stiffness gravity friction stiffness damping force".split())
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
-# Labels of the two ends of a range.
 SIDES = ["lower", "upper"]
 # MOST_DEVIATION: largest relative deviation that is allowed. ABSOLUTE: physical quantities of the
 # deviations that may have a unit. That of `force` depends on the excitation of the machine.
@@ -284,7 +283,7 @@ class Task:
     def gap_span(self) -> tuple[float, float]:
         """Least and greatest gap that a design considers, mm.
 
-        A loose mass at rest in the middle of a greater gap would not be touched, save at escapes.
+        In greater gaps a machine that does not escape touches no loose mass at rest in the middle.
         """
         rules = np.array([1e3 * self.rule_gap(f) for f in self.grid])
         sizes = self.bare[np.isfinite(self.bare)]

@@ -30,7 +30,6 @@ from impact_damper.model.packed import (
 )
 from impact_damper.motions.records import envelope
 
-# Labels of the machine without and with its damper.
 EQUIPMENT = ("bare", "damped")
 # Largest local error of an integration step.
 TOLERANCE = 1e-10
@@ -43,8 +42,8 @@ STEEPEST = 0.01
 # Before a sweep the first frequency is held until transients without the damper have decayed to the
 # fraction SETTLED, but for at most HELD forcing cycles.
 SETTLED, HELD = 0.01, 10**5
-# A decay ends at an escape, after MOST_WINDOWS windows, or at rest: when the energy is at most that
-# of a displacement of REST times the first one. A window is a period of the unforced vibration.
+# A decay ends at an escape, after MOST_WINDOWS windows, or when the energy above rest is that of
+# REST times the first displacement or less. A window is a period of the unforced vibration.
 # With a softening spring a window has at most LONGEST periods of small vibrations.
 REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
@@ -116,7 +115,7 @@ def forced(machine, damper, frequencies):
 
 
 def ring_down(machine, damper, displacement) -> xr.Dataset:
-    """Return a dataset of the unforced decay from a displacement (m) and a mid-gap loose mass."""
+    """Return a dataset of the unforced decay from a displacement (m), loose mass in mid-gap."""
     runs, status = zip(
         *(decay(machine, each, displacement) for each in (None, damper)), strict=True
     )
@@ -161,7 +160,7 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy at rest. The loose mass sticks by friction or, under gravity, on a wall."""
+    """Return the energy at rest. Gravity puts the loose mass on a wall, unless friction holds it."""
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
     weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]
@@ -173,7 +172,7 @@ def lowest_energy(p, y) -> float:
 
 
 def _window(p, left):
-    """Return the length of a window: the undamped period at the energy `left`, within LONGEST."""
+    """Return the length of a window (see LONGEST): the undamped period at the energy `left`."""
     stiffness, cubic = cubic_spring(p)
     period = unforced_period(stiffness, cubic, unforced_amplitude(stiffness, cubic, left))
     if cubic >= 0:
