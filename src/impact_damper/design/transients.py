@@ -31,7 +31,6 @@ from impact_damper.model.packed import (
 from impact_damper.motions.records import envelope
 
 EQUIPMENT = ("bare", "damped")
-# Largest local error of an integration step.
 TOLERANCE = 1e-10
 # A sweep has the rate SWEEP (damping ratio x natural frequency in Hz)^2 Hz/s. The resonance peak of
 # a linear machine is 6 % lower at this rate than in steady state. A sweep that would have more than
@@ -160,7 +159,7 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy at rest. Gravity puts the loose mass on a wall, unless friction holds it."""
+    """Return the energy at rest. Gravity puts the loose mass on a wall unless friction holds it."""
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
     weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]
