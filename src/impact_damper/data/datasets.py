@@ -20,7 +20,7 @@ from impact_damper.model.units import QUANTITIES
 
 SOURCE = "impact-damper"
 
-# Kinds whose values are not converted; a mixed number stays in the scales of the machine.
+# Kinds whose values are not converted. Values of the kind "mixed" stay in the machine's scales.
 PURE = ("number", "angle", "mixed")
 
 
@@ -96,7 +96,7 @@ def in_si(data, machine, damper=None) -> xr.Dataset:
 
 
 def from_si(data, scales) -> xr.Dataset:
-    """Return a dataset in dimensionless numbers, converted by `scales` if they are a machine's."""
+    """Return a dataset in dimensionless numbers; a dataset of a machine is converted by `scales`."""
     return _converted(data, lambda values, unit: values / unit, scales) if scales.si else data
 
 

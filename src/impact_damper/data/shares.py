@@ -40,7 +40,7 @@ def bounding_rank(share, total, doubt=DOUBT) -> int:
 
 
 def starts_needed(share) -> int:
-    """Return the least number of sampled values whose largest bounds a share of all (95 %)."""
+    """Return how many sampled values are needed so that the largest bounds a share of all values."""
     return math.ceil(math.log(DOUBT) / math.log(share))
 
 

@@ -52,7 +52,7 @@ METHOD_TOLERANCE_RANGE = TOLERANCE_RANGE | {"most": 0.1}
 
 
 def warn(text) -> None:
-    """Issue a warning that shows the user's line from which this package was called."""
+    """Issue a warning that shows the line of the user's code that has called this package."""
     frame, level = sys._getframe(1), 2
     while frame and frame.f_globals.get("__name__", "").startswith(PACKAGE):
         frame, level = frame.f_back, level + 1

@@ -1,4 +1,4 @@
-"""The two rules for the end of a contact, and the damping for a restitution under each rule.
+"""The two rules for the end of a contact, and the damping that causes a given restitution.
 
 With no other force the penetration u obeys u'' + 2 z u' + u = 0 in natural units of time. z is the
 damping ratio, and u + 2 z u' is the force of the wall. Under `zero_penetration`, the paper's rule

@@ -9,8 +9,8 @@ from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
-# Parameters that can vary along a branch, each with its dataclass (None for the frequency). The
-# coordinate along a branch is a parameter of LINEAR itself, or the logarithm of another parameter.
+# Parameters that can vary along a branch, each with its dataclass (None for the frequency). If a
+# name is in LINEAR, the coordinate along a branch is the parameter itself, otherwise its logarithm.
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
@@ -31,7 +31,7 @@ def facts_of(parameter) -> tuple:
 def read_followed(model, parameter, span) -> tuple:
     """Return the arguments `parameter` and `span` of a branch, dimensionless.
 
-    Machines have other names for some PARAMETERS. The span must contain the parameter of the model.
+    Machines have other names for some PARAMETERS. The span must contain the parameter's own value.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}

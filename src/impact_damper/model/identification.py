@@ -202,7 +202,7 @@ def _decay(time, measured):
 
 
 def _resonance(w, amplitude, force):
-    """Guess k, c, k3, m; return them and scales. For given c the balance is linear in the rest."""
+    """Guess c at the peak, then k, k3, m by linear fits; return k, c, k3, m, and their scales."""
     import numpy as np
 
     top = np.argmax(amplitude)

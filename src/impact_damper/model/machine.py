@@ -12,7 +12,7 @@ from impact_damper.model.text import with_unit
 from impact_damper.model.units import Scales, check_si, convert, optional, physical
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
-# GRAVITY: acceleration, m/s^2. ANGLES: range, radian. FRICTIONS: range of a friction coefficient.
+# Acceleration of gravity, m/s^2. Range of an angle, radian. Range of a coefficient of friction.
 GRAVITY = 9.81
 ANGLES = {"least": 0, "most": 1.5708}
 FRICTIONS = {"least": 0, "most": 10}

@@ -1,4 +1,4 @@
-"""Attractors, labels of states by attractor, and the release set of migration control.
+"""Attractors, labels of the states that lead to them, and the release set of migration control.
 
 A free motion or orbit is one without the damper. A neighbourhood is an ellipse around a state of a
 free orbit at the strobe (W T = pi/2). A motion whose state enters the ellipse provably tends to the
@@ -21,7 +21,7 @@ from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_time
 
 # Proof of a neighbourhood. STEPS: time steps in a forcing cycle. FACTOR: largest ratio of the
-# radius after a period to the first radius. HALVINGS: bisections that find the first radius.
+# radius after a period to the radius before. HALVINGS: bisections that find the radius before.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # ALIKE: two free orbits are equal if their states at the strobe differ by less than this number.
 # SAME: two damped motions are equal if their max |Z1| differ by less than this fraction.
@@ -105,7 +105,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 (n,) and d(state)/d(first state), (n, 2, 2), along an orbit, STEPS in a cycle."""
+    """Return Z1 (n,) and d(state)/d(first state) (n, 2, 2) of an orbit, at STEPS times a cycle."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]

@@ -21,7 +21,7 @@ RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """Last two parameter values, orbits at both, last status, and whether the target is reached."""
+    """The last two parameter values with their orbits, the last status, and if `arrived`."""
 
     values: tuple[float, float]
     orbits: tuple

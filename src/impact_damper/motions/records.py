@@ -68,8 +68,8 @@ MOTION = np.dtype(
 def extremum(c, order, length, start):
     """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
 
-    |polynomial| exceeds the larger of its values at 0 and `length` by at most length^2/8 times the
-    largest second derivative. Only if this bound exceeds `start`, turning points are searched for.
+    On the interval |polynomial| exceeds its larger end value by at most length^2/8 times the
+    largest second derivative. If this bound exceeds `start`, turning points are searched for.
     """
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)
@@ -283,8 +283,8 @@ def envelope(parameters, lengths, y, tolerance):
 def run_window(p, y, side, length, largest, tolerance, work):
     """Run a motion in place from the strobe for a time `length`.
 
-    Return the wall in contact, the larger of max |Z1| and `largest` (infinite after an escape), and
-    the number of contacts begun.
+    Return the wall in contact; the larger of max |Z1| and `largest`, which is infinite after an
+    escape; and the number of contacts begun.
     """
     t, begun = strobe_time(p), 0
     end = t + length

@@ -23,7 +23,8 @@ from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
 # Number of motions in a chunk. Ctrl-C waits until a call of a kernel ends.
 CHUNK = 128
-# MOST_CHUNKS: most chunks that are settled in one call. SLICES: fewest calls per thread if several.
+# MOST_CHUNKS: largest number of chunks that are settled in one call. SLICES: smallest number of
+# calls for each thread, if there are several threads.
 MOST_CHUNKS, SLICES = 8, 3
 
 
@@ -118,7 +119,7 @@ def settle_with(
 ):
     """Return the `records.MOTION` of motions from states (m, 4) at the times `begins` (m,).
 
-    `settle` is `settle_each` or `settle_many`. The others are arguments of `ensemble.settle`.
+    `settle` is `settle_each` or `settle_many`. The other arguments are as in `ensemble.settle`.
     """
     bounds.check_count("workers", workers, most=4096)
     states = np.ascontiguousarray(states, float)

@@ -26,7 +26,7 @@ from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, str
 # the asymmetry of a symmetric motion. ROUNDING: difference of max |Z1| near rest. SIMILAR: ratio of
 # the sizes of motions that have not settled.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
-# Outcomes with infinite or no displacement. Records with the same one of them are one motion.
+# Outcomes with infinite or no displacement. Two records that share one of these are one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # Newton's method for further orbits. LONGEST: longest period in cycles. REACH: largest distance
 # from the start, divided by the largest |Z1| or |Z1'| of known motions or, if larger, by the
@@ -64,7 +64,7 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
             catalogue.add(record, "placed_start")
     add_orbits(catalogues, search.loose, settling, workers)
     links, passes = [], []
-    # Motions are followed upward, downward, and upward again from those found on the way down.
+    # The second way upward also follows the motions that were found on the way downward.
     for order in (catalogues, catalogues[::-1], catalogues):
         passes.append([])
         for source, target in pairwise(order):
@@ -200,7 +200,7 @@ class Catalogue:
         self.records, self.numbers, self.origins, self.starts = [], [], [], []
 
     def find(self, record):
-        """Return the index of the known motion that a record or its mirror image has, or None."""
+        """Return the index of the known motion that is in a record or its mirror image, or None."""
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue
