@@ -96,7 +96,7 @@ def in_si(data, machine, damper=None) -> xr.Dataset:
 
 
 def from_si(data, scales) -> xr.Dataset:
-    """Return a dataset in dimensionless numbers; a dataset of a machine is converted by `scales`."""
+    """Return a dataset in dimensionless numbers; one of a machine is converted by `scales`."""
     return _converted(data, lambda values, unit: values / unit, scales) if scales.si else data
 
 

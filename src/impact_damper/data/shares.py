@@ -40,7 +40,7 @@ def bounding_rank(share, total, doubt=DOUBT) -> int:
 
 
 def starts_needed(share) -> int:
-    """Return how many sampled values are needed so that the largest bounds a share of all values."""
+    """Return how many sampled values are needed for the largest to bound a share of all values."""
     return math.ceil(math.log(DOUBT) / math.log(share))
 
 
