@@ -33,7 +33,7 @@ class AllowedQuantity(Allowed):
         return core_schema.with_info_plain_validator_function(self._quantity)
 
     def _quantity(self, value, info):
-        # Jobs do not check values again: the import of pint takes a third of a second.
+        # Jobs do not check values again, because the import of pint takes a third of a second.
         if info.context:
             return value
         if any((absolute_value(value, each) or -1) > 0 for each in self.absolute):

@@ -107,7 +107,7 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime) -> tuple:
-        """Return a regime's displacement, whether it is known, and whether it passed the test."""
+        """Return a regime's displacement, whether it is known, and whether it passed a test."""
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
         pooled = BLOCK * np.isfinite(peaks).sum()

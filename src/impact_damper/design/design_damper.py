@@ -89,7 +89,7 @@ def design_damper(
     Raises
     ------
     TypeError, ValueError
-        If an argument is out of range; the message has its name and, in SI units, its value.
+        If an argument has a wrong type or is out of range. The message has its name and value.
 
     Examples
     --------
@@ -152,7 +152,7 @@ def evaluate_damper(
     Raises
     ------
     TypeError, ValueError
-        If an argument is out of range; the message has its name and, in SI units, its value.
+        If an argument has a wrong type or is out of range. The message has its name and value.
 
     Examples
     --------

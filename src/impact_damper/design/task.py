@@ -216,7 +216,7 @@ class Task:
             )
 
     def _check_deviations(self):
-        """Raise ValueError if nominal values, or those at ends of tolerances, are not allowed."""
+        """Raise ValueError if nominal values, or values at ends of tolerances, are not allowed."""
         gap = self.gap or 1e-3 * self.gap_span[0]
         widths = self.deviations(1e3 * gap)
         least = self.restitution * (1 - self.tolerances.get("restitution", 0.0))

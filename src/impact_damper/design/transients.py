@@ -41,8 +41,8 @@ STEEPEST = 0.01
 # Before a sweep the first frequency is held until transients without the damper have decayed to the
 # fraction SETTLED, but for at most HELD forcing cycles.
 SETTLED, HELD = 0.01, 10**5
-# A decay ends at an escape, after MOST_WINDOWS windows, or when the energy above rest is that of
-# REST times the first displacement or less. A window is a period of the unforced vibration.
+# A decay ends at an escape, after MOST_WINDOWS windows, or when little energy above rest is left:
+# that of REST times the first displacement. A window is a period of the unforced vibration.
 # With a softening spring a window has at most LONGEST periods of small vibrations.
 REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
