@@ -186,7 +186,7 @@ def response(
 
 
 def different(sizes, alike=1e-4):
-    """Return pairs, ascending by size: a size, and the indices of all `sizes` close to it."""
+    """Return ascending pairs: a size, and the indices of all `sizes` close to this size."""
     found = []
     for place in sorted(range(len(sizes)), key=lambda i: sizes[i]):
         if not found or sizes[place] > found[-1][0] * (1 + alike):

@@ -26,7 +26,7 @@ RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
 class Promise:
-    """Motions at a gap (m) for sets of factors, over frequencies that are added at peaks.
+    """Motions at a gap (m) for sets of factors, over frequencies that are denser at peaks.
 
     Attributes
     ----------

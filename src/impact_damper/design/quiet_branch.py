@@ -37,7 +37,7 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, keeping) -> xr.Dataset:
-    """Return a dataset of the branch of a quiet orbit over the gap, and its smallest stable orbit."""
+    """Return a dataset of a quiet orbit over the gap, and of the smallest stable orbit found."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)

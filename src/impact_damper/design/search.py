@@ -26,7 +26,7 @@ JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
 # most ALIKE times the least value of all gaps are equally good. The widest of these is chosen.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
-# A gap is rounded to at least DIGITS and less than MOST_DIGITS significant digits, or not rounded.
+# A gap keeps at least DIGITS and fewer than MOST_DIGITS significant digits, or is not rounded.
 DIGITS, MOST_DIGITS = 3, 9
 # Displacement in place of infinity, mm.
 HUGE = 1e9
