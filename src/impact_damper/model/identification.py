@@ -157,7 +157,7 @@ def _fit(residuals, guess, scale):
 
 
 def _free(time, parameters):
-    """Return free decays of a unit mass for columns of parameters, shape (times, columns)."""
+    """Return a free decay of a unit mass for each column of parameters, shape (times, columns)."""
     import numpy as np
     from scipy.integrate import solve_ivp
 

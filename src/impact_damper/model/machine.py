@@ -237,7 +237,7 @@ class Machine:
         """Scales with which the dimensionless equations describe the machine.
 
         The length is the geometric mean of the static deflection and the displacement at resonance.
-        So motions and useful gaps are of order 1. The time makes omega_l^2 + |k3| equal to 1.
+        So motions and useful gaps are of order 1. The time is such that omega_l^2 + |k3| = 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -355,7 +355,7 @@ def mounting(
     normal_force=None,
     friction=None,
 ) -> dict:
-    """Return gravity along the gap (m/s^2) and friction (N) of a loose mass (kg), keyed by name.
+    """Return a dict: `gravity` along the gap (m/s^2) and `friction` (N) of a loose mass (kg).
 
     `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
     default 0. `normal_force` (N) presses the loose mass on its floor; the default is the weight's

@@ -26,8 +26,8 @@ STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # ALIKE: two free orbits are equal if their states at the strobe differ by less than this number.
 # SAME: two damped motions are equal if their max |Z1| differ by less than this fraction.
 ALIKE, SAME = 1e-6, 1e-5
-# Grid of states for the search for orbits. REACH: width of the grid in Z1 (Z1'), divided by the
-# largest |Z1| (|Z1'|) of the free motions. SEARCHED: number of points on each axis.
+# Grid of states for the search for orbits. REACH: width of the grid along Z1, divided by the
+# largest |Z1| of the free motions; the same along Z1'. SEARCHED: number of points on each axis.
 REACH, SEARCHED = 3.0, 24
 # Label of a motion by its outcome. The label of a settled motion is the index of its attractor.
 LABELS = {

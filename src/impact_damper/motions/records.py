@@ -26,7 +26,7 @@ PHASELESS = 1e-9
 SYMMETRIC = 1e-6
 # Number of samples in a forcing cycle from which harmonics are computed.
 SAMPLES = 64
-# Cosine and sine of the phases of the samples with the numbers 0 to SAMPLES - 1.
+# Cosine and sine of the phases of these samples.
 COSINE, SINE = (f(STROBE + 2 * np.pi * np.arange(SAMPLES) / SAMPLES) for f in (np.cos, np.sin))
 # Number of pieces of a step. In each piece at most one turning point of a polynomial is expected.
 PIECES = 8

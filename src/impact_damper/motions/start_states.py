@@ -38,7 +38,7 @@ PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
 # States of the loose mass for `sweep.stable_orbits`. LOOSE_STATES: number. LOOSE_SPEED: largest
 # |Z1' - Z2'|, divided by the crossing speed or by the free motions' largest speed if it is larger.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# With a softening spring: largest |Z1|, |Z1'| of random starts, divided by what `barrier` returns.
+# With a softening spring |Z1| and |Z1'| of random starts are at most WITHIN times `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps. STEP: relative change of a parameter in a step. PERIODS: cycles in a step. RAISED: first

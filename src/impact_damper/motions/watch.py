@@ -35,9 +35,9 @@ CONFIDENCE, WEAK = 4.0, 0.05
 BLOCK, RECENT = 10, 5
 # Largest and smallest distance from an orbit at which Newton's method is tried.
 NEAR, NEAREST = 1e-4, 1e-9
-# Early trials of Newton's method. EARLY: distances at the two trials. RETURNS: number of distances
-# between returns that must decrease. NONLINEAR, APPROACH: largest nonlinear part, and largest
-# number of further returns, in `is_linear`.
+# Early trials of Newton's method, at distances above NEAR. EARLY: these distances. RETURNS: number
+# of distances between returns that must decrease. NONLINEAR: largest nonlinear part in `is_linear`.
+# APPROACH: largest number of further returns that `is_linear` computes.
 EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 # Largest energy of an unforced motion at rest, divided by the first energy.
 REST = 1e-9
