@@ -167,7 +167,7 @@ NAME = text("a name becomes part of a file name", pattern="[A-Za-z0-9][A-Za-z0-9
 
 # The loader of the C library libyaml, if it is installed, is several times as fast.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-# Numbers with an exponent. YAML 1.1 takes a number without point or exponent's sign for text.
+# Numbers with an exponent. Without a point and a signed exponent, YAML 1.1 reads them as text.
 SCIENTIFIC = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 
 

@@ -72,7 +72,7 @@ def absorber_responses(
 
 @cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the absorber that minimises the largest displacement over `band` (no cubic spring)."""
+    """Return the absorber that minimises the linear machine's largest displacement over `band`."""
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
 
