@@ -152,7 +152,7 @@ def read_pair(scales, name, values) -> np.ndarray:
 
 
 def _components(scales, name, values, kinds, words):
-    """Return dimensionless displacements and velocities; an error message asks for `words`."""
+    """Return dimensionless displacements and velocities; `words` describe them in an error."""
     numbered = list(_numbered(values))
     if len(numbered) != len(kinds):
         raise ValueError(f"{name} = {shown(values)}: must be {words}")

@@ -19,9 +19,9 @@ class Settling:
         Number of forcing cycles after which a motion is stopped if it is strongly chaotic, or if
         the loose mass hardly moves and has touched no wall during these cycles.
     limit : int
-        Number of forcing cycles after which every motion is stopped. Its outcome is chaotic if this
-        is certain, drifting if the primary mass is on an orbit and the loose mass has touched no
-        wall for `patience` cycles, and otherwise undecided.
+        Number of forcing cycles after which every motion is stopped. The motion is then chaotic if
+        this is certain, drifting if the primary mass is on an orbit and the loose mass has touched
+        no wall for `patience` cycles, and otherwise undecided.
     watched : int
         Number of further forcing cycles in which an unsettled motion is measured.
     further : int

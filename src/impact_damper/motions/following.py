@@ -21,7 +21,7 @@ RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two parameter values with their orbits, the last status, and if `arrived`."""
+    """The last two parameter values, their orbits, last status, and if the target is reached."""
 
     values: tuple[float, float]
     orbits: tuple

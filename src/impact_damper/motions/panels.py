@@ -67,7 +67,7 @@ def contact_forces(p, state, span, course, tolerance):
     """Return the largest force in each contact of a motion, divided by the primary mass.
 
     `course` is the result of `trace` for the motion. The motion is run again with the same steps,
-    so even a chaotic motion has the same contacts again.
+    so even a chaotic motion has the same contacts.
     """
     states, log = course
     forces = np.zeros(len(log))

@@ -29,7 +29,7 @@ from impact_damper.motions.watch import NEAR
 
 # Runs that measure lives. APART: largest difference of Z1, and of Z1', between the first state of a
 # run and the chaotic motion. CAPTURE: distance from an orbit at which a transient ends. CHECKED:
-# number of forcing cycles in which a run that has not ended is checked to be still chaotic.
+# forcing cycles for which a run that has not ended is continued, to see if it is still chaotic.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 

@@ -38,12 +38,12 @@ PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
 # States of the loose mass for `sweep.stable_orbits`. LOOSE_STATES: number. LOOSE_SPEED: largest
 # |Z1' - Z2'|, divided by the crossing speed or by the free motions' largest speed if it is larger.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# With a softening spring |Z1| and |Z1'| of random starts are at most WITHIN times `barrier`.
+# With a softening spring random starts have at most WITHIN times |Z1| and |Z1'| of `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps. STEP: relative change of a parameter in a step. PERIODS: cycles in a step. RAISED: first
-# force divided by the last. A ramp upward to W begins at BELOW times the lowest fold, or W/2 if it
-# is lower. A ramp downward begins at the highest fold, or 2 W if it is higher, divided by BELOW.
+# force divided by the last. A ramp upward to W begins at BELOW times the lowest fold or W/2,
+# whichever is lower; a ramp downward at the highest fold or 2 W, whichever is higher, over BELOW.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 

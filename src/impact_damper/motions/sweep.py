@@ -200,7 +200,7 @@ class Catalogue:
         self.records, self.numbers, self.origins, self.starts = [], [], [], []
 
     def find(self, record):
-        """Return the index of the known motion that is in a record or its mirror image, or None."""
+        """Return the index of the known motion of a record or of its mirror image, or None."""
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue

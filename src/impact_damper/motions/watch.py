@@ -153,10 +153,10 @@ def approaches(ring, k, n, weight):
 def is_linear(p, y, ring, k, n, weight):
     """Return whether a motion has approached the orbit of y (period n) linearly in two returns.
 
-    In a period the distance e from the orbit becomes M e + r, with the matrix M. If |r| is at most
+    In a period the distance e from the orbit becomes M e + r, with a matrix M. If |r| is at most
     c |e|^2, and c times the sum of all further distances is small, the motion tends to the orbit.
     The number c is measured in two returns only, which lie further from the orbit than all later
-    ones. In longer runs none of 7 000 motions left its orbit: fewer than 0.05 % do (95 % sure).
+    ones. In longer runs none of 7 000 motions left its orbit. So at most 0.05 % do (95 % sure).
     """
     _, matrix, contacts = period_map(p, y, n, POLISH_TOLERANCE)
     # A loose mass that drifts slowly may still reach a wall.
