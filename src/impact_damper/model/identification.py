@@ -24,7 +24,7 @@ class Identified(NamedTuple):
 
     `uncertainties`, keyed by field of the machine, are standard uncertainties in SI units. They are
     valid if errors are independent and of equal size. `noise` is the standard deviation of the
-    residuals: m for a free decay, a fraction for a response. `ended` says how the fit ended.
+    residuals, in m for a free decay and relative for a response. `ended` says how the fit ended.
     """
 
     machine: object

@@ -65,7 +65,7 @@ def find_attractors(p, states, settling) -> Attractors:
 
 
 def free_attractors(p, window, settling) -> Attractors:
-    """Return the attractors to which a grid of states leads, with the half widths `window`."""
+    """Return the attractors reached from a grid of states; `window`: half widths of the grid."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return find_attractors(p, states, settling)
