@@ -1,7 +1,7 @@
 """Write CITATION.cff and codemeta.json from pyproject.toml: `make citation`.
 
-The table [tool.citation] of pyproject.toml holds what [project] has no key for. Once they exist,
-an address goes into [project.urls], and a DOI and a date go into [tool.citation].
+The table [tool.citation] of pyproject.toml holds what [project] has no key for, such as a DOI and
+a date of release, once these exist. Addresses stand in [project.urls].
 """
 
 import json

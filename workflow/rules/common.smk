@@ -65,7 +65,7 @@ def last_checked(given):
         return None
 
 
-# From here on only the object is used.
+# The checked configuration, from which the rules are made.
 settings = checked(config)
 
 

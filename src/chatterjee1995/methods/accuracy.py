@@ -1,4 +1,4 @@
-"""Errors and work of integrators and models on scenes, the motions that they compute."""
+"""Errors and work of integrators and models on scenes. A scene is a motion that all compute."""
 
 from typing import NamedTuple
 
@@ -42,7 +42,7 @@ meets_accuracy | run | | | whether the run meets the accuracy required by the sc
 )
 
 LONGER = 4  # cycles of the reference run in chaos, divided by the cycles of the scene
-# In chaos the contacts per cycle may err by a fraction CONTACTS_OFF plus SURE standard errors.
+# In chaos, contacts per cycle may err by the fraction CONTACTS_OFF plus SURE standard errors.
 CONTACTS_OFF, SURE = 0.1, 2
 
 
@@ -91,7 +91,7 @@ def reference_of(scene, stored):
 def accuracy(system, damper, *, name, settings, references, **given):
     """Return a dataset with the errors and the work of each run of a method on a scene.
 
-    `given` are other attributes of a `ComparisonScene`; `settings` is the section `comparison`.
+    `settings` is the section `comparison`. `given` are the other attributes of the scene.
     """
     scene = ComparisonScene(oscillator=system, damper=damper, **given)
     if scene.motion == "chaotic":
@@ -105,7 +105,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield label, tolerance, `Run` and its number of cycles (`slow_periods` if `slow` is true)."""
+    """Yield label, tolerance, `Run` and its cycles. A slow integrator runs for `slow_periods`."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:
@@ -177,7 +177,7 @@ def _named(scene, rows, status, errors):
 
 
 def _orbits(scene, settings):
-    """Yield the label, the setting and the result of each model of a steady motion."""
+    """Yield the label, the setting and the `Model` of each model of a steady motion."""
     parts = scene.oscillator, scene.damper, scene.frequency
     state = np.array(scene.state, float)
     yield "rigid_balance", 1, orbit_models.rigid_balance(*parts, state)
@@ -195,7 +195,7 @@ def _orbits(scene, settings):
 def _times(scene, model, reference):
     """Return the times at which contacts of a model begin, in the order of the reference.
 
-    All times are NaN unless each contact has one partner in the reference, and none is left.
+    All times are NaN if the contacts cannot be paired one to one with those of the reference.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods

@@ -13,7 +13,7 @@ from impact_damper.motions.strobe_map import strobe_time
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return for each batch the contacts per cycle, and the mean over its cycles of max |Z1|."""
+    """Return a dict: contacts per cycle, and the mean of max |Z1| in a cycle, for each batch."""
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
     contacts = np.histogram(run.contact_times, edges)[0]
@@ -28,7 +28,7 @@ def of_run(p, run, begin, periods, batch):
 
 
 def exponents(p, start, tolerance, periods, batch, restitution=None):
-    """Return the largest Lyapunov exponent in each batch; walls are rigid with a `restitution`."""
+    """Return the largest Lyapunov exponent in each batch. With a `restitution`, walls are rigid."""
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)

@@ -14,7 +14,7 @@ from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
-    """End of a contact: outcome, time s (or infinity), speed / v0 when q returns to 0 (or NaN)."""
+    """End of a contact: outcome, time s (or infinity), and speed/v0 on return to q = 0 (or NaN)."""
 
     outcome: str
     duration: float

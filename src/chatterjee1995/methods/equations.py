@@ -26,7 +26,7 @@ def wall_at(p, z):
 
 @kernel
 def ahead(p, side, z):
-    """Return in flight (`side` 0) the distance to the nearest wall, in contact the penetration."""
+    """Return the distance to the nearest wall if `side` is 0 (flight), else the penetration."""
     return p[CLEARANCE] - abs(z) if side == 0 else side * z - p[CLEARANCE]
 
 
@@ -59,7 +59,7 @@ def moved(y, h, k):
 
 @kernel_only
 def largest_within(x, v, x_end, v_end, h):
-    """Return the largest |Z1| in a step h from (x, v) to (x_end, v_end), for Z1' linear in time."""
+    """Return max |Z1| in a step h from (x, v) to (x_end, v_end), if Z1' is linear in time."""
     largest = max(abs(x), abs(x_end))
     if v * v_end < 0.0:
         largest = max(largest, abs(x + 0.5 * h * v * v / (v - v_end)))

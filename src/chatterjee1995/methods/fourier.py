@@ -19,13 +19,13 @@ def samples(coefficients, harmonics, count) -> np.ndarray:
 
 
 def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
-    """Return the derivative of the given order of a series at angles; order 0 is the value."""
+    """Return the derivative of some order of a series at angles. Order 0 is the series itself."""
     weights = 2 * (1j * harmonics) ** order * coefficients
     return (np.exp(1j * np.multiply.outer(angle, harmonics)) @ weights).real
 
 
 def product_samples(harmonics, degree) -> int:
-    """Return a number of samples with which products of `degree` series do not alias harmonics."""
+    """Return a number of samples that gives exact `harmonics` of a product of `degree` series."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 
@@ -42,10 +42,10 @@ def largest(coefficients, harmonics) -> float:
 
 
 def intervals(coefficients, harmonics, level) -> np.ndarray:
-    """Return intervals as rows (wall, begin, end): z > level if wall is 1, z < -level if it is -1.
+    """Return rows (wall, begin, end): intervals with z > level (wall 1) or z < -level (wall -1).
 
-    A bound on the second derivative shows in which cells (between two samples) z crosses the level
-    once or never. All other cells are halved, so no interval wider than SHORTEST is missed.
+    A cell lies between two samples. It is halved unless a bound on the second derivative shows that
+    z crosses the level once in the cell, or never. No interval wider than SHORTEST is missed.
     """
     return np.concatenate([_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)])
 
@@ -71,7 +71,7 @@ def _beyond(coefficients, harmonics, level, wall):
 
 
 def _cells(function, coefficients, harmonics, ends, values):
-    """Return ascending cells (count, 2) where `function` changes sign, once if above SHORTEST."""
+    """Return the cells in which `function` changes sign, ascending, shape (count, 2)."""
     bound = 2 * np.sum(harmonics**2 * np.abs(coefficients))
     lower, upper, first, last = ends[:-1], ends[1:], values[:-1], values[1:]
     crossed = []

@@ -6,17 +6,17 @@ import numpy as np
 from scipy.linalg import eigvals, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
-# Above DENSE unknowns only the 4 * COPIES eigenvalues nearest zero are computed.
+# If there are more than DENSE unknowns, only the 4 * COPIES eigenvalues nearest 0 are computed.
 DENSE, COPIES = 100, 3
 # If the multiplier of half a cycle is real and negative, the exponent has copies with imaginary
-# parts W and -W. A part within EDGE * W of W is set to W. Parts within EDGE * W of -W are left out.
+# parts W and -W. A part within EDGE * W of W is set to W. The copy near -W is left out.
 EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
     """Floquet exponents per unit of T, by ascending real part; NaN unless the status is "found".
 
-    Status "not_separated": more or fewer than 2 (4 with damper) eigenvalues with -W < Im <= W.
+    Status "not_separated": the number of eigenvalues with -W < Im <= W is not 2 (4 with damper).
     """
 
     values: np.ndarray
@@ -47,7 +47,7 @@ def exponents(solution) -> Exponents:
 
 
 def _near_zero(stiffness, damping, inertia):
-    """Return eigenvalues (see DENSE) of (stiffness + lambda damping + lambda^2 inertia) p = 0."""
+    """Return eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0, see DENSE."""
     size = len(stiffness)
     factors = lu_factor(stiffness, check_finite=False)
 

@@ -15,7 +15,7 @@ class Run(NamedTuple):
     """A motion by an integrator; `status` is "ended", "failed", or "capped" after too much work.
 
     `operations` is the number of floating-point operations. Contacts begin at `contact_times`.
-    `displacement` is max |Z1|, the largest of `peaks`. Peaks occur at or near their `peak_times`.
+    `peaks` are values of |Z1| at or near `peak_times`. The largest of them is `displacement`.
     """
 
     status: str
@@ -41,9 +41,10 @@ class Integrator:
     number of steps in a cycle if steps are `fixed`, and otherwise a tolerance.
 
     Figures show integrators in the order of `place`. For each stage in `compared`, an integrator
-    defines a method in REQUIRED. The stage `accuracy` reads `located` (values of `locate`),
-    `tolerances` (a name in `labels.TOLERANCE_KEYS`) and `slow` (whether runs are limited);
-    `stable_steps` reads `stability_limit`, the largest stable step times undamped frequency.
+    defines one of the methods in REQUIRED. The stage `accuracy` reads `located`, the values of
+    `locate` to run, `tolerances`, a name in `labels.TOLERANCE_KEYS`, and `slow`, true if runs are
+    limited. The stage `stable_steps` reads `stability_limit`, the largest product of step and
+    undamped frequency of a stable motion.
     """
 
     REQUIRED: ClassVar = {
@@ -64,7 +65,7 @@ class Integrator:
         return f"{self.name}_{'located' if locate else 'kink'}"
 
     def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations):
-        """Return status, operations, times (n,) and states (n, 4) of the start and of step ends."""
+        """Return status, operations, and times (n,) and states (n, 4) at start and step ends."""
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
@@ -75,11 +76,11 @@ class Integrator:
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Return |Z2| at step ends in [0, end] (unused with `touches`) and at `time`, or None."""
+        """Return |Z2| at step ends up to `end` (unread if `touches` decides), at `time`; or None."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return which walls at `levels` are touched, or None: then |Z2| from `flight` decides."""
+        """Return for each wall at `levels` if it is touched; None if |Z2| of `flight` decides."""
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
         """Return max |Z1| in each cycle of `steps` equal steps, NaN once the run has diverged."""
@@ -94,7 +95,7 @@ def read_off(p, work, times, ends):
 
 
 def _beginnings(p, times, ends):
-    """Return times at which |Z2| = d0, one in each step that begins in the gap and leaves it."""
+    """Return the time at which |Z2| = d0 in each step that begins in the gap and leaves it."""
     place, distance = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
     inside = (distance > 0) | ((distance == 0) & (place * ends[:, 3] < 0))
     steps = np.flatnonzero(inside[:-1] & ~inside[1:])
@@ -105,7 +106,7 @@ def _beginnings(p, times, ends):
 
 
 def _turning_points(p, times, ends):
-    """Return the times and values of |Z1| at the zeros of Z1' and at both ends of the run."""
+    """Return the times of the zeros of Z1' and of both ends of the run, and |Z1| at these times."""
     steps = np.flatnonzero(ends[:-1, 1] * ends[1:, 1] < 0)
     course = _quintics(p, times, ends, 0, steps)
     fraction = root(polyder(course), 0.0, 1.0)
@@ -118,7 +119,7 @@ def _turning_points(p, times, ends):
 
 
 def _quintics(p, times, ends, index, steps):
-    """Return coefficients (6, m) of Hermite polynomials on [0, 1], for a component in m steps."""
+    """Return coefficients (6, m) of Hermite polynomials on [0, 1] for one component in m steps."""
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
         for at in (steps, steps + 1)
@@ -134,7 +135,7 @@ def _quintics(p, times, ends, index, steps):
 
 
 def root(coefficients, low, high):
-    """Return a root of each polynomial (a column), which has opposite signs at low and high."""
+    """Return a root of each polynomial (column), whose signs at `low` and `high` are opposite."""
     sign = np.sign(polyval(low, coefficients, tensor=False))
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)

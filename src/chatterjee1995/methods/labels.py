@@ -2,7 +2,7 @@
 
 from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
 
-# ERRORS: quantities with errors in the stage `accuracy`. STATISTICS: averages of chaotic motions.
+# ERRORS: quantities whose errors `accuracy` computes. STATISTICS: averages of chaotic motions.
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 STATISTICS = ("contact_rate", "displacement", "exponent")
 
@@ -17,12 +17,12 @@ MODELS = {
 }
 START_HARMONICS = 15  # highest harmonic of the first guess for shooting and for rigid impacts
 
-# Lists of tolerances in the section `comparison`; an integrator in `accuracy` uses one of them.
+# Keys of the lists of tolerances in the section `comparison`. `Integrator.tolerances` is a key.
 TOLERANCE_KEYS = ("taylor", "merson", "scipy")
 
 
 def method_in_words(label) -> str:
-    """Return the title of a model, an integrator or a run by its label; else return the label."""
+    """Return the title of the model, integrator or run with this label; or an unknown label."""
     if label in MODELS:
         return MODELS[label]
     if label in integrators():

@@ -70,7 +70,7 @@ class Balance:
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)
 
     def residual(self, coefficients, rows) -> np.ndarray:
-        """Return left minus right sides of (3), (4), (20), (21) in each harmonic."""
+        """Return left sides minus right sides of (3), (4), (20) and (21) in each harmonic."""
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
         count = fourier.product_samples(k, SPRING_POWER)
@@ -126,7 +126,7 @@ class Balance:
 
 
 def _convolution(coefficients, harmonics):
-    """Return matrices A, B: A z + B conj(z) is the product of z and the series `coefficients`."""
+    """Return A and B for which A z + B conj(z) is the product of z and the given series."""
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
     column = harmonics[:, None]
@@ -190,7 +190,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return coefficients of the solution of (7) with least |a|; without damper, of the largest."""
+    """Return coefficients of the least solution of (7), without damper of the largest free one."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2
@@ -204,7 +204,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
 
 
 def refine(balances, start) -> list:
-    """Return a `Solution` of each balance; the last converged one is the next first guess."""
+    """Return the `Solution` of each balance. The last converged one is the next first guess."""
     solutions = []
     for balance in balances:
         solutions.append(solve(balance, start))
@@ -214,7 +214,7 @@ def refine(balances, start) -> list:
 
 
 def state_of(solution) -> np.ndarray:
-    """Return Z1, Z1', Z2, Z2' of a `Solution` at W T = pi/2, with Z2 = Z1 without a damper."""
+    """Return Z1, Z1', Z2, Z2' of a `Solution` at W T = pi/2. Without a damper Z2 is Z1."""
     balance = solution.balance
     state = [
         fourier.value(each, balance.harmonics, np.pi / 2, order) * balance.frequency**order

@@ -1,4 +1,4 @@
-"""Contacts near grazing that integrators miss, from runs without walls or from `touches`."""
+"""Numbers of contacts near grazing that integrators find and miss."""
 
 import math
 
@@ -45,7 +45,7 @@ def missed_contacts(
 ):
     """Return a dataset with the numbers of contacts near grazing that integrators find and miss.
 
-    `tolerances` increase. Integrators with equal steps use `steps`, numbers of steps in a cycle.
+    `tolerances` increase. Integrators with equal steps take each of `steps` as steps in a cycle.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
@@ -68,7 +68,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return counts of passages (depth, outcome) and of spurious contacts, and the median error."""
+    """Return counts of passages (depth, outcome), counts of spurious contacts, and median error."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
@@ -111,9 +111,9 @@ def _count_table(p, passages, depths, tolerances, steps):
 
 
 def _expected(passages, depths, steps, period):
-    """Return expected shares of unseen contacts (steps, depth), means of max(0, 1 - b/h).
+    """Return expected shares of unseen contacts (steps, depth): the means of max(0, 1 - b/h).
 
-    Steps h begin at random times. The time beyond the wall is b = 2 sqrt(2 depth/|Z2''|).
+    Steps of length h begin at random times. A contact has the length b = 2 sqrt(2 depth/|Z2''|).
     """
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])

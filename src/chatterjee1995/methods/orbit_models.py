@@ -1,4 +1,4 @@
-"""Models with rigid walls, by balance or by shooting; their work (docs/explanation/methods.md)."""
+"""Models by rigid walls, harmonic balance or shooting, and their work (see `docs/explanation`)."""
 
 import math
 from dataclasses import replace
@@ -33,7 +33,7 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory import single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
 
-# Operations to find all solutions: FULL_WORK of the balance (7), RIGID_WORK of the rigid one (14).
+# Operations to find all solutions. FULL_WORK: of (7). RIGID_WORK: of (14), with rigid walls.
 FULL_WORK, RIGID_WORK = 100 * 130 + 10 * 32**3, 10 * (6**3 + 5**3) + 6 * 10 * 12
 REACH = 10.0  # largest change of a component of a rigid orbit's state from the first guess
 
@@ -49,7 +49,7 @@ class Model(NamedTuple):
 
 
 def rigid(p, restitution, start, t, periods, tolerance):
-    """Return the `Run` with rigid walls from `start` at t; peaks are the largest |Z1| of cycles."""
+    """Return the `Run` with rigid walls from `start` at t. `peaks` is max |Z1| in each cycle."""
     p = without_dashpot(p)
     y, none, work = start.copy(), np.empty((0, 4)), workspace()
     period, counts = 2 * math.pi / p[FREQUENCY], [0, 0, 0]
@@ -88,7 +88,7 @@ def of_coefficients(balance, coefficients, work):
 
 
 def rigid_balance(oscillator, damper, frequency, state):
-    """Return the `Model` by rigid balance, (13) and (14), nearest to `state`; only for e = 1."""
+    """Return the `Model` by (13) and (14) with Z1, Z1' nearest to `state`; it requires e = 1."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
     roots = single_harmonic.rigid_solutions(oscillator, damper, frequency)
@@ -104,7 +104,7 @@ def rigid_balance(oscillator, damper, frequency, state):
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """Return the `Model` by balance of one harmonic, (7), nearest to `state`; not for e < 1."""
+    """Return the `Model` by (7) with Z1, Z1' nearest to `state`; a damper must have e = 1."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
@@ -114,7 +114,7 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return coefficients (or None) of the elastic solution of (7) nearest to `state`, and work."""
+    """Return coefficients of the solution of (7), for e = 1, nearest to `state`, and the work."""
     if damper is None:
         work = 2 * 10 * 3**3
         solutions = free_solutions(oscillator, frequency)
@@ -137,7 +137,7 @@ def nearest_term(oscillator, damper, frequency, state):
 
 
 def many_harmonics(oscillator, damper, frequency, state, highest):
-    """Return models by highest harmonic 3, 7, 15, ... <= `highest`; none without a first guess."""
+    """Return a dict: highest harmonic 3, 7, 15, ... -> `Model`; empty without a first guess."""
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
     if coefficients is None:
@@ -164,7 +164,7 @@ def newton_work(balance):
 
 
 def rigid_impacts(oscillator, damper, frequency, start):
-    """Return the models "rigid" and "rigid_mended" (corrected walls) near the model `start`."""
+    """Return a dict of the models "rigid" and "rigid_mended" (corrected walls) near `start`."""
     if damper is None:
         return dict.fromkeys(("rigid", "rigid_mended"), without("not_applicable"))
     system = oscillator, damper, frequency
@@ -177,7 +177,7 @@ def rigid_impacts(oscillator, damper, frequency, start):
             continue
         given = found.p, found.restitution, found.state, strobe_time(found.p)
         run = rigid(*given, 1, POLISH_TOLERANCE)
-        # A map integrates one cycle together with the variational equations.
+        # A call of the map integrates one cycle together with the variational equations.
         each = each or run.operations / step_work(FLIGHT) * step_work(FLIGHT, tangents=True)
         work += found.maps * each
         phases = frequency * run.contact_times % (2 * math.pi)

@@ -15,7 +15,7 @@ TOLERANCE = 1e-15  # tolerance of the Taylor series
 
 
 class Passage(NamedTuple):
-    """A cycle without walls from `state` at T = 0; time, size and |Z2''| of the largest |Z2|."""
+    """A forcing cycle without walls from `state` at T = 0; time, size and |Z2''| of max |Z2|."""
 
     state: np.ndarray
     time: float
@@ -68,9 +68,9 @@ def without_walls(p):
 
 
 def draw_passages(p, count, radius, deepest, seed) -> list:
-    """Return `count` random passages over one forcing cycle, from states uniform in a ball.
+    """Return a list of as many passages as `count`, whose states at T = 0 are random in a ball.
 
-    Those are kept with max |Z2| > 2 `deepest`, and |Z2| < max |Z2| - `deepest` at both ends.
+    A passage is kept if max |Z2| exceeds 2 `deepest`, and |Z2| + `deepest` at both ends.
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)

@@ -27,7 +27,7 @@ class CompliantOrbit(NamedTuple):
 
 
 def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
-    """Return the `CompliantOrbit` near a guess by Newton's method, or None, and a status."""
+    """Find the `CompliantOrbit` near a guess by Newton's method; return orbit (or None), status."""
     state = np.array(guess, float)
     converged, _, multiplier = polish(p, state, 1, reach, tolerance)
     if not converged:
@@ -38,7 +38,7 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
 
 
-# Phase W T of the states, at which no contact occurs: contacts lie in about -0.2 ... pi/2 (+ pi).
+# Phase W T of the states. There is no contact: contacts lie at about -0.2 to pi/2, and pi later.
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between cells, divided by their distance
@@ -97,7 +97,7 @@ def follow_quiet_orbits(parameters, states) -> QuietOrbits:
 
 
 def find_quiet_orbit(p, guess):
-    """Return the quiet orbit near a guess of its state at W T = 3 pi/4, or None, and a status."""
+    """Find the quiet orbit near a guess of its state at PHASE; return orbit (or None), status."""
     orbit = newton(shoot(p, guess, 1, PHASE, symmetric=True), REACH)
     if not orbit.converged:
         return None, "not_converged"
@@ -131,7 +131,7 @@ def _end(followed):
 
     Near a fold, det(1 - root) is proportional to the square root of the distance to the fold.
     """
-    # A step that failed in `spread` can arrive here, as the orbit of the cell behind is now known.
+    # A step that failed in `spread` can succeed now, because the orbit of the cell behind is known.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
@@ -143,19 +143,21 @@ def _end(followed):
     return fraction, followed.status
 
 
-# Ratio rm W^2 d0/f by (18) if 8 d0/pi^2 replaces d0: the first harmonic of Z2 for a straight flight
-# between rigid walls while the primary mass is at rest.
+# Ratio rm W^2 d0/f by (18) with 8 d0/pi^2 in place of d0. This is the first harmonic of Z2 if the
+# loose mass flies straight between rigid walls, and the primary mass is at rest.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# Impulse q for equal |x| at impact and turning point, and phase phi of the turning point, for e = 1
-# and no damping or stiffness: q - 1 = cos(phi) - q + 2 q phi/pi with sin(phi) = 2 q/pi.
+# IMPULSE: impulse q with which |x| is equal at the impact and at the turning point, for e = 1, no
+# damping and no stiffness. TURN: phase of the turning point. The equations are
+# q - 1 = cos(TURN) - q + 2 q TURN/pi and sin(TURN) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
-# CRITERIA: quantities of Z1 that an optimum clearance minimises. RULES for it: see `rule_ratios`.
+# CRITERIA: quantities of Z1, each with an optimum clearance that minimises it.
+# RULES: rules for the optimum clearance, see `rule_ratios`.
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return rm W^2 d0/f of both CRITERIA to first order in `contact`, `damping`; NaN if e < 1."""
+    """Return the optimum rm W^2 d0/f by CRITERIA, to first order in `contact` and `damping`."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
@@ -169,8 +171,8 @@ def elastic_ratios(flight) -> tuple[float, float]:
 def least_harmonic_ratio(flight) -> float:
     """Return rm W^2 d0/f at which the first harmonic of Z1 is smallest.
 
-    Forcing and impulses together have the first harmonic 1 - c q exp(-i p), where c = 8/pi^2 and p
-    is the lag of the impact behind the forced motion. With sin(u) = q L/A (see `Flight`) and
+    Forcing and impulses together have the first harmonic 1 - c q exp(-i p). Here c = 8/pi^2, and p
+    is the lag of the impact behind the largest force. With sin(u) = q L/A (see `Flight`) and
     n = u - p, the modulus is smallest where tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
     """
     factor = 8 / np.pi**2
@@ -185,9 +187,9 @@ def least_harmonic_ratio(flight) -> float:
 def rule_ratios(oscillator, damper, frequency):
     """Return the optimum rm W^2 d0/f for each of CRITERIA (rows) by each of RULES (columns).
 
-    `balance` is rule (18), `gap_harmonic` FIRST_HARMONIC_RATIO, and `straight_flight` the optimum
-    of a straight flight between rigid walls. `elastic` adds contact duration and damping to first
-    order. `flight` includes damping, stiffness and inelastic contact.
+    `balance` is rule (18), and `gap_harmonic` is FIRST_HARMONIC_RATIO. `straight_flight` is the
+    optimum of a straight flight between rigid walls. `elastic` adds the duration of contacts and
+    damping, to first order; NaN if e < 1. `flight` adds duration, damping and stiffness.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

@@ -25,7 +25,7 @@ from impact_damper.model.packed import (
 from impact_damper.motions.records import extremum
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE, strobe_time
 
-# Number of impacts in a cycle at which a run stops; with e < 1 infinitely many can follow.
+# A run stops after this number of impacts in a cycle. If e < 1, infinitely many can follow.
 MOST_IMPACTS = 200
 ITERATIONS = 12  # most steps of Newton's method
 SAME_SPEED = 1e-6  # largest relative difference of the two approach speeds in a symmetric orbit
@@ -61,8 +61,9 @@ def rigid_map(p, restitution, y, tolerance):
     """Integrate the rigid model over one forcing cycle from the state y at W T = pi/2.
 
     The dashpot in p must be 0. Return the final state, its derivative by y, the number of impacts,
-    the smallest |Z2'| before an impact (or infinity), |Z2'| and the acceleration of Z1 towards the
-    wall before the first impact (or NaN), and max |Z1|. At MOST_IMPACTS only their number is valid.
+    the smallest |Z2'| before an impact (or infinity), a pair for the first impact, and max |Z1|.
+    The pair is |Z2'| and the acceleration of Z1 towards the wall, both before the impact (or NaN).
+    After MOST_IMPACTS impacts, only their number is valid.
     """
     state = y.copy()
     tangents = np.eye(4)
@@ -93,7 +94,7 @@ def without_dashpot(p):
 
 
 class RigidOrbit(NamedTuple):
-    """A symmetric orbit with two impacts a cycle; `speed`, `acceleration` hold before an impact."""
+    """A symmetric orbit of two impacts; `speed` and `acceleration` are those before an impact."""
 
     state: np.ndarray
     multiplier: complex

@@ -42,8 +42,8 @@ ACCURACIES = (0.01, 0.1)  # allowed relative error of max |Z1| in each cycle
 # FACTOR: largest ratio of successive r1. REACH: largest distance of an orbit from its first guess.
 FACTOR, REACH = 10.0**0.0625, 0.2
 EXACT = 1e-13  # local error allowed in the exact orbits, the reference of the runs
-CONFIRMED = 4  # number of smallest tested steps, all of which must keep the motion
-STIFF = 1e3  # least r1, with short contacts, in the fit of the exponent of the stable step
+CONFIRMED = 4  # at least this number of the smallest tested steps must keep the motion
+STIFF = 1e3  # least r1 in the fit of the exponent of the stable step; contacts are short there
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
@@ -87,7 +87,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step up to which all tested ones hold; NaN if fewer than CONFIRMED do."""
+    """Return the largest step up to which all tested are held, NaN if fewer than CONFIRMED are."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -95,7 +95,7 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Return slope and standard error of log(1/step) over log r1, r1 >= STIFF; NaN if < 3 steps."""
+    """Fit log(1/step) over log r1 for r1 >= STIFF; return slope and its error, or NaN twice."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan
@@ -104,7 +104,7 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """Return a dataset with the largest stable steps; `scaled_steps` are increasing h omega_c."""
+    """Return a dataset of the largest stable steps. `scaled_steps` are increasing h omega_c."""
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
     scaled = scaled[::-1]

@@ -64,15 +64,16 @@ high_verdict | map_value frequency_ratio | | | high motion: result of harmonic b
     """
 )
 
-NEAR = 0.2  # largest relative difference of max |Z1| from its prediction in a "near" motion
-HIGH = 0.5  # fraction of the free resonance amplitude below which a motion is low, else high
+NEAR = 0.2  # a motion is near if max |Z1| differs from the prediction by at most this fraction
+HIGH = 0.5  # motions below this fraction of the free resonance amplitude are low, others high
 
 
 class Cells(NamedTuple):
-    """Solutions of harmonic balance in all cells, and starts at T = 0; NaN without a solution.
+    """Solutions of harmonic balance in all cells of a map, and states at T = 0 that start runs.
 
     `resonance` is the amplitude on the free resonance branch or, beyond the branch, at its end.
-    Without a high solution `high_start` is on this branch (NaN beyond it), the loose mass at rest.
+    Without a solution its amplitude and its start are NaN. Only `high_start` then lies on the free
+    resonance branch, with the loose mass at rest; it is NaN beyond this branch.
     """
 
     resonance: np.ndarray
@@ -87,8 +88,8 @@ class Cells(NamedTuple):
 def balance_cells(rows) -> Cells:
     """Solve the harmonic balance (7) in all cells of a map.
 
-    The quiet solution has the smallest |a|, which must be below HIGH times the free resonance. The
-    high solution has the largest |a| of stable solutions, which must not be below this limit.
+    The limit is HIGH times `Cells.resonance`. The solution with the smallest |a| is the quiet one
+    if |a| is below the limit. The stable one with the largest |a| is the high one if |a| is not.
     """
     cells = [
         [_cell(oscillator, damper, frequency) for frequency in frequencies]
@@ -135,7 +136,7 @@ def _cell(oscillator, damper, frequency):
 
 @lru_cache(4096)
 def _solutions(oscillator, damper, frequency):
-    """Return the solutions of (7) and their growth rates; cells that differ in e share them."""
+    """Return the solutions of (7) and their growth rates; both are the same for all e."""
     solutions = impacting_solutions(oscillator, damper, frequency)
     return solutions, growth_rate(fixed_points(solutions), oscillator, damper, frequency)
 
@@ -144,7 +145,7 @@ _resonance = lru_cache(4096)(resonance)
 
 
 def _start(amplitude, relative_amplitude, phase, frequency):
-    """Return Z1, Z1', Z2, Z2' at T = 0 of Z1 = a cos(W T + t1), Z2 = b cos(W T + t1)."""
+    """Return the state at T = 0 of the motion Z1 = a cos(W T + t1), Z2 = b cos(W T + t1)."""
     turn = np.array([np.cos(phase), -frequency * np.sin(phase)])
     return np.concatenate([amplitude * turn, relative_amplitude * turn])
 
@@ -160,7 +161,7 @@ class _Row(NamedTuple):
 def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers=1, progress=None):
     """Compare harmonic balance with exact motions over W/Wp (columns) and a parameter (rows).
 
-    If `fixed` has no `clearance`, each row has the clearance of rule (19).
+    `fixed` holds the other parameters. If no clearance is given, rule (19) sets that of each row.
     """
     rows = _rows(parameter, values, frequency_ratios, fixed)
     parameters = np.array(
@@ -218,7 +219,7 @@ def _rows(parameter, values, ratios, fixed):
 
 
 def _run(parameters, starts, settling, workers, progress):
-    """Return a `records.MOTION` for each cell; its outcome is "absent" if the start is NaN."""
+    """Return the record `MOTION` of the run in each cell, "absent" as outcome if a start is NaN."""
     asked = np.isfinite(starts[..., 0])
     records = np.zeros(asked.shape, MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -231,7 +232,7 @@ def _run(parameters, starts, settling, workers, progress):
 
 
 def _kinds(records, resonance):
-    """Return the flag `quiet_run_motion` of each run; `resonance` is the free amplitude there."""
+    """Return the flag `quiet_run_motion` of each run; `resonance` is that of `Cells`."""
     low = records["maximum_displacement"] < HIGH * resonance
     quiet = low & is_symmetric_pair(records)
     outcome = records["outcome"]
@@ -250,7 +251,7 @@ def _kinds(records, resonance):
 
 
 def _quiet_verdict(balance, orbits):
-    """Return the flag `quiet_verdict`; cells beyond a known end of the branch are "absent"."""
+    """Return the flag `quiet_verdict`. Beyond a fold or change of contacts the orbit is absent."""
     size = np.abs(orbits.multiplier)
     columns = np.arange(size.shape[1])
     ended = np.isin(orbits.end_event, ["fold", "contacts_change"])

@@ -25,7 +25,7 @@ longest_wait | ball | | | longest time to the first collision, cycles
 def collisions(
     oscillator, damper, frequency, *, starts=2000, radius, seed=1995, periods=2000, tolerance=1e-9
 ):
-    """Return a dataset: shares of starts beyond a wall and of colliding starts, longest waits."""
+    """Return a dataset for random starts in the whole ball, and in its part within the gap."""
     p = pack(oscillator, damper, frequency)
     shares = np.empty((2, 3))
     for row, within_gap in enumerate((False, True)):
@@ -41,7 +41,7 @@ def collisions(
 
 @kernel
 def first_collision(p, state, limit, tolerance):
-    """Return cycles to the first contact: 0 for a start in contact, inf after `limit` cycles."""
+    """Return the cycles until the first contact, or infinity if `limit` cycles have none."""
     work, y, t, side = workspace(), state.copy(), 0.0, side_of(p, state)
     end = limit * 2.0 * math.pi / p[FREQUENCY]
     while side == 0 and t < end:

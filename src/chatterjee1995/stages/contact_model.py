@@ -56,9 +56,9 @@ def contact_model(
     seed=1995,
     settling,
 ):
-    """Compute the contact for each restitution and load, and the loads of simulated motions.
+    """Return a dataset: contacts by restitution and load, and the loads of simulated motions.
 
-    For each `used` restitution and frequency, `starts` runs yield a smallest and a largest motion.
+    At each restitution in `used` and each frequency, random starts lead to the simulated motions.
     """
     used, frequencies = np.array(used, float), np.array(frequencies, float)
     data = contact_map(restitutions, loads) | unloaded_table(used)
@@ -82,12 +82,12 @@ def contact_model(
 
 
 def spread_loads(largest, count):
-    """Return loads from -largest to largest: spacing even near 0, logarithmic above LINEAR."""
+    """Return loads from -largest to largest, spaced evenly near 0, logarithmically above LINEAR."""
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 
 def contact_map(restitutions, loads):
-    """Return realised restitutions (NaN without release) and verdicts for each rule, load and e."""
+    """Return a dict: realised restitution (NaN without release) and verdict by rule, load and e."""
     shape = len(EXIT_RULES), len(loads), len(restitutions)
     realised, verdict = np.empty(shape), np.empty(shape, np.int8)
     for i, j, k in np.ndindex(shape):
@@ -98,7 +98,7 @@ def contact_map(restitutions, loads):
 
 
 def _verdict(found, restitution):
-    """Return the name of a verdict: the size of the error, or why the loose mass stays."""
+    """Return the name of the flag `contact_verdict` for an `Exit`."""
     if found.outcome != "released":
         return found.outcome
     error = abs(found.departure / restitution - 1)
@@ -106,7 +106,7 @@ def _verdict(found, restitution):
 
 
 def unloaded_table(restitutions):
-    """Return the variables of contacts without load, in columns for each restitution."""
+    """Return the variables of contacts without load, with a column for each restitution."""
     ends = [[contact(e, 0.0, rule) for e in restitutions] for rule in EXIT_RULES]
     return {
         "unloaded_restitution": [[end.departure for end in row] for row in ends],
@@ -116,7 +116,7 @@ def unloaded_table(restitutions):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Return the smallest settled and the largest motion with contacts, each None if absent."""
+    """Return two motions with contacts: the smallest settled one, and the largest (or None)."""
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
     motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)
@@ -129,7 +129,7 @@ def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
 
 
 def loads_of(oscillator, damper, frequency, state, periods):
-    """Return the loads at the beginning of complete contacts, in a run from W T = pi/2."""
+    """Return the load at the beginning of each complete contact in a run from W T = pi/2."""
     p = pack(oscillator, damper, frequency)
     begin = strobe_map.strobe_time(p)
     times = np.array([begin + periods * 2 * np.pi / p[FREQUENCY]])

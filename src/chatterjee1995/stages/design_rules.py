@@ -1,7 +1,7 @@
-"""Accuracy of each design rule: the clearance it predicts, compared with the exact optimum.
+"""Accuracy of design rules: the clearance that each predicts, compared with the exact optimum.
 
-The quiet orbit is smallest at the optimum. Its first guess is a straight flight. Clearances
-are given as rm W^2 d0/f (1 by rule (18)), displacements as W^2 Z1/f, with the forcing amplitude f.
+The optimum is the clearance at which the quiet orbit is smallest. A clearance is given as the ratio
+rm W^2 d0/f, which is 1 by rule (18), a displacement as W^2 Z1/f. The forcing amplitude is f.
 """
 
 import itertools
@@ -38,21 +38,22 @@ rule_excess | mass_ratio restitution contact_stiffness frequency rule | | | rela
 )
 
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
-SAMPLES = 1024  # values of Z1 in a cycle for the integral of the first harmonic
+SAMPLES = 1024  # number of values of Z1 in a cycle from which the first harmonic is computed
 SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
-# STEP: relative step downhill. MOST_STEPS: most such steps. PRECISION: error of the optimum ratio.
+# The search goes downhill with the relative step STEP, at most MOST_STEPS times. Then it locates
+# the ratio at the minimum with the error PRECISION.
 STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
-# A minimum is smooth or a kink. From the distance CLOSE to half of CLOSE the rise of a displacement
-# falls to 1/4 at a smooth minimum, and to 1/2 at a kink. KINK is the limit between 1/4 and 1/2.
+# A minimum is smooth or a kink. If the distance from it is halved from CLOSE, the rise of the
+# displacement falls to 1/4 at a smooth minimum, and to 1/2 at a kink. KINK is the limit between.
 CLOSE, KINK = 1e-3, 0.36
-ABSENT = 1e3  # displacement given to a motion that does not exist, for the search
+ABSENT = 1e3  # displacement that the search uses where no orbit exists
 IMPULSES = 400  # number of impulses for which the theory of straight flight is evaluated
 
 
 def design_rules(
     oscillator, mass_ratios, restitutions, contact_stiffnesses, frequencies, *, progress=None
 ):
-    """Return a dataset: optimum clearances and errors of rules, over dampers and frequencies."""
+    """Return a dataset of optimum clearances and of errors of rules, by damper and frequency."""
     given = mass_ratios, restitutions, contact_stiffnesses, frequencies
     axes = {name: np.array(values, float) for name, values in zip(SWEPT, given, strict=True)}
     shape = tuple(map(len, axes.values()))
@@ -88,7 +89,7 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 
 
 class QuietMotion:
-    """The quiet orbit as a function of rm W^2 d0/f, which replaces the clearance of the damper."""
+    """The quiet orbit as a function of the ratio rm W^2 d0/f, which sets the clearance."""
 
     def __init__(self, oscillator, damper, frequency):
         flight = flight_of(oscillator, damper, frequency)
@@ -106,9 +107,9 @@ class QuietMotion:
         self._states /= np.array([[frequency**2, frequency] * 2]).T / self._forcing
 
     def at(self, ratio):
-        """Return max |Z1| and the first harmonic, in units of f/W^2, and |multiplier|.
+        """Return max |Z1| and its first harmonic, both in units of f/W^2, and |multiplier|.
 
-        Without an orbit at this ratio the results are infinity, infinity and NaN.
+        If there is no orbit at this ratio, the results are infinity, infinity and NaN.
         """
         if ratio not in self._known:
             self._known[ratio] = self._orbit(ratio)
@@ -129,7 +130,7 @@ class QuietMotion:
         return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """Return the ratio at the local minimum reached from a guess, and a name of `best_kind`."""
+        """Return the ratio at a local minimum of the criterion near `guess`, and its kind."""
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
         def size(ratio):
@@ -158,7 +159,7 @@ class QuietMotion:
 
 
 def first_harmonic(p, y) -> complex:
-    """Return the complex amplitude c of Re(c exp(i W T)) in Z1; impacts cause errors < 1e-5."""
+    """Return the complex amplitude of the first harmonic of Z1; impacts cause errors < 1e-5."""
     start = strobe_time(p)
     times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[FREQUENCY] * SAMPLES)
     states = states_at(p, y, start, times, POLISH_TOLERANCE)

@@ -40,8 +40,9 @@ decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmon
     """
 )
 
-# MEASURES are errors. Their predicted decrease: powers of 1/N with ELASTIC or INELASTIC contacts,
-# and ANALYTIC rates of exponential decrease without a damper, in units of W `singularity_distance`.
+# MEASURES: names of errors. The other constants are their predicted decrease.
+# ELASTIC, INELASTIC: powers of 1/N for contacts with e = 1, and for contacts with e < 1.
+# ANALYTIC: rates of exponential decrease without a damper, in units of W `singularity_distance`.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
@@ -50,15 +51,16 @@ ANALYTIC = (1.0, 1.0, 1.0, 2.0)
 # STARTS: number of start times in half a forcing cycle.
 # LARGE: |Z1| at which an integration towards the singularity stops, in units of x.
 # LAST_CHANGE: change of the estimated position that ends the search, in units of 1/(x sqrt|k3|).
-# CLOSE: fraction of the estimated distance that the next integration covers.
+# CLOSE: fraction of the estimated distance from real time that the next integration covers.
 STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 
 
 def asymptotic_harmonic(damper, frequency) -> float:
     """Return the harmonic number N above which the predicted powers can hold; 1 without a damper.
 
-    A contact (appendix B) lasts at least the period of such a harmonic. With a dashpot also
-    N >= r1/(c W): here the jump of its force, c Z2', outweighs the jump of the slope, r1 Z2'.
+    A contact (appendix B) lasts at least as long as a period of harmonic N. With a dashpot, N is
+    also at least r1/(c W). Above this number, the jump c Z2' of the force contributes more to a
+    harmonic than the jump r1 Z2' of the slope of the force.
     """
     if damper is None:
         return 1.0
@@ -70,18 +72,17 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Return the predicted decrease of MEASURES with N: kind, and powers of 1/N or rates."""
+    """Return the kind of the predicted decrease of MEASURES, and its powers of 1/N or its rates."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
 
 
 def singularity_distance(p, state) -> float:
-    """Return the distance from real time to a free motion's nearest singularity, inf if linear.
+    """Return the distance of a free motion's nearest singularity from real time, inf if linear.
 
     The motion is integrated along imaginary time. Near a singularity T* the motion is
-    Z1 = sqrt(-2/k3)/(T - T*), so T + Z1/Z1' estimates T*. Integration along a straight line towards
-    the estimate improves it.
+    Z1 = sqrt(-2/k3)/(T - T*), so T + Z1/Z1' estimates T*. Integration towards T* repeats this.
     """
     frequency, (stiffness, cubic) = p[FREQUENCY], cubic_spring(p)
     if cubic == 0:
@@ -131,23 +132,24 @@ def singularity_distance(p, state) -> float:
     return float(min(heights, default=np.nan))
 
 
-SAMPLES = 2**14  # values of Z1 in a cycle of the exact orbit for its Fourier coefficients
-SAME = 1e-6  # largest relative difference of the coefficients of equal solutions
+SAMPLES = 2**14  # number of values of Z1 in a cycle, for Fourier coefficients of the exact orbit
+SAME = 1e-6  # solutions are the same if coefficients differ by at most this fraction of the largest
 ROUNDING = 1e-12  # smallest error used in the fits of the decrease
 FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 
 def ladder(highest) -> np.ndarray:
-    """Return odd numbers N up to `highest`: all to 15, then three in each doubling, to 2^14 - 1."""
+    """Return odd numbers up to `highest`, at most 2^14 - 1: all to 15, then three per doubling."""
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
     return np.unique(chosen[chosen <= highest])
 
 
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
-    """Return a dataset of symmetric motions by harmonic balance, their stability and errors.
+    """Return a dataset of the errors of harmonic balance for a symmetric motion, over N.
 
-    Newton's method starts from the last converged balance; for N in `cold` also from one harmonic.
+    Newton's method starts from the last converged solution. For N in `cold` it is also tried from
+    the solution with one harmonic.
     """
     harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
@@ -184,7 +186,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Return the flag `cold_status` for the balance of the solution `warm`, started at `first`."""
+    """Solve the balance of the solution `warm` again from `first`; return `cold_status`."""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)
@@ -194,7 +196,7 @@ def cold_status(warm, first) -> int:
 
 
 def errors(solutions, multipliers, exact):
-    """Return errors against the exact orbit, shape (4, n): a row for each of MEASURES."""
+    """Return the errors of n solutions against the exact orbit; rows are MEASURES, shape (4, n)."""
     found = np.full((len(MEASURES), len(solutions)), np.nan)
     balance, size = solutions[0].balance, exact.record["maximum_displacement"]
     start = exact.strobe_states[0]
@@ -220,7 +222,7 @@ def errors(solutions, multipliers, exact):
 
 
 def _farthest(values, references):
-    """Pair values and references with the least total distance; return the largest distance."""
+    """Pair values and references at the least total distance; return the largest of a pair."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)
@@ -228,7 +230,7 @@ def _farthest(values, references):
 
 
 def decay_table(harmonics, data, damper, p, exact):
-    """Return the decrease of errors, predicted and fitted above `asymptotic_harmonic`."""
+    """Return variables: the errors' decrease, predicted and fitted above `asymptotic_harmonic`."""
     lowest = asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = decay(damper, p, exact.strobe_states[0])
     scale = np.log(harmonics) if kind == "algebraic" else harmonics

@@ -43,10 +43,10 @@ policy_phase | case frequency policy | angle | | phase Omega T of the release th
 )
 
 POLICIES = ["settled", "hold", "phase", "state"]
-# Fixed numbers of cycles that are tried, each about 1.6 times the one before.
+# Numbers of cycles with the damper on that are tried, each about 1.6 times the one before.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
-# Results of a hold, a time with the damper on. `ahead` cycles later the next strobe has `state`.
+# Results of a hold, a time with the damper on. The next strobe, `ahead` cycles later, has `state`.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
@@ -55,7 +55,7 @@ RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
 class Outcome(NamedTuple):
-    """Results of n trials; `cycles` are those until the goal, infinite without success."""
+    """Results of n trials. `cycles` is the number until the goal is reached, infinite if never."""
 
     reached: np.ndarray
     cycles: np.ndarray
@@ -67,7 +67,7 @@ class Outcome(NamedTuple):
 def release_policies(
     oscillator, dampers, frequencies, *, trials=200, cells=64, seed=1995, settling, workers=1
 ):
-    """Compare policies for each damper and frequency; goal and resonance must have period 1."""
+    """Return a dataset that compares the policies for each damper and frequency."""
     shape = len(dampers), len(frequencies), len(POLICIES)
     data = {
         "policy_success": np.empty((*shape, 3)),
@@ -108,7 +108,7 @@ class Trials(NamedTuple):
     workers: int = 1
 
     def rules(self, trials, seed):
-        """Return the rule (see RULE) of each policy; separate trials choose cycles and phase."""
+        """Return a list with a RULE for each policy. Separate trials choose cycles and phase."""
 
         def costs(rules):
             cycles = [outcome.cycles for outcome in self.run(rules, trials, seed)]
@@ -124,7 +124,7 @@ class Trials(NamedTuple):
         return [(SETTLED, 0.0, 0), best, *chosen]
 
     def run(self, rules, trials, seed):
-        """Return the `Outcome` of trials for each rule; all trials run together to save time."""
+        """Return a list with the `Outcome` of each rule. Trials run together, to save time."""
         generator, limit = np.random.default_rng(seed), float(PAPER_CYCLES)
         owner = self.releases.attractors.owner
         resonance, count = owner[-1], len(rules) * trials
@@ -133,7 +133,7 @@ class Trials(NamedTuple):
         reached, running = np.zeros(count, bool), np.arange(count)
         rules = np.repeat(np.array(rules, RULE), trials)
         while len(running):
-            # Columns: phase and place of switching on, phase of release, index of the start.
+            # Columns: phase and place at switching on, phase of the release, choice of the start.
             draws = generator.random((trials, 4))[running % trials]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first
@@ -168,7 +168,7 @@ class Trials(NamedTuple):
         return held
 
     def labels(self, states):
-        """Return labels of states at a strobe, and cycles to decide them; see `label_states`."""
+        """Return what `label_states` returns for states at a strobe."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
         return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings
@@ -215,7 +215,7 @@ def summary(outcome):
 
 
 def quantile(values, share):
-    """Return a quantile and its approximate 95 % interval, shape (3,), by the binomial law."""
+    """Return a quantile and the ends of its approximate 95 % interval, by the binomial law."""
     ordered, count = np.sort(np.asarray(values, float)), len(values)
     spread = QUANTILE * math.sqrt(count * share * (1 - share))
     places = count * share + np.array([0.0, -spread, spread])

@@ -56,14 +56,14 @@ release_share | damped free_motion bound | | | share of releases that lead to ea
     """
 )
 
-LEAD = 20  # number of first cycles of a run without a release, since the start still matters
+LEAD = 20  # number of first cycles without a release, because the start of a run still matters
 PAPER_CYCLES = 350  # cycles within which the paper's controller reaches the non-resonance branch
-CAPTURE = 0.1  # largest difference in Z1 or Z1' of a run and the orbit that captures the run
+CAPTURE = 0.1  # an orbit has captured a run while their Z1 and Z1' differ by at most this
 # A release: phase in cycles after a strobe (W T = pi/2), Z1 and Z1', and the resulting free motion.
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
 )
-# Names: KINDS of motion with the damper, DESTINATIONS without; the first, "none", is left out.
+# Names of motions with the damper (KINDS) and without (DESTINATIONS), except the first, "none".
 KINDS = list(DAMPED_MOTION)[1:]
 DESTINATIONS = list(FREE_MOTION)[1:]
 
@@ -84,7 +84,7 @@ def migration(
     workers=1,
     progress=None,
 ):
-    """Return a dataset of releases and of controller runs; `example` is the number of one run."""
+    """Return a dataset of releases, and of runs of the controller."""
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
     generators = map(np.random.default_rng, roots[0].spawn(trials))
@@ -116,7 +116,7 @@ def migration(
 
 
 def _example(totals):
-    """Return the index of the first arriving run with the median number of switchings, or 0."""
+    """Return the index of an arriving run with the median number of switchings (0 if none)."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
         return 0
@@ -125,7 +125,7 @@ def _example(totals):
 
 
 def _summary(switchings, totals):
-    """Return shares of runs that arrive, and numbers of releases by motions before and after."""
+    """Return a dict: shares of runs that arrive, and counts of releases by motion before, after."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     within = reached & (totals["total_time"] <= PAPER_CYCLES)
     before, after = switchings["released_from"], switchings["destination"]
@@ -140,16 +140,17 @@ def _summary(switchings, totals):
 
 
 def _release(case, state, wait, settling, stop=NEVER):
-    """Return the RELEASE that switches the damper off `wait` forcing cycles after a strobe."""
+    """Switch the damper off `wait` forcing cycles after a strobe; return the RELEASE."""
     tolerance, limit = settling.tolerance, settling.limit
     path, record = legs.leg(case.on, case.off, state.copy(), wait, 0.0, 0.0, tolerance, limit, stop)
     return wait, *path[0, 1:3], destination(case.known, record)
 
 
 def watch_runs(case, seeds, lifetime, settling, workers, progress):
-    """Return runs with the damper on from the resonance branch, and a release from each run.
+    """Switch the damper on at the resonance branch; return the runs, and a release from each.
 
-    The release lies after strobe LEAD, before `lifetime` or capture by an orbit; NaN if impossible.
+    A release takes place after LEAD cycles, and before an orbit captures the run or `lifetime`
+    cycles have passed. If there is no such time, the release is NaN.
     """
     # Random phase and place of switching on, strobe of the release, and phase after this strobe.
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
@@ -175,7 +176,7 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
 
 
 def _life(p, path, record, tolerance):
-    """Return the cycles after which the path of a run stays within CAPTURE of its final orbit."""
+    """Return the number of cycles after which a run stays within CAPTURE of its final orbit."""
     begin, period = strobe_time(p), 2 * np.pi / p[FREQUENCY]
     strobes = begin + np.arange(record["period"]) * period
     orbit = states_at(p, record["state"], begin, strobes, tolerance)
@@ -186,7 +187,7 @@ def _life(p, path, record, tolerance):
 
 
 def release_data(case, motions, entries, settling):
-    """Return variables of the releases `entries` and of evenly spaced releases from `motions`."""
+    """Return the variables of the releases `entries`, and of evenly spaced ones from `motions`."""
     number = len(entries)
     rows = [entries]
     for record in motions:
@@ -215,7 +216,7 @@ def release_data(case, motions, entries, settling):
 
 
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
-    """Return settled motions sorted by max |Z1|: of `known`, and from (7) and random states."""
+    """Return settled motions, sorted by max |Z1|: those in `known`, and those that runs reach."""
     on = pack(oscillator, damper, frequency)
     # The solutions for elastic contact are good starts for an inelastic damper too.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
@@ -275,7 +276,7 @@ def release_scan(
 
 
 def _scan_records(response):
-    """Return the settled motions of a response at one W, the smallest first, for `release_data`."""
+    """Return the settled motions of a response at one W, the smallest first, as records."""
     keep = response["outcome"].values == flag("outcome", "settled")
     found = np.zeros(np.sum(keep), MOTION)
     for name in ("period", "maximum_displacement", "contacts", "state"):

@@ -38,13 +38,13 @@ own_mended_error | | | | relative error of own_displacement with corrected rigid
 
 THRESHOLDS = (0.01, 0.1)  # relative errors of max |Z1| for which the needed stiffness is stored
 REACH = 0.1  # largest distance of an orbit's state from the state predicted for it
-STIFF = 1e4  # least r1, with short contacts, in the fit of the order of the error
+STIFF = 1e4  # least r1 in the fit of the order of the error, which holds for short contacts
 
 
 def rigid_limit(
     oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling
 ):
-    """Compare rigid with compliant walls; raise ArithmeticError if quiet motions are not found."""
+    """Return a dataset of errors of rigid walls; ArithmeticError if no quiet motion is found."""
     frequencies, stiffnesses = np.array(frequencies, float), np.array(stiffnesses, float)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
     compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)
@@ -67,7 +67,7 @@ def rigid_limit(
 
 
 def _quiet(oscillator, damper, frequency, starts, seed, settling):
-    """Return the quiet orbit to which random starts lead; raise ArithmeticError without one."""
+    """Return the quiet orbit to which random starts lead; raise ArithmeticError if none does."""
     motion, _ = extreme_motions(oscillator, damper, frequency, starts, seed, settling)
     if motion is not None and motion["period"] == 1:
         p = pack(oscillator, damper, frequency)
@@ -97,7 +97,7 @@ def _reached(followed, key):
 
 
 def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
-    """Return the grids of compliant and of rigid orbits, and the rigid orbit at `frequency`."""
+    """Return a grid of compliant and one of rigid orbits, and the rigid orbit at `frequency`."""
 
     def compliant_at(point, guess):
         each = replace(damper, contact_stiffness=float(np.exp(point[1])))
@@ -121,7 +121,7 @@ def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
 
 
 def _errors(oscillator, damper, frequencies, stiffnesses, compliant, rigid):
-    """Return errors of max |Z1| with rigid and corrected walls, and verdicts, for all cells."""
+    """Return a dict: errors of max |Z1| by rigid and by corrected walls, and verdicts, by cell."""
     shape = len(frequencies), len(stiffnesses)
     plain, mended = np.full(shape, np.nan), np.full(shape, np.nan)
     verdict = np.full(shape, flag("rigid_verdict", "neither"))
@@ -147,7 +147,7 @@ def _verdict(soft, hard):
 
 
 def _needed(stiffnesses, errors):
-    """Return interpolated r1 above which |error| stays below each threshold, and its status."""
+    """Return a dict: the r1 above which |error| stays below each threshold, and its status."""
     shape = len(THRESHOLDS), len(errors)
     needed, status = np.full(shape, np.nan), np.full(shape, flag("needed_status", "absent"))
     for j, row in enumerate(np.abs(errors)):

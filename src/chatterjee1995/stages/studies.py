@@ -34,7 +34,7 @@ best_clearance | mass_ratio frequency restitution | | d0 | clearance of the grid
 
 AXES = ("mass_ratio", "clearance", "frequency", "restitution")
 OUTCOMES = tuple(name for name, value in OUTCOME.items() if value >= 0)
-# Results of a cell: numbers of starts with each outcome, and with the quiet orbit; displacements.
+# Results of a cell. The counts are numbers of starts, and the displacements are max |Z1|.
 CELL = np.dtype(
     [
         ("outcome_count", "i4", len(OUTCOMES)),
@@ -60,7 +60,7 @@ def study_chunk(
 ):
     """Return a dataset of the motions to which random starts lead in a chunk of cells.
 
-    `cells` are the number of the first cell of the chunk, and the number after its last cell.
+    `cells` is a pair: the number of the first cell, and the number after that of the last cell.
     """
     axes = {name: np.asarray(axes[name], float) for name in AXES}
     shape, (first, last) = [len(values) for values in axes.values()], cells
@@ -71,7 +71,7 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
-    # Before hours of work, check the ends of the sorted axes, where values out of range would be.
+    # Errors are raised before hours of work. Values out of range are at ends of the sorted axes.
     for end in (0, -1):
         random_states(0, radius, system([end] * len(AXES))[1], seed)
     warn_if_narrow(oscillator, axes["frequency"], radius)
@@ -111,7 +111,7 @@ def _condensed(runs):
 
 
 def gather_chunks(paths, path) -> None:
-    """Write the chunks of a study into one file; BrokenFileError names a chunk that is wrong."""
+    """Join the chunks of a study in one file; raise BrokenFileError if a chunk is wrong."""
     chunks = [load(each) for each in paths]
     head, done = chunks[0], 0
     for chunk, each in zip(chunks, paths, strict=True):

@@ -50,8 +50,8 @@ def subharmonic_suppression(
 ):
     """Return a dataset of motions with the damper over the range of W of the free subharmonic.
 
-    If found, the range with margins replaces the ends of `frequencies`, and within the range half
-    of the starts are on the free subharmonic.
+    If the free subharmonic is found, its range with margins replaces the ends of `frequencies`.
+    Within the range, half of the starts lie on the free subharmonic.
     """
     if oscillator.cubic == 0:
         raise ValueError(
@@ -79,7 +79,7 @@ def subharmonic_suppression(
 
 
 def _switch_half(oscillator, parameters, free, states, seed):
-    """Put half of `states` (n, m, 4) on the free subharmonic; return its max |Z1| (n,) or NaN."""
+    """Put half of `states` (n, m, 4) on the free subharmonic; return max |Z1| of it, or NaN."""
     size = np.full(len(parameters), np.nan)
     half = states.shape[1] // 2
     for i, p in enumerate(parameters):
@@ -96,7 +96,7 @@ def _switch_half(oscillator, parameters, free, states, seed):
 def switched_on(oscillator, p, state, loose, generator):
     """Switch the damper on at random times; return the states at the next W T = 0 mod 2 pi.
 
-    Z2 and Z2' are the last columns of `loose` (m, 4); in every second row Z2' is set to 0.
+    The last columns of `loose` (m, 4) give Z2 and Z2'. In every second row Z2' is set to 0.
     """
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_map.strobe_time(p)
@@ -105,7 +105,7 @@ def switched_on(oscillator, p, state, loose, generator):
     states = traces.states_at(free, state, begin, times, tolerance)
     states[:, 2:] = loose[:, 2:]
     states[::2, 3] = 0.0
-    # the kernel writes a row for each contact, at most one in a step
+    # The kernel writes a row for each contact. A step has at most one.
     sample, log = np.empty((1, 4)), np.empty((traces.STEPS_AT_ONCE, 5))
     for time, y in zip(times, states, strict=True):
         end = np.array([np.ceil(time / period) * period])
@@ -130,7 +130,7 @@ def is_subharmonic(data):
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return both ends of a branch of a `sweep`; for an end not located, its last frequency."""
+    """Return both ends of a branch of a `sweep`: where located, else its outermost frequency."""
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):
@@ -171,7 +171,7 @@ class FreeSubharmonic(NamedTuple):
 def free_subharmonic(
     oscillator, first, last, *, starts=96, radius=None, seed=1995, settling, workers=1
 ) -> FreeSubharmonic:
-    """Find the branch of free symmetric motions of period 3 with the largest number of points."""
+    """Return the branch with the most points of free symmetric motions of period 3."""
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     systems = [(None, value) for value in frequencies]

@@ -99,7 +99,7 @@ class Job:
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Return the result of the stage's function; it gets the `offered` that it accepts."""
+        """Call the stage's function, also with what it takes of `offered`; return the result."""
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}
@@ -186,7 +186,7 @@ def _write_timing(path):
 
 
 def peak_memory() -> float:
-    """Return the peak memory of this process in MB; the fallback `ru_maxrss` may be a parent's."""
+    """Return the peak memory of this process in MB."""
     status = Path("/proc/self/status")
     if status.exists():
         lines = status.read_text().splitlines()

@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def provenance(configuration, root) -> dict:
-    """Return digests, versions, computer, `commit` and `modified` (None outside a repository)."""
+    """Return a dict with the provenance; `commit` and `modified` are None outside a repository."""
     root = Path(root)
     lock = (root / "requirements.lock").read_bytes()
     text = json.dumps(configuration, sort_keys=True)
@@ -43,7 +43,7 @@ def processor() -> str:
 
 
 def _versions(lock):
-    """Return the installed versions of the packages in a lock file."""
+    """Return the versions of impact-damper and of the installed packages in a lock file's text."""
     found = {}
     for name in ["impact-damper", *re.findall(r"^([\w.-]+)==", lock, re.MULTILINE)]:
         try:

@@ -7,7 +7,7 @@ from importlib import import_module
 
 @cache
 def integrators(stage=None) -> dict:
-    """Return the integrators of a stage, or all, as a dict by name in the order of `place`."""
+    """Return a dict of integrators by name, in the order of `place`: those of a stage, or all."""
     modules = [import_module(f"{__name__}.{each.name}") for each in pkgutil.iter_modules(__path__)]
     declared = [each for module in modules for each in module.INTEGRATORS]
     declared.sort(key=lambda each: each.place)

@@ -11,7 +11,7 @@ from impact_damper.kernel.equation import external_force
 from impact_damper.model.packed import FREQUENCY
 
 VERLET, RUNGE_KUTTA_4, MERSON = NUMBERS = range(3)
-BEYOND = 1e3  # least |Z1| + |Z1'| + |Z2'|, or component of a flight, of a run that has diverged
+BEYOND = 1e3  # a run has diverged if |Z1| + |Z1'| + |Z2'|, or a component in a flight, reaches this
 
 
 @kernel
@@ -27,7 +27,7 @@ def forcing(p, t, h):
 
 @kernel_only
 def verlet_step(p, drives, h, y):
-    """Return the state after a step of velocity Verlet, order 2; k2 uses extrapolated speeds."""
+    """Return the state after a step of velocity Verlet, order 2."""
     k1 = rate_by_position(p, drives[0], y)
     x = y[0] + h * (y[1] + 0.5 * h * k1[1])
     z = y[2] + h * (y[3] + 0.5 * h * k1[3])
@@ -123,14 +123,14 @@ class FixedStep(Integrator):
         return self.seen(p, np.concatenate([[[0.0, *state]], ends]), time)
 
     def seen(self, p, ends, time):
-        """Return |Z2| at the `ends` of steps (rows of time and state) and at `time`."""
+        """Return |Z2| at each of the `ends` (rows of time and state), and |Z2| at `time`."""
         last = ends[ends[:, 0] <= time][-1]
         there = np.empty((1, 5))
         fixed_ends(self.number, p, last[1:].copy(), last[0], time - last[0], there)
         return np.abs(ends[:, 3]), abs(there[0, 3])
 
 
-# Limit z = h omega of Runge-Kutta methods: |R(i z)| = 1; a step of y' = i omega y gives R(i z) y.
+# A Runge-Kutta step h of y' = i omega y gives R(i z) y with z = h omega. At the limit |R(i z)| = 1.
 BOTH = "stable_steps", "missed_contacts"
 INTEGRATORS = (
     FixedStep(VERLET, "verlet", "velocity Verlet", 1, BOTH[:1], 2.0),

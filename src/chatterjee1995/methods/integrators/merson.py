@@ -1,4 +1,4 @@
-"""Runge-Kutta-Merson, the paper's method; estimated errors of steps are <= tolerance (1 + |y|)."""
+"""Runge-Kutta-Merson, the paper's method: a step's estimated error is <= tolerance (1 + |y|)."""
 
 import math
 
@@ -12,8 +12,9 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
 # Floating-point operations of a step: five evaluations of the rate, and their combinations.
 STEP_OPERATIONS = 366
-# A run fails if it diverges, if a step must be shorter than SHORTEST, or if steps exceed MOST_STEPS
-# in a call of `advance_merson`, MOST_ENDS in a forcing cycle, or MOST_FLIGHT_ENDS in a flight.
+# A run fails if it diverges, or if a step must be shorter than SHORTEST. It also fails if it takes
+# too many steps. Limits: MOST_STEPS in a call of `advance_merson`, MOST_ENDS in a forcing cycle,
+# MOST_FLIGHT_ENDS in a flight.
 SHORTEST = 1e-12
 MOST_STEPS, MOST_ENDS, MOST_FLIGHT_ENDS = 10**6, 400_000, 10**5
 FIRST = 1e-3  # length of the first step, divided by the forcing period or the time of a flight
@@ -21,7 +22,7 @@ FIRST = 1e-3  # length of the first step, divided by the forcing period or the t
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return the state and error/limit after a step; with `by_position` Z2 determines the wall."""
+    """Return the state after a step, and error/limit. If `by_position`, Z2 determines the wall."""
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
     k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
@@ -41,7 +42,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Return length (<= h) and end state of a step to |Z2| = d0, and the number of steps tried."""
+    """Return the length (<= h) and final state of a step to |Z2| = d0, and the number of tries."""
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])
@@ -77,8 +78,8 @@ def located(p, side, t, h, y, tolerance):
 def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
     """Integrate y in place from t to end, first with a step h. Rows of `ends` get time and state.
 
-    Return the wall in contact (without `locate` always `side`), the length of the next step, the
-    number of accepted steps (-1 if the run failed), and the number of computed steps.
+    Return four numbers: the wall in contact (always `side` without `locate`), the length of the
+    next step, the number of accepted steps (-1 if the run failed), and that of computed steps.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, tries = 0, 0

@@ -17,7 +17,7 @@ UNLIMITED = 2**62  # number of evaluations of the rate that no run reaches
 
 @kernel
 def derivative(t, y, p, side, left):
-    """Return the rate; reduce `left`, the evaluations left, and raise OverflowError below 0."""
+    """Return the rate. Count `left`, the evaluations left, down; raise OverflowError below 0."""
     left[0] -= 1
     if left[0] < 0:
         raise OverflowError("too many evaluations")
@@ -41,7 +41,7 @@ def solved(method, p, y, span, side, tolerance, left, **options):
 
 
 def parts(method, p, start, t, end, tolerance, locate, left):
-    """Yield results of `solve_ivp`; with `locate` a run is divided where contacts begin and end."""
+    """Yield results of `solve_ivp`. If `locate`, a run is divided where contacts begin and end."""
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
     while status == 1:
@@ -57,7 +57,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods, with its operations per evaluation (without rate) and per LU."""
+    """One of SciPy's methods, its operations in an evaluation besides the rate, and in an LU."""
 
     tolerances = "scipy"
     slow = True
@@ -94,9 +94,9 @@ class SciPy(Integrator):
 
 
 # Operations of an evaluation besides the rate, for 4 components. A product with its sum is two.
-# DOP853: for each component about 6 products for the next state, 4 for final values and errors.
-# LSODA: for each component 21 products with sums, to find about 6 derivatives; 2 * 4^2
-#     to solve a system of four equations. The factorisation of its matrix takes 2/3 * 4^3.
+# DOP853: in each component about 6 products for the next state, and 4 for the end and the error.
+# LSODA: in each component 21 products for about 6 derivatives. A system of four equations takes
+#     2 * 4^2 operations to solve. The factorisation (LU) of its matrix takes 2/3 * 4^3.
 INTEGRATORS = (
     SciPy("DOP853", 4, operations=4 * 2 * (6 + 4)),
     SciPy("LSODA", 5, operations=4 * 2 * 21 + 2 * 4**2, factorising=2 * 4**3 // 3),

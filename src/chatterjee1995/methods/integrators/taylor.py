@@ -1,4 +1,4 @@
-"""The event-driven Taylor series of the library, with series of any orders."""
+"""The event-driven Taylor series of the library, with any orders of the series."""
 
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
@@ -33,7 +33,7 @@ PARTS = 8  # number of parts of a step; a velocity is assumed to vanish at most 
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Fill `rows` with steps from t towards `end`, update y; return the count, final time, wall."""
+    """Fill `rows` with steps from t towards `end`, update y; return row count, last time, wall."""
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
@@ -63,7 +63,7 @@ def steps_of(orders):
 
 
 def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
-    """Return steps of a run from `start` at t, as rows (see ROWS), and the final state (or NaN)."""
+    """Return the rows of steps of a run from `start` at t, and the final state (NaN on failure)."""
     y, side = start.copy(), side_of(p, start)
     end, parts = t + periods * 2 * np.pi / p[FREQUENCY], []
     while t < end:
