@@ -76,7 +76,7 @@ class Integrator:
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Return |Z2| at step ends up to `end` (unread if `touches` decides), at `time`; or None."""
+        """Return |Z2| at step ends up to `end` (unread if `touches` decides) and at `time`."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
