@@ -18,8 +18,7 @@ from chatterjee1995.workflow.kernels import compiled_kernels
 from impact_damper.command.section import ConfigurationError, check_file
 from impact_damper.kernel.sources import KERNEL, kernel_digest, module_file, sources
 
-# Planning makes many small objects, none of which becomes garbage. Collecting garbage less often
-# than by default saves a fifteenth of the time of a dry run.
+# Planning makes many small objects, none of which becomes garbage. Collecting it rarely saves time.
 gc.set_threshold(100_000)
 
 ROOT = Path(str(workflow.current_basedir)).parents[1]
@@ -27,8 +26,7 @@ ENVIRONMENT = str(ROOT / "workflow/envs/impact-damper.yaml")
 # Jobs that need compiled kernels (functions compiled by numba) wait for this marker file. With
 # `ancient` a new date of the file reruns no job.
 KERNELS = ancient("<results>/kernels.compiled")
-# Rules are cacheable only with the option `--cache`, because without it Snakemake prints a line for
-# each cacheable rule.
+# Without the option `--cache` no rule is cacheable: Snakemake would print a line for each.
 SHARED = workflow.workflow_settings.cache is not None
 
 
@@ -104,7 +102,7 @@ def data(stage, names=None):
 
 
 def inputs(stage):
-    """Return the inputs of the rule of a stage, except its code and with compiled kernels."""
+    """Return the inputs of a stage's rule besides its code; KERNELS if the stage uses kernels."""
     files = {key: local(ROOT / path) for key, path in stage.files.items()}
     files |= {key: partial(read_by, stage.name, key) for key in stage.reads}
     function = module_file(stage.function.split(":")[0])
@@ -235,10 +233,7 @@ def write_provenance():
 
 
 def compile_again():
-    """Compile the kernels if their sources were edited since the marker file was written.
-
-    The marker file holds a digest of the sources.
-    """
+    """Compile the kernels if the digest of their sources differs from that in the marker file."""
     orders = settings.comparison.orders
     marker, now = Path(settings.results) / "kernels.compiled", compiled_kernels(orders)
     if not marker.exists() or marker.read_bytes() == now.encode():

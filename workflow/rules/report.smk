@@ -8,8 +8,7 @@ rule tables:
         [table_files(chapter) for chapter in PAPER],
 
 
-# One job makes all figures and tables of a chapter, because starting a job takes longer than
-# drawing a figure.
+# One job draws a whole chapter, because starting a job takes longer than drawing a figure.
 for chapter in filter(chapter_files, CHAPTERS):
 
     rule:

@@ -105,7 +105,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield label, tolerance, `Run` and its cycles. A slow integrator runs for `slow_periods`."""
+    """Yield label, tolerance, `Run`, and number of cycles (`slow_periods` if slow) of each run."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:

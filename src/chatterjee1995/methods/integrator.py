@@ -41,10 +41,9 @@ class Integrator:
     number of steps in a cycle if steps are `fixed`, and otherwise a tolerance.
 
     Figures show integrators in the order of `place`. For each stage in `compared`, an integrator
-    defines one of the methods in REQUIRED. The stage `accuracy` reads `located`, the values of
-    `locate` to run, `tolerances`, a name in `labels.TOLERANCE_KEYS`, and `slow`, true if runs are
-    limited. The stage `stable_steps` reads `stability_limit`, the largest product of step and
-    undamped frequency of a stable motion.
+    defines one of the methods in REQUIRED. For the stage `accuracy`, `located` holds the values of
+    `locate`, `tolerances` is one of `labels.TOLERANCE_KEYS`, and `slow` says if runs are limited.
+    For `stable_steps`, `stability_limit` is the largest stable step times undamped frequency.
     """
 
     REQUIRED: ClassVar = {
@@ -76,11 +75,11 @@ class Integrator:
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Return |Z2| at step ends up to `end` (unread if `touches` decides) and at `time`."""
+        """Return |Z2| at step ends (if `touches` is None) and |Z2| at `time`; or None."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return for each wall at `levels` if it is touched; None if |Z2| of `flight` decides."""
+        """Return for each of `levels` whether a wall there is touched; None if `flight` decides."""
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
         """Return max |Z1| in each cycle of `steps` equal steps, NaN once the run has diverged."""

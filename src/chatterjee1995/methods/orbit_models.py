@@ -33,7 +33,7 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory import single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
 
-# Operations to find all solutions. FULL_WORK: of (7). RIGID_WORK: of (14), with rigid walls.
+# FULL_WORK: operations that find all solutions of (7). RIGID_WORK: the same for (14).
 FULL_WORK, RIGID_WORK = 100 * 130 + 10 * 32**3, 10 * (6**3 + 5**3) + 6 * 10 * 12
 REACH = 10.0  # largest change of a component of a rigid orbit's state from the first guess
 
@@ -88,7 +88,7 @@ def of_coefficients(balance, coefficients, work):
 
 
 def rigid_balance(oscillator, damper, frequency, state):
-    """Return the `Model` by (13) and (14) with Z1, Z1' nearest to `state`; it requires e = 1."""
+    """Return the `Model` by (13) and (14) whose Z1, Z1' are nearest to `state`; e must be 1."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
     roots = single_harmonic.rigid_solutions(oscillator, damper, frequency)
@@ -104,7 +104,7 @@ def rigid_balance(oscillator, damper, frequency, state):
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """Return the `Model` by (7) with Z1, Z1' nearest to `state`; a damper must have e = 1."""
+    """Return the `Model` by (7) whose Z1, Z1' are nearest to `state`; a damper must have e = 1."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
@@ -114,7 +114,7 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return coefficients of the solution of (7), for e = 1, nearest to `state`, and the work."""
+    """Return two: coefficients (or None) of the solution of (7) nearest to `state`, and work."""
     if damper is None:
         work = 2 * 10 * 3**3
         solutions = free_solutions(oscillator, frequency)

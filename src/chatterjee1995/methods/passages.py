@@ -15,7 +15,7 @@ TOLERANCE = 1e-15  # tolerance of the Taylor series
 
 
 class Passage(NamedTuple):
-    """A forcing cycle without walls from `state` at T = 0; time, size and |Z2''| of max |Z2|."""
+    """A cycle without walls from `state` at T = 0. Time, size and |Z2''| are those of max |Z2|."""
 
     state: np.ndarray
     time: float
@@ -25,7 +25,7 @@ class Passage(NamedTuple):
 
 @kernel
 def largest_of_flight(p, y, t, end):
-    """Move y from t to end; return time, size and |Z2''| (0 if at t or end) of the largest |Z2|."""
+    """Integrate y from t to end; return time, size and |Z2''| (0 at both ends) of max |Z2|."""
     work = workspace()
     flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
     c = np.zeros(FLIGHT_ORDER + 1)
@@ -68,7 +68,7 @@ def without_walls(p):
 
 
 def draw_passages(p, count, radius, deepest, seed) -> list:
-    """Return a list of as many passages as `count`, whose states at T = 0 are random in a ball.
+    """Return a list of `count` passages, whose states at T = 0 are random in a ball.
 
     A passage is kept if max |Z2| exceeds 2 `deepest`, and |Z2| + `deepest` at both ends.
     """

@@ -38,7 +38,7 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
 
 
-# Phase W T of the states. There is no contact: contacts lie at about -0.2 to pi/2, and pi later.
+# Phase W T of the states. No contact occurs then: contacts lie at -0.2 to pi/2, and pi later.
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between cells, divided by their distance
@@ -146,9 +146,8 @@ def _end(followed):
 # Ratio rm W^2 d0/f by (18) with 8 d0/pi^2 in place of d0. This is the first harmonic of Z2 if the
 # loose mass flies straight between rigid walls, and the primary mass is at rest.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# IMPULSE: impulse q with which |x| is equal at the impact and at the turning point, for e = 1, no
-# damping and no stiffness. TURN: phase of the turning point. The equations are
-# q - 1 = cos(TURN) - q + 2 q TURN/pi and sin(TURN) = 2 q/pi.
+# Impulse q with which |x| is equal at impact and turning point, and phase phi of the turning point,
+# if e = 1 without damping and stiffness: q - 1 = cos(phi) - q + 2 q phi/pi, sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 # CRITERIA: quantities of Z1, each with an optimum clearance that minimises it.
 # RULES: rules for the optimum clearance, see `rule_ratios`.
@@ -157,7 +156,7 @@ RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return the optimum rm W^2 d0/f by CRITERIA, to first order in `contact` and `damping`."""
+    """Return the optimum rm W^2 d0/f of both CRITERIA, to first order in `contact`, `damping`."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
@@ -172,8 +171,8 @@ def least_harmonic_ratio(flight) -> float:
     """Return rm W^2 d0/f at which the first harmonic of Z1 is smallest.
 
     Forcing and impulses together have the first harmonic 1 - c q exp(-i p). Here c = 8/pi^2, and p
-    is the lag of the impact behind the largest force. With sin(u) = q L/A (see `Flight`) and
-    n = u - p, the modulus is smallest where tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
+    is the lag of the impact behind the maximum of the forcing. Let sin(u) = q L/A (see `Flight`)
+    and n = u - p. The modulus is smallest where tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
     """
     factor = 8 / np.pi**2
     loss = flight.loss
@@ -189,7 +188,7 @@ def rule_ratios(oscillator, damper, frequency):
 
     `balance` is rule (18), and `gap_harmonic` is FIRST_HARMONIC_RATIO. `straight_flight` is the
     optimum of a straight flight between rigid walls. `elastic` adds the duration of contacts and
-    damping, to first order; NaN if e < 1. `flight` adds duration, damping and stiffness.
+    damping to first order, and is NaN if e < 1. `flight` adds duration, damping and stiffness.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

@@ -94,7 +94,7 @@ def without_dashpot(p):
 
 
 class RigidOrbit(NamedTuple):
-    """A symmetric orbit of two impacts; `speed` and `acceleration` are those before an impact."""
+    """A symmetric orbit, two impacts a cycle. `speed`, `acceleration`: values before an impact."""
 
     state: np.ndarray
     multiplier: complex

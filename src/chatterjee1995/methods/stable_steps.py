@@ -95,7 +95,7 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Fit log(1/step) over log r1 for r1 >= STIFF; return slope and its error, or NaN twice."""
+    """Fit log(1/step) over log r1 for r1 >= STIFF; return slope and error, NaN from < 3 steps."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan

@@ -69,7 +69,7 @@ HIGH = 0.5  # motions below this fraction of the free resonance amplitude are lo
 
 
 class Cells(NamedTuple):
-    """Solutions of harmonic balance in all cells of a map, and states at T = 0 that start runs.
+    """Solutions of harmonic balance in all cells of a map, and start states of runs at T = 0.
 
     `resonance` is the amplitude on the free resonance branch or, beyond the branch, at its end.
     Without a solution its amplitude and its start are NaN. Only `high_start` then lies on the free
@@ -101,7 +101,7 @@ def balance_cells(rows) -> Cells:
 
 
 def _cell(oscillator, damper, frequency):
-    """Return the `Cells` of a single cell, with one entry in place of each array."""
+    """Return the `Cells` of a single cell, with a number or a state in place of each array."""
     free, phase = _resonance(oscillator, frequency)
     high_start = np.full(4, np.nan)
     if phase is not None:
@@ -136,7 +136,7 @@ def _cell(oscillator, damper, frequency):
 
 @lru_cache(4096)
 def _solutions(oscillator, damper, frequency):
-    """Return the solutions of (7) and their growth rates; both are the same for all e."""
+    """Return the solutions of (7), and their growth rates."""
     solutions = impacting_solutions(oscillator, damper, frequency)
     return solutions, growth_rate(fixed_points(solutions), oscillator, damper, frequency)
 

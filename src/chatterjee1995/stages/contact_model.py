@@ -40,7 +40,7 @@ contact_load | contact | | | load at the beginning of a contact
 
 LINEAR = 1e-3  # |G| below which the loads of the map are spaced almost evenly
 CLOSE, FAIR = 0.01, 0.05  # largest relative errors of a "close" and of a "fair" restitution
-SIZES = ("smallest", "largest")  # simulated motions at each restitution and frequency
+SIZES = ("smallest", "largest")  # names of the simulated motions, see `extreme_motions`
 
 
 def contact_model(

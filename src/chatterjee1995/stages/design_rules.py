@@ -107,7 +107,7 @@ class QuietMotion:
         self._states /= np.array([[frequency**2, frequency] * 2]).T / self._forcing
 
     def at(self, ratio):
-        """Return max |Z1| and its first harmonic, both in units of f/W^2, and |multiplier|.
+        """Return max |Z1| and the first harmonic of Z1, both in units of f/W^2, and |multiplier|.
 
         If there is no orbit at this ratio, the results are infinity, infinity and NaN.
         """

@@ -50,7 +50,7 @@ ANALYTIC = (1.0, 1.0, 1.0, 2.0)
 # Search for a singularity, with the forcing amplitude f and x = (f/|k3|)^(1/3):
 # STARTS: number of start times in half a forcing cycle.
 # LARGE: |Z1| at which an integration towards the singularity stops, in units of x.
-# LAST_CHANGE: change of the estimated position that ends the search, in units of 1/(x sqrt|k3|).
+# LAST_CHANGE: a smaller change of the last time ends the search, in units of 1/(x sqrt|k3|).
 # CLOSE: fraction of the estimated distance from real time that the next integration covers.
 STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 
@@ -82,7 +82,7 @@ def singularity_distance(p, state) -> float:
     """Return the distance of a free motion's nearest singularity from real time, inf if linear.
 
     The motion is integrated along imaginary time. Near a singularity T* the motion is
-    Z1 = sqrt(-2/k3)/(T - T*), so T + Z1/Z1' estimates T*. Integration towards T* repeats this.
+    Z1 = sqrt(-2/k3)/(T - T*), so T + Z1/Z1' estimates T*. Integrating towards T* improves this.
     """
     frequency, (stiffness, cubic) = p[FREQUENCY], cubic_spring(p)
     if cubic == 0:
@@ -222,7 +222,7 @@ def errors(solutions, multipliers, exact):
 
 
 def _farthest(values, references):
-    """Pair values and references at the least total distance; return the largest of a pair."""
+    """Pair values and references at the least total distance; return the largest distance."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)

@@ -125,7 +125,7 @@ def _example(totals):
 
 
 def _summary(switchings, totals):
-    """Return a dict: shares of runs that arrive, and counts of releases by motion before, after."""
+    """Return shares of runs that arrive, and counts of releases by motions before and after."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     within = reached & (totals["total_time"] <= PAPER_CYCLES)
     before, after = switchings["released_from"], switchings["destination"]

@@ -19,8 +19,7 @@ from pathlib import Path
 
 import psutil
 
-# Collect garbage only after 10 000 new objects, which is rarer than by default. Objects made by
-# imports stay until the end, and a job makes few other objects.
+# Collect garbage more rarely than by default: objects of imports stay, and a job makes few others.
 gc.set_threshold(10_000)
 
 # Seconds between checks that Snakemake is alive. A new run of Snakemake takes longer than LOOK to
@@ -99,7 +98,7 @@ class Job:
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Call the stage's function, also with what it takes of `offered`; return the result."""
+        """Call the stage's function, with those of `offered` that it takes; return its result."""
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}

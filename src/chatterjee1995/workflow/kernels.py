@@ -21,8 +21,7 @@ def compile_all(processes, orders) -> None:
     from chatterjee1995.workflow.job import end_with_parent
     from impact_damper.command.warm_up import warm_up_orbits, warm_up_settling
 
-    # Compilation makes little garbage, and collection would take a fifth of the time. Forked
-    # processes inherit this setting.
+    # Collecting the little garbage would take a fifth of the time. Forked processes inherit this.
     gc.disable()
     fork = get_context("fork")
     with ProcessPoolExecutor(processes, fork, initializer=end_with_parent) as pool:

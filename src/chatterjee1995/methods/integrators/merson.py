@@ -12,9 +12,8 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
 # Floating-point operations of a step: five evaluations of the rate, and their combinations.
 STEP_OPERATIONS = 366
-# A run fails if it diverges, or if a step must be shorter than SHORTEST. It also fails if it takes
-# too many steps. Limits: MOST_STEPS in a call of `advance_merson`, MOST_ENDS in a forcing cycle,
-# MOST_FLIGHT_ENDS in a flight.
+# A run fails if it diverges, needs a step below SHORTEST, or takes too many steps: MOST_STEPS in a
+# call of `advance_merson`, MOST_ENDS in a forcing cycle, or MOST_FLIGHT_ENDS in a flight.
 SHORTEST = 1e-12
 MOST_STEPS, MOST_ENDS, MOST_FLIGHT_ENDS = 10**6, 400_000, 10**5
 FIRST = 1e-3  # length of the first step, divided by the forcing period or the time of a flight
