@@ -62,7 +62,7 @@ def check(archive, job):
 
 
 def names(linked):
-    """Return the names of the entities to which a property links, one or several."""
+    """Return the names of the entities in a link or in a list of links."""
     return [unquote(each["@id"]) for each in (linked if isinstance(linked, list) else [linked])]
 
 

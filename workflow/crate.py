@@ -34,7 +34,7 @@ UNITS = {"seconds": "SEC", "cpu_seconds": "SEC", "peak_memory_mb": "MegaBYTE"}
 
 
 def entity(name, kind, /, **properties):
-    """Return an entity without None and empty lists; a list of one value becomes this value."""
+    """Return an entity without None and empty lists. A list of one value becomes the value."""
     given = {key: value for key, value in properties.items() if value not in (None, [])}
     for key, value in given.items():
         if isinstance(value, list) and len(value) == 1:

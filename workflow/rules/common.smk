@@ -184,8 +184,8 @@ def table_files(chapter):
 def target_files(stage):
     """Return the files that the target of a stage makes.
 
-    These are its datasets and, if the stage is not part of the paper, also its pages, and the
-    figures and tables of the chapters beside the paper that show it.
+    These are its datasets. If the stage is not part of the paper, they are also its pages, and the
+    figures and tables that show it in chapters beside the paper.
     """
     if STAGES[stage].paper:
         return data(stage)
@@ -201,7 +201,7 @@ def page_files(stage):
 
 
 def in_report(chapter, folder, name, kind):
-    """Return a file that Snakemake's report shows, with the caption by the job of the chapter."""
+    """Return a file for Snakemake's report, with the caption that the chapter's job writes."""
     return report(
         f"<results>/{folder}/{name}.{kind}",
         caption=os.path.abspath(f"{settings.results}/{folder}/{name}.rst"),

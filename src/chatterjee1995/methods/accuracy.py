@@ -64,7 +64,7 @@ class ComparisonScene(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """Results of a run in 80-bit arithmetic, taken as exact; names mean the same as in `Run`."""
+    """Results of a run in 80-bit arithmetic, taken as exact. Fields mean the same as in `Run`."""
 
     state: np.ndarray
     contact_times: np.ndarray

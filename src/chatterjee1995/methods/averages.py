@@ -1,4 +1,4 @@
-"""Averages of a chaotic motion with standard errors, from means over batches of forcing cycles."""
+"""Averages and standard errors of a chaotic motion, from means over batches of forcing cycles."""
 
 import math
 

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.fft import next_fast_len
 from scipy.optimize import brentq
 
-SHORTEST = 1e-9  # width in radian below which the search for crossings halves no interval
+SHORTEST = 1e-9  # the search for crossings halves no interval narrower than this (in radian)
 
 
 def samples(coefficients, harmonics, count) -> np.ndarray:
@@ -19,18 +19,18 @@ def samples(coefficients, harmonics, count) -> np.ndarray:
 
 
 def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
-    """Return the derivative of some order of a series at angles. Order 0 is the series itself."""
+    """Return a derivative of a series at given angles. Order 0 is the series itself."""
     weights = 2 * (1j * harmonics) ** order * coefficients
     return (np.exp(1j * np.multiply.outer(angle, harmonics)) @ weights).real
 
 
 def product_samples(harmonics, degree) -> int:
-    """Return a number of samples that gives exact `harmonics` of a product of `degree` series."""
+    """Return a number of samples for exact `harmonics` of a product of `degree` series."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 
 def largest(coefficients, harmonics) -> float:
-    """Return the maximum of |z(s)|, by Newton's method for z'(s) = 0 from the largest samples."""
+    """Return the maximum of |z(s)|. Newton's method for z'(s) = 0 starts at the largest samples."""
     count = next_fast_len(16 * int(harmonics[-1]) + 64)
     size = np.abs(samples(coefficients, harmonics, count))
     top = np.flatnonzero((size >= np.roll(size, 1)) & (size >= np.roll(size, -1)))

@@ -23,7 +23,7 @@ def follow_line(
         1.0,
         orbit,
         shortest=shortest,
-        growth=2.0 if extrapolating else 1.0,  # powers of 2: fractions add up to exactly 1
+        growth=2.0 if extrapolating else 1.0,  # powers of 2 add up to exactly 1
         extrapolating=extrapolating,
         behind=behind,
     )

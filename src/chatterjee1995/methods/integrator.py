@@ -1,4 +1,4 @@
-"""The interface of integrators, and the contacts and peaks of a run from the ends of its steps."""
+"""The interface of integrators; contacts and peaks of a run, found from the ends of its steps."""
 
 from typing import ClassVar, NamedTuple
 

@@ -134,7 +134,7 @@ def _convolution(coefficients, harmonics):
 
 
 def _real(by_value, by_conjugate):
-    """Return the matrix of dz -> by_value dz + by_conjugate conj(dz), for (Re dz, Im dz)."""
+    """Return the matrix that maps (Re dz, Im dz) like dz -> by_value dz + by_conjugate conj(dz)."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
 
@@ -190,7 +190,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return coefficients of the smallest solution of (7), or of the largest without damper."""
+    """Return coefficients of the smallest solution of (7) or, without a damper, of the largest."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2

@@ -63,7 +63,7 @@ class QuietOrbits(NamedTuple):
 
 
 def straight_flight_end(oscillator, clearance, restitution) -> float:
-    """Return W at the fold of quiet orbits for straight flights between impacts, or infinity.
+    """Return W at the fold of quiet orbits with straight flights, or infinity without a fold.
 
     At the fold W^2 d0/f is sqrt(1 + k^2) with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2.
     """
@@ -143,8 +143,8 @@ def _end(followed):
     return fraction, followed.status
 
 
-# Ratio rm W^2 d0/f by (18) with 8 d0/pi^2 in place of d0. This is the first harmonic of Z2 if the
-# loose mass flies straight between rigid walls, and the primary mass is at rest.
+# Ratio rm W^2 d0/f by (18) with 8 d0/pi^2 in place of d0: 8 d0/pi^2 is the first harmonic of Z2 if
+# the loose mass flies straight between rigid walls, and the primary mass is at rest.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # Impulse q with which |x| is equal at impact and turning point, and phase phi of the turning point,
 # if e = 1 without damping and stiffness: q - 1 = cos(phi) - q + 2 q phi/pi, sin(phi) = 2 q/pi.

@@ -1,4 +1,4 @@
-"""The largest equal steps with which methods keep max |Z1| of the quiet motion, over r1."""
+"""The largest equal steps with which methods keep max |Z1| of quiet motions, as functions of r1."""
 
 import itertools
 import math

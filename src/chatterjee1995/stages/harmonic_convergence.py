@@ -134,7 +134,7 @@ def singularity_distance(p, state) -> float:
 
 SAMPLES = 2**14  # number of values of Z1 in a cycle, for Fourier coefficients of the exact orbit
 SAME = 1e-6  # solutions are the same if coefficients differ by at most this fraction of the largest
-ROUNDING = 1e-12  # smallest error used in the fits of the decrease
+ROUNDING = 1e-12  # only larger errors are used in the fits of the decrease
 FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 
@@ -146,7 +146,7 @@ def ladder(highest) -> np.ndarray:
 
 
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
-    """Return a dataset of the errors of harmonic balance for a symmetric motion, over N.
+    """Return a dataset of the errors of harmonic balance for a symmetric motion, by N.
 
     Newton's method starts from the last converged solution. For N in `cold` it is also tried from
     the solution with one harmonic.

@@ -99,7 +99,7 @@ def study_chunk(
 
 
 def _condensed(runs):
-    """Return the runs in a cell as a row of `CELL`."""
+    """Return the results of the runs in a cell, a row of `CELL`."""
     sizes = runs["maximum_displacement"]
     quiet = is_settled(runs) & is_symmetric_pair(runs)
     return (

@@ -48,7 +48,7 @@ def subharmonic_suppression(
     workers=1,
     progress=None,
 ):
-    """Return a dataset of motions with the damper over the range of W of the free subharmonic.
+    """Return a dataset of motions with the damper in the range of W of the free subharmonic.
 
     If the free subharmonic is found, its range with margins replaces the ends of `frequencies`.
     Within the range, half of the starts lie on the free subharmonic.
@@ -94,7 +94,7 @@ def _switch_half(oscillator, parameters, free, states, seed):
 
 
 def switched_on(oscillator, p, state, loose, generator):
-    """Switch the damper on at random times; return the states at the next W T = 0 mod 2 pi.
+    """Switch the damper on at random times; return states when W T is next a multiple of 2 pi.
 
     The last columns of `loose` (m, 4) give Z2 and Z2'. In every second row Z2' is set to 0.
     """

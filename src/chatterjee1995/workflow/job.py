@@ -69,7 +69,7 @@ def counts(first, last, points):
 
 
 class Job:
-    """A job, described by the variable `snakemake` of its script. It ends soon after Snakemake."""
+    """A job, given by the variable `snakemake` of its script. It ends soon after Snakemake ends."""
 
     def __init__(self, snakemake):
         self.snakemake = snakemake

@@ -16,7 +16,7 @@ def integrators(stage=None) -> dict:
 
 @cache
 def runs_of_accuracy() -> dict:
-    """Return a dict: label of a run of the stage `accuracy` -> integrator and `locate`."""
+    """Return a dict: label of a run in the stage `accuracy` -> pair of integrator and `locate`."""
     return {
         each.label(located): (each, located)
         for each in integrators("accuracy").values()

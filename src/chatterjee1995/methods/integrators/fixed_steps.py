@@ -1,4 +1,4 @@
-"""Methods with equal steps that step over contacts: Runge-Kutta 4, velocity Verlet, Merson."""
+"""Methods with equal steps, which locate no contacts: Runge-Kutta 4, velocity Verlet, Merson."""
 
 import math
 

@@ -17,7 +17,7 @@ UNLIMITED = 2**62  # number of evaluations of the rate that no run reaches
 
 @kernel
 def derivative(t, y, p, side, left):
-    """Return the rate. Count `left`, the evaluations left, down; raise OverflowError below 0."""
+    """Return the rate. `left` counts the evaluations left; below 0 OverflowError is raised."""
     left[0] -= 1
     if left[0] < 0:
         raise OverflowError("too many evaluations")
@@ -57,7 +57,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods, its operations in an evaluation besides the rate, and in an LU."""
+    """One of SciPy's methods, with numbers of operations (see the comment at INTEGRATORS)."""
 
     tolerances = "scipy"
     slow = True
@@ -94,7 +94,7 @@ class SciPy(Integrator):
 
 
 # Operations of an evaluation besides the rate, for 4 components. A product with its sum is two.
-# DOP853: in each component about 6 products for the next state, and 4 for the end and the error.
+# DOP853: in each component about 6 products for the next state, and 4 for result and error.
 # LSODA: in each component 21 products for about 6 derivatives. A system of four equations takes
 #     2 * 4^2 operations to solve. The factorisation (LU) of its matrix takes 2/3 * 4^3.
 INTEGRATORS = (
