@@ -41,9 +41,10 @@ class Integrator:
     number of steps in a cycle if steps are `fixed`, and otherwise a tolerance.
 
     Figures show integrators in the order of `place`. For each stage in `compared`, an integrator
-    defines one of the methods in REQUIRED. For the stage `accuracy`, `located` holds the values of
-    `locate`, `tolerances` is one of `labels.TOLERANCE_KEYS`, and `slow` says if runs are limited.
-    For `stable_steps`, `stability_limit` is the largest stable step times undamped frequency.
+    defines one of the methods in REQUIRED. Three attributes are for the stage `accuracy`: `located`
+    holds the values of `locate`. `tolerances` is one of `labels.TOLERANCE_KEYS`. `slow` is true if
+    the runs are limited. The attribute `stability_limit` is for the stage `stable_steps`. It is the
+    largest stable step times undamped frequency.
     """
 
     REQUIRED: ClassVar = {

@@ -22,7 +22,7 @@ TOLERANCE_KEYS = ("taylor", "merson", "scipy")
 
 
 def method_in_words(label) -> str:
-    """Return the title of the model, integrator or run with a label. Return an unknown label."""
+    """Return the title of the model, integrator or run with a label, or the label if unknown."""
     if label in MODELS:
         return MODELS[label]
     if label in integrators():

@@ -45,7 +45,7 @@ def missed_contacts(
 ):
     """Return a dataset with the numbers of contacts near grazing that integrators find and miss.
 
-    `tolerances` increase. `steps` are numbers of steps in a cycle, for integrators of equal steps.
+    `tolerances` increase. `steps` are numbers of steps per cycle, for integrators with equal steps.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)

@@ -95,7 +95,7 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Fit log(1/step) over log r1 for r1 >= STIFF; return slope and error, NaN from < 3 steps."""
+    """Fit log(1/step) over log r1 for r1 >= STIFF; return slope and error, NaN if < 3 steps."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan
@@ -141,7 +141,7 @@ def _deviations(method, orbits, counts, tested, periods):
 
 
 def _step_data(deviations, tested, sizes, stiffnesses):
-    """Return the largest steps that keep each accuracy, and their slopes as functions of r1."""
+    """Return a dict: largest steps that keep each accuracy, slopes of log(1/step) over log r1."""
     shape = len(deviations), len(stiffnesses), len(ACCURACIES)
     stable = np.empty(shape)
     for m, i, k in np.ndindex(shape):

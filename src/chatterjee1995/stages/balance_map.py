@@ -72,8 +72,8 @@ class Cells(NamedTuple):
     """Solutions of harmonic balance in all cells of a map, and start states of runs at T = 0.
 
     `resonance` is the amplitude on the free resonance branch or, beyond the branch, at its end.
-    Without a solution its amplitude and its start are NaN. Only `high_start` then lies on the free
-    resonance branch, with the loose mass at rest; it is NaN beyond this branch.
+    If a solution is absent, its amplitude and its start are NaN. But `high_start` is then the state
+    on the free resonance branch with the loose mass at rest, and NaN only beyond this branch.
     """
 
     resonance: np.ndarray
@@ -89,7 +89,7 @@ def balance_cells(rows) -> Cells:
     """Solve the harmonic balance (7) in all cells of a map.
 
     The limit is HIGH times `Cells.resonance`. The solution with the smallest |a| is the quiet one
-    if |a| is below the limit. The stable one with the largest |a| is the high one if |a| is not.
+    if |a| is below it. The stable solution with the largest |a| is the high one if |a| is not.
     """
     cells = [
         [_cell(oscillator, damper, frequency) for frequency in frequencies]

@@ -1,7 +1,7 @@
 """Accuracy of design rules: the clearance that each predicts, compared with the exact optimum.
 
 The optimum is the clearance at which the quiet orbit is smallest. A clearance is given as the ratio
-rm W^2 d0/f, which is 1 by rule (18), a displacement as W^2 Z1/f. The forcing amplitude is f.
+rm W^2 d0/f, which is 1 by rule (18), and a displacement as W^2 Z1/f. The forcing amplitude is f.
 """
 
 import itertools
@@ -44,7 +44,7 @@ SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
 # the ratio at the minimum with the error PRECISION.
 STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
 # A minimum is smooth or a kink. If the distance from it is halved from CLOSE, the rise of the
-# displacement falls to 1/4 at a smooth minimum, and to 1/2 at a kink. KINK is the limit between.
+# displacement falls to 1/4 at a smooth minimum, and to 1/2 at a kink. KINK lies between the two.
 CLOSE, KINK = 1e-3, 0.36
 ABSENT = 1e3  # displacement that the search uses where no orbit exists
 IMPULSES = 400  # number of impulses for which the theory of straight flight is evaluated

@@ -139,7 +139,7 @@ FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 
 def ladder(highest) -> np.ndarray:
-    """Return odd numbers up to `highest`, at most 2^14 - 1: all to 15, then three per doubling."""
+    """Return odd numbers up to `highest`: all up to 15, then three in each doubling, up to 2^14."""
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
     return np.unique(chosen[chosen <= highest])

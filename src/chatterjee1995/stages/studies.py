@@ -71,7 +71,7 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
-    # Before hours of work, check the ends of the sorted axes: they would be out of range first.
+    # Before hours of work, check the ends of the sorted axes: values out of range would be there.
     for end in (0, -1):
         random_states(0, radius, system([end] * len(AXES))[1], seed)
     warn_if_narrow(oscillator, axes["frequency"], radius)
