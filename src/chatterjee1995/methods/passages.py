@@ -70,7 +70,7 @@ def without_walls(p):
 def draw_passages(p, count, radius, deepest, seed) -> list:
     """Return a list of `count` passages, whose states at T = 0 are random in a ball.
 
-    A passage is kept if max |Z2| exceeds 2 `deepest`, and |Z2| + `deepest` at both ends.
+    A passage is kept if max |Z2| exceeds 2 `deepest`, and also |Z2| + `deepest` at both ends.
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)

@@ -168,7 +168,7 @@ def _needed(stiffnesses, errors):
 
 
 def _orders(stiffnesses, errors):
-    """Return the exponents n of |error| ~ r1^-n, by least squares over r1 >= STIFF, or NaN."""
+    """Fit |error| ~ r1^-n for r1 >= STIFF by least squares; return the exponents n, or NaN."""
     orders = np.full(len(errors), np.nan)
     for i, row in enumerate(np.abs(errors)):
         used = np.isfinite(row) & (stiffnesses >= STIFF)
