@@ -233,7 +233,7 @@ def write_provenance():
 
 
 def compile_again():
-    """Compile the kernels if the digest of their sources differs from that in the marker file."""
+    """Compile the kernels again if an existing marker file has another digest of their sources."""
     orders = settings.comparison.orders
     marker, now = Path(settings.results) / "kernels.compiled", compiled_kernels(orders)
     if not marker.exists() or marker.read_bytes() == now.encode():
