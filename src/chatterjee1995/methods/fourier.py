@@ -25,7 +25,7 @@ def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
 
 
 def product_samples(harmonics, degree) -> int:
-    """Return a number of samples for exact `harmonics` of a product of `degree` series."""
+    """Return a number of samples that suffices for `harmonics` of a product of `degree` series."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 

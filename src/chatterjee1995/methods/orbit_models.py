@@ -35,7 +35,7 @@ from impact_damper.theory.free_oscillator import free_solutions
 
 # FULL_WORK: operations that find all solutions of (7). RIGID_WORK: the same for (14).
 FULL_WORK, RIGID_WORK = 100 * 130 + 10 * 32**3, 10 * (6**3 + 5**3) + 6 * 10 * 12
-REACH = 10.0  # largest change of a component of a rigid orbit's state from the first guess
+REACH = 10.0  # largest distance of a rigid orbit's state from the first guess, in each component
 
 
 class Model(NamedTuple):

@@ -70,7 +70,7 @@ def one_step(method, p, drives, h, y):
 
 @kernel
 def run_fixed(method, p, start, t, steps, largest):
-    """Run from `start` at t; put the largest |Z1| of each cycle into `largest`, NaN if diverged."""
+    """Run from `start` at t. Fill `largest` with max |Z1| in each cycle, NaN once diverged."""
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
     largest[:] = np.nan
