@@ -46,7 +46,7 @@ POLICIES = ["settled", "hold", "phase", "state"]
 # Numbers of cycles with the damper on that are tried, each about 1.6 times the one before.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
-# Results of a hold (a time with the damper on). `state` is at the next strobe, `ahead` cycles later.
+# Results of a hold, a time with the damper on. `state` is at the next strobe, `ahead` cycles later.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
