@@ -47,8 +47,8 @@ CONTACT_ORDER = 23
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
-    "COSINE SINE KNOWN TURNS ANGLE T Z1 Z1_SLOPE Z1_CURVE Z1_JERK "
-    "DEPTH DEPTH_SLOPE DEPTH_CURVE DEPTH_JERK BOUND CHANGE TAIL FINE SCALE WALL MODE LOW HIGH "
+    "COSINE SINE KNOWN TURNS ANGLE CIRCLE_COSINE CIRCLE_SINE T Z1 Z1_SLOPE Z1_CURVE Z1_JERK "
+    "DEPTH DEPTH_SLOPE DEPTH_CURVE DEPTH_JERK BOUND CHANGE SNAP TAIL FINE SCALE WALL MODE LOW HIGH "
     "NATURAL END_Z1 END_Z1_SLOPE END_DEPTH END_DEPTH_SLOPE "
     "DRAW BASE_COSINE BASE_SINE ACROSS MOST SWAYS SWAY SWAY_SLOPE SWAY_CURVE SWAY_JERK JERK_BOUND "
     "APART PUSH ROUGH SLIDE BEND STICKS STUCK HELD_Z2 LIMIT TURN"
@@ -307,6 +307,7 @@ class Source(Writer):
             # Upper bounds on |g| and |g'|, where g is Z1'' without the force of the wall.
             self.sums("flight_bound", "flight", "LENGTH", bound),
             self.sums("flight_jerk", "flight", "LENGTH", {"JERK_BOUND": "|G'|"}),
+            self.sums("flight_snap", "flight", "T", {"SNAP": "|G''|"}),
             self.sums("contact_jerk", "contact", "LENGTH", {"Z1_JERK": "|G'|"}),
             self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
             # Upper bound on the change of Z1': the sum of the moduli of all terms but the first.
@@ -325,7 +326,7 @@ class Source(Writer):
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
         for number, (result, series) in enumerate(results.items()):
-            start = max(begin, 1 if "'" in series else 0)
+            start = max(begin, series.count("'"))
             last = self.orders[phase] - (2 if "G" in series else 0)
             orders = range(start, last + 1)[:terms]
             coefficients = [self._coefficient(series, k) for k in orders]
@@ -346,8 +347,8 @@ class Source(Writer):
         yield f"{_widened(parts[0])} = part"
 
     def circular(self):
-        """Return a kernel that sums the series COSINES and SINES at ANGLE into COSINE and SINE."""
-        cosine, sine = self.at("COSINE"), self.at("SINE")
+        """Return a kernel that sums the series COSINES and SINES at ANGLE."""
+        cosine, sine = self.at("CIRCLE_COSINE"), self.at("CIRCLE_SINE")
         angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
         if self.lanes == 1:
             both = list(map(_constants, COSINES, SINES))
@@ -361,8 +362,9 @@ class Source(Writer):
         number = self.at(series.strip("'|"), orders[0])
         if len(orders) > 1:
             number = _widened(number)
-        if "'" in series:
-            number = f"{_constants(*map(float, orders))} * {number}"
+        if derivative := series.count("'"):
+            factors = [float(math.perm(k, derivative)) for k in orders]
+            number = f"{_constants(*factors)} * {number}"
         return f"abs({number})" if series.startswith("|") else number
 
     def _wall(self):

@@ -48,12 +48,15 @@ def find_sway(a):
     """Compute SWAY and its first three derivatives at T, if an acceleration across acts."""
     if a[SWAYS] > 0.0:
         for i in range(LANES):
+            a[ANGLE + i] = 0.5 * a[FREQUENCY + i] * a[T + i]
+        find_circle(a)
+        for i in range(LANES):
             t = a[T + i]
             angle = a[FREQUENCY + i] * t
             square = angle * angle
-            sine = math.sin(angle)
-            cosine = math.cos(angle)
-            half = math.sin(0.5 * angle)
+            half = a[CIRCLE_SINE + i]
+            sine = 2.0 * half * a[CIRCLE_COSINE + i]
+            cosine = 1.0 - 2.0 * half * half
             series = (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0))) / 6.0
             series += (square * square) * (square * square) / 39916800.0
             # `first` is (1 - cos x) / x^2, and `second` is (x - sin x) / x^3, for x = `angle`.

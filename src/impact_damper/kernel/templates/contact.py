@@ -112,6 +112,8 @@ def find_contact(a):
     if expected > 0:
         undecided = meet_expected(a)
     if undecided > 0:
+        undecided = exclude_contacts(a)
+    if undecided > 0:
         search_contact(a)
 
 
@@ -131,6 +133,35 @@ def meet_expected(a):
         a[MODE + i] = MET if met else otherwise
         a[T + i] = t + move if met else t
         store_end(a, i, Z1, END_Z1, move, met)
+        undecided += 1 if a[MODE + i] < MET else 0
+    return undecided
+
+
+def exclude_contacts(a):
+    """Set MODE to MISSED in lanes whose loose mass certainly meets no wall in [0, T].
+
+    Return the number of lanes that are still undecided. The cubic polynomial with the values and
+    slopes of Z2 at 0 and T differs from Z2(s T) by at most 16 `most` s^2 (1 - s)^2, where
+    384 `most` = T^4 max |Z2''''|. Each half of the cubic lies between its Bernstein coefficients,
+    and the difference raises these by at most 4/3 `most` (inner), `most` (middle) and 0 (others).
+    """
+    flight_snap(a)
+    undecided = 0
+    for i in range(LANES):
+        t = a[T + i]
+        square = t * t
+        turn = a[FREQUENCY + i] * a[FREQUENCY + i]
+        most = (a[SNAP + i] + turn * a[MOST + i]) * (square * square) / 384.0
+        final, slope = loose_mass(a, i, t)
+        first = a[Y2 + i] + t * a[Y3 + i] / 3.0
+        second = final - t * slope / 3.0
+        middle = 0.5 * (first + second)
+        outer = max(abs(a[Y2 + i] + first), abs(second + final))
+        inner = max(abs(0.5 * (a[Y2 + i] + first) + middle), abs(0.5 * (second + final) + middle))
+        top = abs(0.25 * (a[Y2 + i] + final) + 1.5 * middle)
+        reach = 0.5 * max(outer, max(inner + 8.0 / 3.0 * most, top + 2.0 * most))
+        missed = a[MODE + i] < MET and max(reach, abs(final)) < a[CLEARANCE + i]
+        a[MODE + i] = MISSED if missed else a[MODE + i]
         undecided += 1 if a[MODE + i] < MET else 0
     return undecided
 

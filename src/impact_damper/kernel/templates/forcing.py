@@ -8,13 +8,13 @@ QUARTER_REST = 6.077100506506192e-11
 NEAR = 1e-4
 
 
-def find_forcing(a):
-    """Compute COSINE and SINE of the forcing's phase at the time KNOWN, times the amplitude.
+def find_circle(a):
+    """Compute CIRCLE_COSINE and CIRCLE_SINE, cosine and sine of ANGLE (rad).
 
     Quarter turns are subtracted from the phase, because the series converge fast up to 1/8 turn.
     """
     for i in range(LANES):
-        angle = a[FREQUENCY + i] * a[KNOWN + i]
+        angle = a[ANGLE + i]
         turns = np.floor(angle * (2.0 / math.pi) + 0.5)
         a[TURNS + i] = turns
         a[ANGLE + i] = (angle - turns * QUARTER) - turns * QUARTER_REST
@@ -22,15 +22,25 @@ def find_forcing(a):
     for i in range(LANES):
         t = a[ANGLE + i]
         u = t * t
-        c = 1.0 + u * a[COSINE + i]
-        s = t + t * u * a[SINE + i]
+        c = 1.0 + u * a[CIRCLE_COSINE + i]
+        s = t + t * u * a[CIRCLE_SINE + i]
         half = 0.5 * a[TURNS + i]
         odd = half != np.floor(half)
         half = 0.5 * np.floor(half)
+        sign = 1.0 if half == np.floor(half) else -1.0
+        a[CIRCLE_COSINE + i] = sign * (-s if odd else c)
+        a[CIRCLE_SINE + i] = sign * (c if odd else s)
+
+
+def find_forcing(a):
+    """Compute COSINE and SINE of the forcing's phase at the time KNOWN, times the amplitude."""
+    for i in range(LANES):
+        a[ANGLE + i] = a[FREQUENCY + i] * a[KNOWN + i]
+    find_circle(a)
+    for i in range(LANES):
         amplitude = forcing_amplitude(a, i, LANES)
-        signed = amplitude if half == np.floor(half) else -amplitude
-        a[COSINE + i] = signed * (-s if odd else c)
-        a[SINE + i] = signed * (c if odd else s)
+        a[COSINE + i] = amplitude * a[CIRCLE_COSINE + i]
+        a[SINE + i] = amplitude * a[CIRCLE_SINE + i]
 
 
 def forcing(a):
