@@ -11,7 +11,7 @@ import numpy as np
 from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.equation import acceleration
 from impact_damper.kernel.instances import FLIGHT_ORDER
-from impact_damper.kernel.single import X, workspace
+from impact_damper.kernel.single import X, extremum, workspace
 from impact_damper.kernel.tangents import step_with_tangents
 from impact_damper.model.exit_rules import damping_ratio
 from impact_damper.model.packed import (
@@ -22,7 +22,6 @@ from impact_damper.model.packed import (
     INVERSE_MASS_RATIO,
     pack,
 )
-from impact_damper.motions.records import extremum
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE, strobe_time
 
 # A run stops after this number of impacts in a cycle. If e < 1, infinitely many can follow.

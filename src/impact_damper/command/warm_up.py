@@ -28,7 +28,6 @@ def warm_up_orbits() -> None:
     strobe_map.repeats_sooner(on, np.zeros(4), 1, 1e-9)
     traces.trace(on, np.zeros(4), 0.0, np.zeros(1), 1e-9)
     records.envelope(on[None], np.zeros(1), np.zeros(4), 1e-9)
-    records.follow_peaks(on[None], np.zeros((1, 4)), 1, 1e-9, np.zeros(1), np.zeros(1, bool))
 
     from impact_damper.orbits import segments
     from impact_damper.orbits.continuation import Problem
@@ -56,6 +55,11 @@ def warm_up_settling() -> None:
     batch.enter(pool, 0, pack(OSCILLATOR, DAMPER, FREQUENCY), np.zeros(4), 0, 1e-9)
     batch.send(pool, 0, 0.0, 0.01, False)
     batch.advance_some(pool, places, places.copy())
+
+    from impact_damper.motions import ensemble
+
+    on, stop = pack(OSCILLATOR, DAMPER, FREQUENCY)[None], np.zeros(1, bool)
+    ensemble.follow_peaks(on, np.zeros((1, 4)), 1, 1e-9, np.zeros(1), stop)
 
     from impact_damper.motions import undecided
 

@@ -14,7 +14,7 @@ import numpy as np
 from impact_damper.design.task import NOMINAL
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
-from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETTLED, follow_peaks
+from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETTLED
 from impact_damper.motions.start_states import random_starts
 from impact_damper.motions.steady import run_chunks
 
@@ -26,7 +26,7 @@ KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 STREAMS = "search compared confirmed orbit forces masses repeated shocks searched_again".split()
 # A thread draws the starts of at most DRAWN cells at once, and runs at most FOLLOWED motions at
 # once. At most TOGETHER regimes are run further before bounds are compared again.
-DRAWN, FOLLOWED, TOGETHER = 4, 8, 8
+DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
 # Largest ratio of a record in a regime to the next smaller record.
 APART = 1.3
 # A peak is the largest displacement of a motion in BLOCK cycles. The displacement that a regime
@@ -38,8 +38,9 @@ POOLED, MOST_POOLED = 25_000, 200_000
 # Relative growth of a record that is assumed for each doubling of the cycles up to POOLED.
 MISSING = 0.03
 # A regime is a torus if its largest displacements in QUARTERS parts of the run differ by at most
-# the fraction STEADY. SLACK: largest fraction by which a settled motion exceeds its orbit.
-QUARTERS, STEADY, SLACK = 4, 0.002, 0.001
+# the fraction STEADY, or ROUGH if gaps are only compared. SLACK: largest fraction by which a
+# settled motion exceeds its orbit.
+QUARTERS, STEADY, ROUGH, SLACK = 4, 0.002, 0.01, 0.001
 # Number of cycles in which a motion may still settle before it is run further.
 CHECKED = 100
 
@@ -86,6 +87,9 @@ class Motions:
         Whether the largest displacement of the motion is known.
     peaks : array, shape (m, n)
         Largest displacement of a motion that has settled, record of any other motion.
+    early : array, shape (m, n, QUARTERS)
+        Largest displacement in each quarter of the `Settling.watched` cycles after the first run, 0
+        for a motion that has settled.
     blocks : array of arrays, shape (m,)
         Largest displacement in each block of BLOCK cycles, shape (n, blocks), NaN if not run.
     """
@@ -96,6 +100,7 @@ class Motions:
     states: np.ndarray
     settled: np.ndarray
     peaks: np.ndarray
+    early: np.ndarray
     blocks: np.ndarray
 
     def regimes(self, k) -> list:
@@ -106,15 +111,23 @@ class Motions:
         found = np.split(order, 1 + np.flatnonzero(sizes[1:] > APART * sizes[:-1]))
         return [regime for regime in found if len(regime)]
 
-    def measured(self, k, regime) -> tuple:
-        """Return a regime's displacement, whether it is known, and whether it passed a test."""
+    def measured(self, k, regime, rough=False) -> tuple:
+        """Return a regime's displacement, whether it is known, and whether it passed a test.
+
+        With `rough` the displacement depends less on the number of motions in the regime. Then it
+        serves to compare gaps, and is no bound.
+        """
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
         pooled = BLOCK * np.isfinite(peaks).sum()
         if np.isinf(record):
             return record, True, True
+        unsteady = np.ptp(self.early[k, regime].max(axis=0))
+        if not pooled and unsteady <= (ROUGH if rough else STEADY) * record:
+            return (1 + STEADY) * record, False, False
         if pooled < POOLED:
-            cycles = max(pooled, len(regime) * self.task.effort.settling.watched)
+            count = self.peaks.shape[1] if rough else len(regime)
+            cycles = max(pooled, count * self.task.effort.settling.watched)
             return record * (1 + MISSING * np.log2(max(2, POOLED / cycles))), False, False
         quarters = np.nanmax(peaks, axis=0)
         quarters = [part.max() for part in np.array_split(quarters, QUARTERS)]
@@ -125,11 +138,11 @@ class Motions:
         tested = np.nanmax(peaks[:, middle:]) <= return_level(peaks[:, :middle])
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
-    def numbers(self, k) -> tuple:
+    def numbers(self, k, rough=False) -> tuple:
         """Return two arrays over the starts of cell k: displacement, and whether it is known."""
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
-            sizes[regime], known[regime], _ = self.measured(k, regime)
+            sizes[regime], known[regime], _ = self.measured(k, regime, rough)
         return sizes, known
 
     def bounds(self, rank) -> tuple:
@@ -174,7 +187,8 @@ class Motions:
         number = done.max() or max(QUARTERS, int(np.ceil(POOLED / 2 / BLOCK / len(loud))))
         peaks = np.full((len(self.settled[k]), number), np.nan)
         states = self.states[k, loud]
-        peaks[loud] = peaks_of_blocks(self.task, self.parameters[k], states, number, BLOCK)
+        rows = np.tile(self.parameters[k], (len(loud), 1))
+        peaks[loud] = peaks_of_blocks(self.task, rows, states, number, BLOCK)
         self.states[k, loud] = states
         self.blocks[k] = np.hstack([self.blocks[k], peaks])
         before = np.where(done > 0, self.peaks[k, loud], 0.0)
@@ -210,42 +224,46 @@ def run(task, cells, count, stream, progress=None) -> Motions:
     """Return the motions from `count` random starts at each cell, after a first run."""
     starts = draw_starts(task, cells, count, stream)
     parameters = np.array([task.packed(*cell) for cell in cells])
+    rows, effort = np.repeat(parameters, count, axis=0), task.effort
     records = ensemble.settle(
-        np.repeat(parameters, count, axis=0),
-        starts.reshape(-1, 4),
-        task.hurried,
-        workers=task.effort.workers,
-        progress=progress,
-    ).reshape(len(cells), count)
-    peaks, settled = records["maximum_displacement"], np.isin(records["outcome"], LASTING)
+        rows, starts.reshape(-1, 4), task.hurried, workers=effort.workers, progress=progress
+    )
+    peaks, states = records["maximum_displacement"].copy(), records["state"].copy()
+    settled = np.isin(records["outcome"], LASTING) | np.isinf(peaks)
+    loud = np.flatnonzero(~settled)
+    moving, early = states[loud], np.zeros((len(rows), QUARTERS))
+    cycles = effort.settling.watched // QUARTERS
+    early[loud] = peaks_of_blocks(task, rows[loud], moving, QUARTERS, cycles)
+    peaks[loud], states[loud] = early[loud].max(axis=1), moving
     blocks = np.empty(len(cells), object)
     for k in range(len(cells)):
         blocks[k] = np.empty((count, 0))
+    shape = len(cells), count
     return Motions(
         task=task,
         parameters=parameters,
-        records=records,
-        states=records["state"].copy(),
-        settled=settled | np.isinf(peaks),
-        peaks=peaks.copy(),
+        records=records.reshape(shape),
+        states=states.reshape(*shape, 4),
+        settled=(settled | np.isinf(peaks)).reshape(shape),
+        peaks=peaks.reshape(shape),
+        early=early.reshape(*shape, QUARTERS),
         blocks=blocks,
     )
 
 
-def peaks_of_blocks(task, p, states, number, cycles) -> np.ndarray:
+def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
     """Run motions in blocks; return the largest displacements in them, shape (motions, number).
 
     Each of the `number` blocks has `cycles` forcing cycles and begins at a strobe. `states` change
     in place. Displacements are infinite from an escape on.
     """
     tolerance, stop = task.effort.settling.tolerance, np.zeros(1, bool)
-    peaks, parameters = np.zeros((number, len(states))), np.tile(p, (len(states), 1))
+    peaks = np.zeros((number, len(states)))
 
     def work(part):
-        for k, row in enumerate(peaks):
-            if k:
-                row[part] = np.where(np.isinf(peaks[k - 1, part]), np.inf, 0.0)
-            follow_peaks(parameters[part], states[part], cycles, tolerance, row[part], stop)
+        for row in peaks:
+            given = parameters[part], states[part], cycles, tolerance
+            ensemble.follow_peaks(*given, row[part], stop)
 
     run_chunks(work, len(states), task.effort.workers, None, stop, size=FOLLOWED)
     return peaks.T

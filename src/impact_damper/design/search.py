@@ -10,7 +10,7 @@ import numpy as np
 
 from impact_damper.data.sweeps import runs_of_true
 from impact_damper.design.cells import STREAMS, Cell, run
-from impact_damper.design.promise import MORE, RARE, other_sets
+from impact_damper.design.promise import MORE, other_sets
 from impact_damper.design.task import NOMINAL, Task
 
 # The first search runs STARTS starts at each of at most GAPS gaps and `Task.few(FREQUENCIES)`.
@@ -18,6 +18,8 @@ GAPS, FREQUENCIES, STARTS = 40, 9, 12
 # Near the best gaps at most ROUNDS rounds follow, each with CLOSE_STARTS starts at
 # `Task.few(CLOSE_FREQUENCIES)` and at the worst frequencies so far.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
+# A cell is run again if its displacement exceeds DOUBTED times the largest usual displacement.
+DOUBTED = 1.1
 # Two neighbouring displacements whose ratio exceeds JUMP form a jump. An interval between two gaps
 # is split if the logarithm of their ratio exceeds SMOOTH or, at a jump, FINE.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
@@ -190,7 +192,7 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
     while True:
         worst = table.argmax(axis=1)
         rows = np.arange(len(gaps))
-        rows = rows[(table.max(axis=1) > RARE * usual) & ~known[rows, worst]]
+        rows = rows[(table.max(axis=1) > DOUBTED * usual) & ~known[rows, worst]]
         if not len(rows):
             return table.max(axis=1), *zip(*(conditions[k] for k in worst), strict=True)
         some, turn = [cells[k * len(conditions) + worst[k]] for k in rows], turn + 1
@@ -208,7 +210,8 @@ def _ranks(task, starts):
 
 def _exceeded_by(task, motions, ranks):
     """Return displacements (mm) that `ranks` motions of each cell exceed, shape (ranks, cells)."""
-    sizes = np.array([np.sort(motions.numbers(k)[0]) for k in range(len(motions.peaks))])
+    count = len(motions.peaks)
+    sizes = np.array([np.sort(motions.numbers(k, rough=True)[0]) for k in range(count)])
     return task.millimetres(np.stack([sizes[:, -1 - rank] for rank in ranks]))
 
 

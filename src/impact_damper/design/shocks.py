@@ -54,7 +54,8 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
 
 def convergence_times(task, p, states, promised) -> np.ndarray:
     """Return for each motion the cycles after which it stays below `promised`, or infinity."""
-    peaks = peaks_of_blocks(task, p, states.copy(), LONGEST // BLOCK, BLOCK)
+    rows = np.tile(p, (len(states), 1))
+    peaks = peaks_of_blocks(task, rows, states.copy(), LONGEST // BLOCK, BLOCK)
     loud = peaks > promised
     last = np.where(loud.any(axis=1), loud.shape[1] - np.argmax(loud[:, ::-1], axis=1), 0)
     return np.where(loud[:, -1], np.inf, BLOCK * last)

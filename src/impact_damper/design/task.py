@@ -308,7 +308,7 @@ class Task:
         decay = sum(self.band) * self.machine.mass / self.machine.viscous_damping
         patience = int(np.clip(PATIENT * decay, LEAST_PATIENCE, full.patience))
         limit = int(np.clip(LONG * PATIENT * decay, LEAST_LIMIT, full.limit))
-        return replace(full, patience=patience, limit=limit)
+        return replace(full, patience=patience, limit=limit, watched=1)
 
     @cached_property
     def resonances(self) -> list[float]:

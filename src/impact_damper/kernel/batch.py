@@ -12,6 +12,8 @@ import numpy as np
 from impact_damper.kernel import instances
 from impact_damper.kernel.compiling import aligned, by_address, kernel, kernel_only, pointer
 from impact_damper.kernel.equation import no_return
+from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
+from impact_damper.kernel.single import extremum
 from impact_damper.model import packed
 
 LANES = 16
@@ -41,6 +43,7 @@ class Pool(NamedTuple):
     queues: Indices of the trajectories that wait for a step of each kind; shape (4, m).
     waiting: Number of trajectories in each queue; shape (4,).
     contacts: Contacts begun since the last call of `send`; shape (m,).
+    largest: Largest |Z1| since the last call of `enter`, NaN if not wanted; shape (m,).
     held: Index of the trajectory whose parameters each lane holds, or -1; shape (LANES,).
     a, d: Rows of the step and of its tangents (`instances.rows`).
     """
@@ -52,6 +55,7 @@ class Pool(NamedTuple):
     queues: np.ndarray
     waiting: np.ndarray
     contacts: np.ndarray
+    largest: np.ndarray
     held: np.ndarray
     a: np.ndarray
     d: np.ndarray
@@ -68,6 +72,7 @@ def make_pool(size):
         np.zeros((4, size), np.int64),
         np.zeros(4, np.int64),
         np.zeros(size, np.int64),
+        np.full(size, np.nan),
         np.full(LANES, -1),
         aligned(SIZE),
         aligned(TANGENT_SIZE),
@@ -85,6 +90,7 @@ def enter(pool, m, p, y, side, tolerance):
     numbers[SIDE] = side
     numbers[TOLERANCE] = tolerance
     pool.farthest[m] = no_return(p)
+    pool.largest[m] = np.nan
     for lane in range(LANES):
         if pool.held[lane] == m:
             pool.held[lane] = -1
@@ -164,6 +170,8 @@ def scatter(pool, chosen, count, kind, arrived):
         if touching and kind & 1 == FLIGHT:
             pool.contacts[m] += 1
         length = pool.a[LENGTH * LANES + lane]
+        if pool.largest[m] >= 0.0:
+            raise_largest(pool, m, lane, FLIGHT_ORDER if kind & 1 == FLIGHT else CONTACT_ORDER)
         x, v = numbers[STATE], numbers[STATE + 1]
         gone = not (abs(x) <= pool.farthest[m] or x * v <= 0.0)
         if length >= numbers[LONGEST] or gone:
@@ -175,6 +183,16 @@ def scatter(pool, chosen, count, kind, arrived):
             phase = CONTACT if touching else FLIGHT
             enqueue(pool.queues, pool.waiting, m, (kind & FLIGHT_WITH_TANGENT) + phase)
     return ended
+
+
+@kernel_only
+def raise_largest(pool, m, lane, order):
+    """Raise the largest |Z1| of trajectory m to the largest |Z1| in the step of its lane."""
+    series = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
+    for k in range(order + 1):
+        series[k] = pool.a[_MANY.X + k * LANES + lane]
+    length = pool.a[LENGTH * LANES + lane]
+    pool.largest[m] = extremum(series, order, length, pool.largest[m])
 
 
 @kernel

@@ -36,6 +36,9 @@ FLIGHT_ORDER, CONTACT_ORDER = _ONE.FLIGHT_ORDER, _ONE.CONTACT_ORDER
 _ROWS = rows(FLIGHT_ORDER, CONTACT_ORDER)
 DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 
+# Number of pieces of a step. In each piece at most one turning point of a polynomial is expected.
+PIECES = 8
+
 
 @kernel
 def workspace():
@@ -59,6 +62,49 @@ def polynomial(c, order, t):
         slope = slope * t + value
         value = value * t + c[k]
     return value, slope
+
+
+@kernel
+def extremum(c, order, length, start):
+    """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
+
+    On the interval |polynomial| exceeds its larger end value by at most length^2/8 times the
+    largest second derivative. If this bound exceeds `start`, turning points are searched for.
+    """
+    low, fall = polynomial(c, order, 0.0)
+    high, _ = polynomial(c, order, length)
+    excess, power = 0.0, length
+    for k in range(2, order + 1):
+        power *= length
+        excess += 0.125 * k * (k - 1) * abs(c[k]) * power
+    best = max(start, max(abs(low), abs(high)))
+    if max(abs(low), abs(high)) + excess <= best:
+        return best
+    for piece in range(1, PIECES + 1):
+        t = length * piece / PIECES
+        value, slope = polynomial(c, order, t)
+        best = max(best, abs(value))
+        # In this case the modulus increases at the beginning of the piece and decreases at its end.
+        if slope * fall < 0.0 and value * slope < 0.0:
+            turn = turning_time(c, order, t - length / PIECES, t, fall, slope)
+            best = max(best, abs(polynomial(c, order, turn)[0]))
+        fall = slope
+    return best
+
+
+@kernel_only
+def turning_time(c, order, begin, end, first, last):
+    """Return the time of slope 0 between `begin` and `end`, with the slopes `first` and `last`."""
+    t = begin + (end - begin) * first / (first - last)
+    for _ in range(4):
+        _, slope = polynomial(c, order, t)
+        bend = 0.0
+        for k in range(order, 1, -1):
+            bend = bend * t + k * (k - 1) * c[k]
+        if bend == 0.0:
+            break
+        t = min(max(t - slope / bend, begin), end)
+    return t
 
 
 @kernel_only

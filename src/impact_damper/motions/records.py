@@ -10,7 +10,7 @@ from impact_damper.kernel.instances import CONTACT_ORDER, FLIGHT_ORDER
 from impact_damper.kernel.single import (
     X,
     assign,
-    polynomial,
+    extremum,
     series_of_loose_mass,
     side_of,
     step,
@@ -28,8 +28,6 @@ SYMMETRIC = 1e-6
 SAMPLES = 64
 # Cosine and sine of the phases of these samples.
 COSINE, SINE = (f(STROBE + 2 * np.pi * np.arange(SAMPLES) / SAMPLES) for f in (np.cos, np.sin))
-# Number of pieces of a step. In each piece at most one turning point of a polynomial is expected.
-PIECES = 8
 # Number of windows of an envelope in one call of the kernel. Ctrl-C waits until the call ends.
 AT_ONCE = 1024
 # Argument `stop` of a run that no other thread stops.
@@ -62,49 +60,6 @@ MOTION = np.dtype(
     + [(name, "f8") for name in MEASURED.split()]
     + [("harmonic_displacement", "c16"), ("harmonic_relative", "c16")]
 )
-
-
-@kernel
-def extremum(c, order, length, start):
-    """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
-
-    On the interval |polynomial| exceeds its larger end value by at most length^2/8 times the
-    largest second derivative. If this bound exceeds `start`, turning points are searched for.
-    """
-    low, fall = polynomial(c, order, 0.0)
-    high, _ = polynomial(c, order, length)
-    excess, power = 0.0, length
-    for k in range(2, order + 1):
-        power *= length
-        excess += 0.125 * k * (k - 1) * abs(c[k]) * power
-    best = max(start, max(abs(low), abs(high)))
-    if max(abs(low), abs(high)) + excess <= best:
-        return best
-    for piece in range(1, PIECES + 1):
-        t = length * piece / PIECES
-        value, slope = polynomial(c, order, t)
-        best = max(best, abs(value))
-        # In this case the modulus increases at the beginning of the piece and decreases at its end.
-        if slope * fall < 0.0 and value * slope < 0.0:
-            turn = turning_time(c, order, t - length / PIECES, t, fall, slope)
-            best = max(best, abs(polynomial(c, order, turn)[0]))
-        fall = slope
-    return best
-
-
-@kernel_only
-def turning_time(c, order, begin, end, first, last):
-    """Return the time of slope 0 between `begin` and `end`, with the slopes `first` and `last`."""
-    t = begin + (end - begin) * first / (first - last)
-    for _ in range(4):
-        _, slope = polynomial(c, order, t)
-        bend = 0.0
-        for k in range(order, 1, -1):
-            bend = bend * t + k * (k - 1) * c[k]
-        if bend == 0.0:
-            break
-        t = min(max(t - slope / bend, begin), end)
-    return t
 
 
 @kernel
@@ -310,16 +265,3 @@ def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
             break
         contacts[k] = begun
     return side
-
-
-@kernel
-def follow_peaks(parameters, states, periods, tolerance, largest, stop):
-    """Run motions in place from a strobe; raise `largest` to max |Z1|, infinite after an escape."""
-    work = workspace()
-    for i in range(len(states)):
-        p, y = parameters[i], states[i]
-        side, cycle = side_of(p, y), 2.0 * math.pi / p[FREQUENCY]
-        for _ in range(periods):
-            if stop[0] or largest[i] == math.inf:
-                break
-            side, largest[i], _ = run_window(p, y, side, cycle, largest[i], tolerance, work)

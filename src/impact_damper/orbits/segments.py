@@ -12,16 +12,17 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import (
     CONTACT_ORDER,
     FLIGHT_ORDER,
+    PIECES,
     assign,
     polynomial,
     series_of_loose_mass,
     side_of,
     step,
+    turning_time,
     workspace,
 )
 from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
-from impact_damper.motions.records import PIECES, turning_time
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
 # Orthogonal iteration separates two multipliers only if the ratio of their moduli exceeds APART.
