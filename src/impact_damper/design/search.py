@@ -14,7 +14,7 @@ from impact_damper.design.promise import MORE, other_sets
 from impact_damper.design.task import NOMINAL, Task
 
 # The first search runs STARTS starts at each of at most GAPS gaps and `Task.few(FREQUENCIES)`.
-GAPS, FREQUENCIES, STARTS = 40, 9, 12
+GAPS, FREQUENCIES, STARTS = 80, 5, 10
 # Near the best gaps at most ROUNDS rounds follow, each with CLOSE_STARTS starts at
 # `Task.few(CLOSE_FREQUENCIES)` and at the worst frequencies so far.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
@@ -218,7 +218,7 @@ def _exceeded_by(task, motions, ranks):
 def search(task, progress=None, rounds=ROUNDS) -> Curve:
     """Return the curve over all gaps, refined where displacements are small, most at jumps."""
     curve, few = Curve(task), task.few(FREQUENCIES)
-    gaps = np.geomspace(*task.gap_span, min(GAPS, 3 * task.effort.candidates + 4))
+    gaps = np.geomspace(*task.gap_span, min(GAPS, 6 * task.effort.candidates + 8))
     first = score(task, gaps, few, STARTS, ("search",), progress)
     curve.put(gaps, *first[:2], close=False)
     for turn in range(rounds):

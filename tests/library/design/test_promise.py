@@ -143,7 +143,7 @@ def test_a_rare_motion_is_bounded_with_more_starts(monkeypatch):
         shape = peaks.shape
         settled, blocks = np.ones(shape, bool), np.full(len(cells), None)
         given = np.zeros((len(cells), 1)), np.zeros(shape), np.zeros((*shape, 4))
-        return Motions(task, *given, settled, peaks, blocks)
+        return Motions(task, *given, settled, peaks, np.zeros((*shape, 4)), blocks)
 
     monkeypatch.setattr(promise, "run", made_up)
     made = task(frequencies=41, candidates=4, starts=96)
