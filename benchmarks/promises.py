@@ -58,7 +58,7 @@ EXCITATIONS = ("force", "base_displacement", "unbalance")
 # Cycles of a run: the first LEAD are left out, because transients last up to a thousand cycles. The
 # promise is for motions that last.
 STARTS, FEWER, CYCLES, LEAD = 400, 100, 1500, 1000
-TOLERANCE = 1e-7  # of the other program
+TOLERANCE = 1e-8  # of the other program
 # The sweep: gaps, frequencies and starts, the fewest that bound a share of 95 %.
 GAPS, FREQUENCIES, SWEPT = 40, 7, 59
 # A gap of the sweep that is better than the design by less than a share of BETTER is none.

@@ -105,7 +105,7 @@ def test_a_design_finds_the_good_gap_and_new_starts_of_another_program_keep_its_
     gap, promised = float(found["design_gap"]), float(found["promised_displacement"])
     assert low <= gap <= high and promised < known
     exceeded = [
-        np.sum(~(promises.new_sizes(made, cell, NEW, number, tolerance=1e-6) <= promised))
+        np.sum(~(promises.new_sizes(made, cell, NEW, number, tolerance=1e-8) <= promised))
         for number, cell in enumerate(promises.cells_of(made, found))
     ]
     assert max(exceeded) <= allowed(NEW)
