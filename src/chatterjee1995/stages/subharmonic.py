@@ -12,7 +12,7 @@ from impact_damper.data.variables import register
 from impact_damper.kernel.single import side_of
 from impact_damper.model import packed
 from impact_damper.model.packed import FREQUENCY, pack
-from impact_damper.model.parameters import describe
+from impact_damper.model.parameters import NONLINEAR, describe
 from impact_damper.motions import strobe_map, traces
 from impact_damper.motions.following import record_at
 from impact_damper.motions.simulate import COMPONENTS
@@ -53,7 +53,7 @@ def subharmonic_suppression(
     If the free subharmonic is found, its range with margins replaces the ends of `frequencies`.
     Within the range, half of the starts lie on the free subharmonic.
     """
-    if oscillator.cubic == 0:
+    if not any(getattr(oscillator, name) for name in NONLINEAR):
         raise ValueError(
             "cubic = 0: must not be 0 (without the damper a linear spring has no subharmonic)"
         )
