@@ -87,9 +87,8 @@ class Span(section.Section):
 def span_of(quantity, meaning):
     """Return the model of evenly spaced values of a physical quantity."""
     end = quantity_of(quantity, meaning, above=0)
-    return create_model(
-        "Span", __base__=Span, first=end, last=end, points=points_of("points of the grid")
-    )
+    points = points_of("points of the grid")
+    return create_model("Span", __base__=Span, first=end, last=end, points=points)
 
 
 class Damper(Given):
@@ -238,9 +237,8 @@ def read_machine_file(path) -> dict:
     section.check_file(path)
     given = yaml.load(Path(path).read_bytes(), _Loader)
     if not isinstance(given, dict):
-        raise section.ConfigurationError(
-            f"{Path(path).name}: must have keys with values, such as machine:"
-        )
+        words = "must have keys with values, such as machine:"
+        raise section.ConfigurationError(f"{Path(path).name}: {words}")
     content = DEFAULTS | given
     band, points = content.get("band"), content.pop("frequencies", POINTS)
     if isinstance(band, list):

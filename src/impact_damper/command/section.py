@@ -87,9 +87,8 @@ def number_or_range(model, meaning, **bounds):
     def kind(value):
         return RANGE if isinstance(value, dict | model) else NUMBER
 
-    return Annotated[
-        Annotated[of_number, Tag(NUMBER)] | Annotated[model, Tag(RANGE)], Discriminator(kind)
-    ]
+    either = Annotated[of_number, Tag(NUMBER)] | Annotated[model, Tag(RANGE)]
+    return Annotated[either, Discriminator(kind)]
 
 
 def count(meaning, *, least, most, why=""):
@@ -150,9 +149,8 @@ def entries(model):
     def test(value):
         return isinstance(value, dict) and len(value) > 0
 
-    return Annotated[
-        dict[NAME, model], Allowed("keys with values, with 1 or more entries", test=test)
-    ]
+    words = "keys with values, with 1 or more entries"
+    return Annotated[dict[NAME, model], Allowed(words, test=test)]
 
 
 def _bounds(bounds):
@@ -288,9 +286,8 @@ def check_file(path) -> None:
         root = yaml.compose(Path(path).read_bytes(), Loader=LOADER)
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         reason = " ".join(str(error).replace('in "<byte string>", ', "at ").split())
-        raise ConfigurationError(
-            f"{name}: must be YAML in UTF-8, indented by spaces: {reason}"
-        ) from None
+        words = f"must be YAML in UTF-8, indented by spaces: {reason}"
+        raise ConfigurationError(f"{name}: {words}") from None
     problems, seen, nodes = [], set(), [root]
     while nodes:
         node = nodes.pop()

@@ -73,7 +73,6 @@ def warm_up_settling() -> None:
 
     settling = Settling(patience=100, limit=100, watched=1)
     basins(OSCILLATOR, None, FREQUENCY, cells=2, settling=settling)
-    frequency_response(
-        OSCILLATOR, DAMPER, [FREQUENCY, FREQUENCY + 0.01], starts=1, settling=settling
-    )
+    frequencies = [FREQUENCY, FREQUENCY + 0.01]
+    frequency_response(OSCILLATOR, DAMPER, frequencies, starts=1, settling=settling)
     steady_motion(OSCILLATOR, DAMPER, FREQUENCY, settling=settling)

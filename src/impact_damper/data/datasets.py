@@ -52,12 +52,8 @@ def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
     """
 
     def labelled(items):
-        return {
-            name: variable(name, value[1], value[0])
-            if isinstance(value, tuple)
-            else variable(name, value)
-            for name, value in items.items()
-        }
+        pairs = {name: x if isinstance(x, tuple) else (None, x) for name, x in items.items()}
+        return {name: variable(name, values, dims) for name, (dims, values) in pairs.items()}
 
     found = xr.Dataset(
         labelled(data),
@@ -86,13 +82,10 @@ def in_si(data, machine, damper=None) -> xr.Dataset:
     found = _converted(data, lambda values, unit: values * unit, scales)
     for name in found.variables:
         _name_unit(found[name], _kind(name, data))
-    texts = {
-        "machine": describe_si(machine, damper),
-        "scales": {name: getattr(scales, name) for name in ("length", "time", "mass")},
-    }
-    return found.assign_attrs(
-        {name: json.dumps(value, sort_keys=True) for name, value in texts.items()}
-    )
+    units = {name: getattr(scales, name) for name in ("length", "time", "mass")}
+    facts = {"machine": describe_si(machine, damper), "scales": units}
+    texts = {name: json.dumps(value, sort_keys=True) for name, value in facts.items()}
+    return found.assign_attrs(texts)
 
 
 def from_si(data, scales) -> xr.Dataset:

@@ -53,9 +53,8 @@ def register(table) -> None:
         name, dims, kind, symbol, words = map(str.strip, BAR.split(entry, 4))
         if name in VARIABLES:
             raise ValueError(f"{name}: registered twice")
-        VARIABLES[name] = Variable(
-            tuple(dims.split()), words, symbol, kind or "number", _named_values(values)
-        )
+        flags = _named_values(values)
+        VARIABLES[name] = Variable(tuple(dims.split()), words, symbol, kind or "number", flags)
 
 
 def _named_values(text):

@@ -78,28 +78,22 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
 
     def absorber(log_tuning, log_damping):
         own = 2 * math.pi * linear.natural_frequency * math.exp(log_tuning)
-        return TunedAbsorber(
-            mass=mass, stiffness=mass * own**2, damping=2 * mass * math.exp(log_damping) * own
-        )
+        damping = 2 * mass * math.exp(log_damping) * own
+        return TunedAbsorber(mass=mass, stiffness=mass * own**2, damping=damping)
 
     def highest(logs):
         stiffness, force = _dynamics(linear, absorber(*logs), frequencies)
         return np.max(force / np.abs(stiffness))
 
     # The largest displacement has a kink at the optimum. Methods that use slopes stop too early.
-    return absorber(
-        *differential_evolution(
-            highest, (TUNINGS, DAMPINGS), rng=SEED, tol=TOLERANCE, atol=0, polish=False
-        ).x
-    )
+    given = {"rng": SEED, "tol": TOLERANCE, "atol": 0, "polish": False}
+    return absorber(*differential_evolution(highest, (TUNINGS, DAMPINGS), **given).x)
 
 
 def _frequencies(machine, ratio, band):
     """Return the frequencies (Hz) of the search: over the band or, if None, near the resonance."""
-    damping_ratio = machine.viscous_damping / (
-        2 * math.sqrt(machine.linear_stiffness * machine.mass)
-    )
-    width = min(math.sqrt(ratio) + damping_ratio, 1.0)
+    critical = 2 * math.sqrt(machine.linear_stiffness * machine.mass)
+    width = min(math.sqrt(ratio) + machine.viscous_damping / critical, 1.0)
     ends = 1 + REACH * width * np.array([-1.0, 1.0])
     found = machine.natural_frequency * np.linspace(max(ends[0], 0.1), ends[1], POINTS)
     if band is None:
@@ -145,11 +139,8 @@ def _amplitude(oscillator, stiffness, force):
     hardening = oscillator.hardening
     if hardening == 0:
         return force / abs(stiffness)
-    squares = np.sort(
-        polynomial_roots(
-            [-(force**2), abs(stiffness) ** 2, 2 * hardening * stiffness.real, hardening**2]
-        )
-    )
+    terms = [-(force**2), abs(stiffness) ** 2, 2 * hardening * stiffness.real, hardening**2]
+    squares = polynomial_roots(terms)
     barrier = math.inf
     if hardening < 0:
         barrier = 0.75 * oscillator.linear_frequency**2 / -hardening

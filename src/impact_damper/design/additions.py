@@ -81,9 +81,7 @@ def _force(task, gap, frequency):
 def competitors(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset of responses: machine alone, with a tuned and with the task's absorber."""
     band = task.absorber_band
-    found = absorber_responses(
-        task.machine, task.mass, task.grid, SHARES, band=band, own=task.absorber
-    )
+    found = absorber_responses(task.machine, task.mass, task.grid, band=band, own=task.absorber)
     return found.assign_coords(labelled({}, frequency=task.grid).coords)
 
 

@@ -188,7 +188,7 @@ def answer(task, decide, title, folder, progress) -> xr.Dataset:
 
     An addition that fails with a numerical error is left out, and flagged in `addition_status`.
     """
-    step = Steps(folder, progress).made_from(task.describe())
+    step = Steps(folder, progress, task.describe()).step
     decision = step("decision", decide, task)
     parts, status = [decision], []
     for name, compute in ADDITIONS.items():
@@ -216,16 +216,14 @@ def answer(task, decide, title, folder, progress) -> xr.Dataset:
 
 
 class Steps:
-    """Runs the steps of a design. With a folder, the dataset of each step is kept in a file."""
+    """Runs the steps of a design. With a folder, the dataset of each step is kept in a file.
 
-    def __init__(self, folder, progress):
+    A file is used again if `inputs` and the source files are unchanged.
+    """
+
+    def __init__(self, folder, progress, inputs):
         self.folder, self.progress = None if folder is None else Path(folder), progress
-        self.made = ""
-
-    def made_from(self, inputs):
-        """Return the method `step`. It reuses a file if inputs and source files are unchanged."""
         self.made = json.dumps(inputs | {"sources": _sources()}, sort_keys=True)
-        return self.step
 
     def step(self, name, compute, *given):
         """Return the dataset of `compute`, read from a file that is made from the same inputs."""

@@ -157,10 +157,8 @@ class Task:
         self._set("mass", mass)
         for name, value in mounting(mass, **(self.mount or {})).items():
             self._set(name, value)
-        restitution = check_si(
-            "restitution", self.restitution, "number", **bounds.RESTITUTION_RANGE
-        )
-        self._set("restitution", restitution)
+        restitution, limits = self.restitution, bounds.RESTITUTION_RANGE
+        self._set("restitution", check_si("restitution", restitution, "number", **limits))
         self._check_excitation()
         self._set("band", checked_band(self.machine, self.band, self.resonance))
         self._set("contact_stiffness", self._stiffness())
@@ -180,9 +178,8 @@ class Task:
         if isinstance(self.absorber, Mapping):
             self._set("absorber", TunedAbsorber(**self.absorber))
         if self.absorber is not None and not isinstance(self.absorber, TunedAbsorber):
-            raise TypeError(
-                f"absorber = {bounds.shown(self.absorber)}: must have mass, stiffness and damping"
-            )
+            given = bounds.shown(self.absorber)
+            raise TypeError(f"absorber = {given}: must have mass, stiffness and damping")
         self._check_deviations()
 
     def _set(self, name, value):
@@ -247,9 +244,8 @@ class Task:
         }
         for name, value in self.tolerances.items():
             if name not in VARIED:
-                raise ValueError(
-                    f"tolerances = {bounds.shown(name)}: must be of {', '.join(VARIED)}"
-                )
+                known = ", ".join(VARIED)
+                raise ValueError(f"tolerances = {bounds.shown(name)}: must be of {known}")
             told = f"tolerances[{name!r}]"
             width = absolute_value(value, quantities.get(name))
             if width is not None and name == "gap":
@@ -290,9 +286,8 @@ class Task:
         most = 2 * sizes.max() if len(sizes) else ESCAPING * rules.max()
         if self.gravity:  # the machine may throw the loose mass up to the other wall
             speeds = 1e-3 * self.bare * 2 * math.pi * self.grid
-            most += (
-                1e3 * np.max(speeds[np.isfinite(speeds)], initial=0) ** 2 / 2 / abs(self.gravity)
-            )
+            fastest = np.max(speeds[np.isfinite(speeds)], initial=0)
+            most += 1e3 * fastest**2 / 2 / abs(self.gravity)
         return LEAST_GAP * min(rules.min(), most), most
 
     @cached_property
@@ -369,9 +364,8 @@ class Task:
 
     def rule_gap(self, frequency) -> float:
         """Return the gap (m) that rule (18) of the paper gives at a frequency (Hz)."""
-        force = self.machine.oscillator().forcing_amplitude(
-            self.scales.from_si(frequency, "frequency")
-        )
+        turning = self.scales.from_si(frequency, "frequency")
+        force = self.machine.oscillator().forcing_amplitude(turning)
         return 2 * self.scales.to_si(force, "force") / (self.mass * (2 * math.pi * frequency) ** 2)
 
     def damper(self, gap, factors=NOMINAL) -> MachineDamper:

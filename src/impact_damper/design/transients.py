@@ -75,9 +75,7 @@ def swept_sine(machine, damper, band, rate) -> xr.Dataset:
         runs = [_swept(machine, each, first, turning) for each in (None, damper)]
         frequencies.append(turning)
         sizes.append([1e3 * run for run in runs])
-        ends = [
-            "escaped" if np.isnan(run[-1]) or np.isinf(run[-1]) else "completed" for run in runs
-        ]
+        ends = ["completed" if np.isfinite(run[-1]) else "escaped" for run in runs]
         status.append([flag("sweep_status", end) for end in ends])
     values = {"sweep_frequency": frequencies, "sweep_envelope": sizes, "sweep_status": status}
     return labelled(values, direction=["up", "down"], equipment=list(EQUIPMENT))
@@ -115,9 +113,8 @@ def forced(machine, damper, frequencies):
 
 def ring_down(machine, damper, displacement) -> xr.Dataset:
     """Return a dataset of the unforced decay from a displacement (m), loose mass in mid-gap."""
-    runs, status = zip(
-        *(decay(machine, each, displacement) for each in (None, damper)), strict=True
-    )
+    decays = [decay(machine, each, displacement) for each in (None, damper)]
+    runs, status = zip(*decays, strict=True)
     padded = np.full((len(EQUIPMENT), max(map(len, runs)), 4), np.nan)
     for rows, run in zip(padded, runs, strict=True):
         rows[: len(run)] = run

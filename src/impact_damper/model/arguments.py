@@ -97,9 +97,8 @@ def read_swept_damper(system, damper, frequency) -> Model:
 
 def read_numbers(scales, name, values, kind="number", **bounds) -> np.ndarray:
     """Return a number or a sequence as a dimensionless array; `bounds` are dimensionless too."""
-    return np.array(
-        [scales.read(f"{name}[{i}]", value, kind, **bounds) for i, value in _numbered(values)]
-    )
+    pairs = _numbered(values)
+    return np.array([scales.read(f"{name}[{i}]", value, kind, **bounds) for i, value in pairs])
 
 
 def _numbered(values):
@@ -139,9 +138,7 @@ def read_radius(scales, radius, whole_gap=False) -> float | None:
         if whole_gap:
             raise ValueError("radius = None: must be given with whole_gap; 0 for a machine at rest")
         return None
-    bounds = RADIUS_RANGE
-    if whole_gap:
-        bounds = {"least": 0.0, "most": bounds["most"]}
+    bounds = {"least": 0.0, "most": RADIUS_RANGE["most"]} if whole_gap else RADIUS_RANGE
     return scales.read("radius", radius, "displacement", **bounds)
 
 

@@ -106,9 +106,7 @@ def check_number(
 def range_words(unit="", *, above=None, least=None, most=None, why="") -> list:
     """Return the bounds of a range in words, such as "at least 2 kg"."""
     bounds = {"greater than": above, "at least": least, "at most": most}
-    return [
-        f"{word} {with_unit(bound, unit)}" for word, bound in bounds.items() if bound is not None
-    ]
+    return [f"{word} {with_unit(end, unit)}" for word, end in bounds.items() if end is not None]
 
 
 def check_count(name, value, *, least=1, most=10**9, why=""):

@@ -242,11 +242,10 @@ def _columns(path, kinds):
         titles = {match[1]: match for match in matches}
         factors = {}
         for kind in kinds:
-            wanted, given = f"{kind}_{QUANTITIES[kind].label}", shown(reader.fieldnames)
+            wanted, found = f"{kind}_{QUANTITIES[kind].label}", shown(reader.fieldnames)
             if kind not in titles:
-                raise ValueError(
-                    f"{path}, line 1: must name a column such as {wanted}; has {given}"
-                )
+                words = f"must name a column such as {wanted}; has {found}"
+                raise ValueError(f"{path}, line 1: {words}")
             where = f"{path}, line 1, unit of {kind}"
             factors[kind] = check_si(where, f"1 {titles[kind][2]}", kind)
         rows = [

@@ -4,12 +4,7 @@ import numpy as np
 
 from impact_damper.model.bounds import MOST_STIFF, check_frequency, shown
 from impact_damper.model.exit_rules import NO_TENSION
-from impact_damper.model.parameters import (
-    NONLINEAR,
-    Oscillator,
-    check_damper,
-    parameters_in,
-)
+from impact_damper.model.parameters import NONLINEAR, Oscillator, check_damper, parameters_in
 from impact_damper.model.text import number
 
 # Names of the numbers in their order: W; the fields of `Oscillator`, with omega_l^2 in place of

@@ -103,11 +103,6 @@ class Oscillator:
         """Names of the nonlinear terms of the spring that are not 0."""
         return [name for name in NONLINEAR if getattr(self, name)]
 
-    def _refuse(self, terms, why):
-        """Raise ValueError if there are any `terms`, which must be 0; `why` ends the message."""
-        if terms:
-            raise ValueError(f"{self.told(*terms)}: must be 0 {why}")
-
     def told(self, *names) -> str:
         """Return fields as "name = value"; for a machine with its names and in SI units."""
         found = []
@@ -127,7 +122,8 @@ class Oscillator:
     def hardening(self) -> float:
         """Coefficient of a^3 in the first harmonic of the spring's force under Z1 = a cos t."""
         others = [name for name in self._terms if name != "cubic"]
-        self._refuse(others, "in closed forms (cubic springs)")
+        if others:
+            raise ValueError(f"{self.told(*others)}: must be 0 in closed forms (cubic springs)")
         return 0.75 * self.cubic
 
     def forcing_amplitude(self, frequency):

@@ -129,9 +129,8 @@ def neighbourhood(p, state, periods):
     gain = np.linalg.norm(forward[:, 0], axis=1)
     kick = np.linalg.norm(np.linalg.inv(forward)[:, :, 1], axis=1)
     cubic = abs(cubic_spring(p)[1])
-    coefficients = np.array(
-        [3 * cubic * kick * np.abs(displacement) * gain**2, cubic * kick * gain**3]
-    )
+    square = 3 * cubic * kick * np.abs(displacement) * gain**2
+    coefficients = np.array([square, cubic * kick * gain**3])
     largest = np.maximum(coefficients[:, :-1], coefficients[:, 1:])
     radius = _radius(largest, 2 * np.pi / (STEPS * p[FREQUENCY]), np.max(np.abs(values)))
     with np.errstate(divide="ignore"):
@@ -168,9 +167,8 @@ def label_damped(p, states, phase, settling, known=(), workers=1, progress=None)
     if begin > strobe_time(p):
         begin -= 2 * np.pi / p[FREQUENCY]
     rows = np.tile(p, (len(states), 1))
-    motions = ensemble.settle(
-        rows, states, settling, start=begin, workers=workers, progress=progress
-    )
+    running = {"workers": workers, "progress": progress}
+    motions = ensemble.settle(rows, states, settling, start=begin, **running)
     labels = np.full(len(motions), BASIN_LABEL["unresolved"])
     for outcome, label in LABELS.items():
         labels[motions["outcome"] == outcome] = label

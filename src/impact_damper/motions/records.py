@@ -34,17 +34,8 @@ AT_ONCE = 1024
 NEVER = np.zeros(1, bool)
 
 # Outcomes of a motion that is run until it settles.
-(
-    UNRESOLVED,
-    SETTLED,
-    CHAOTIC,
-    DIVERGED,
-    NON_COLLIDING,
-    ESCAPED,
-    AT_REST,
-    QUASI_PERIODIC,
-    DRIFTING,
-) = range(9)
+UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING = range(5)
+ESCAPED, AT_REST, QUASI_PERIODIC, DRIFTING = range(5, 9)
 # Fields of a record. A run fills the fields before `maximum_displacement`, `measure` the others.
 # period       period of the orbit in forcing cycles, 0 without an orbit
 # periods_run  forcing cycles until the outcome was known
@@ -226,9 +217,8 @@ def envelope(parameters, lengths, y, tolerance):
     side = side_of(next(iter(parameters)), y)
     for first in range(0, len(lengths), AT_ONCE):
         part = slice(first, first + AT_ONCE)
-        side = run_windows(
-            parameters[part], lengths[part], y, side, tolerance, largest[part], contacts[part]
-        )
+        out = largest[part], contacts[part]
+        side = run_windows(parameters[part], lengths[part], y, side, tolerance, *out)
         if np.isinf(largest[part]).any():
             break
     return largest, contacts

@@ -11,11 +11,7 @@ import numpy as np
 from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.shares import escape_rate
 from impact_damper.model import bounds
-from impact_damper.model.arguments import (
-    read_frequencies,
-    read_radius,
-    read_system,
-)
+from impact_damper.model.arguments import read_frequencies, read_radius, read_system
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import check_settling
 from impact_damper.motions import ensemble

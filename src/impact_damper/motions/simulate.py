@@ -23,10 +23,8 @@ def random_states(count, radius, damper, seed, *, within_gap=True):
     clearance is drawn again, because its contact spring would store a large energy.
     """
     if damper is not None and within_gap:
-        most = bounds.MOST_RADIUS * damper.clearance
-        bounds.check_number(
-            "radius", radius, above=0.0, most=most, why="few states lie within the gap"
-        )
+        limits = {"above": 0.0, "most": bounds.MOST_RADIUS * damper.clearance}
+        bounds.check_number("radius", radius, **limits, why="few states lie within the gap")
     generator = np.random.default_rng(seed)
     size = 2 if damper is None else 4
     states = np.empty((0, size))
@@ -99,9 +97,8 @@ def simulate(
     y = read_state(model, state)
     bounds.check_number("periods", periods, above=0.0, most=bounds.PERIODS_RANGE["most"])
     most = max(2, int(min(1e6, MOST_SAMPLES / periods)))
-    bounds.check_count(
-        "samples", samples, least=2, most=most, why=f"at most {MOST_SAMPLES} samples"
-    )
+    why = f"at most {MOST_SAMPLES} samples"
+    bounds.check_count("samples", samples, least=2, most=most, why=why)
     bounds.check_number("tolerance", tolerance, least=1e-15, most=1e-2)
     start = read_start(model, state, start)
     length = periods * 2 * np.pi / p[FREQUENCY]

@@ -271,9 +271,8 @@ def add_orbits(catalogues, loose, settling, workers) -> None:
 
     def work(part):
         for k in range(part.start, part.stop):
-            records = [
-                each for each in catalogues[k].records if np.isfinite(each["maximum_displacement"])
-            ]
+            known = catalogues[k].records
+            records = [each for each in known if np.isfinite(each["maximum_displacement"])]
             motions = np.array([each["state"][:2] for each in records])
             found[k] = stable_orbits(catalogues[k].p, motions, loose[k], settling.tolerance, stop)
 

@@ -181,10 +181,8 @@ def _quasi_periodic(p, record, states, mean, error):
         return records.UNRESOLVED
     planes = [states[:, k] + 1j * states[:, k + 1] / p[FREQUENCY] for k in (0, 2)]
     for curves in range(1, LONGEST_PERIOD + 1):
-        rotations = [
-            find_rotation(points[first::curves]) for points in planes for first in range(curves)
-        ]
-        rotations = [rotation for rotation in rotations if rotation is not None]
+        parts = [points[first::curves] for points in planes for first in range(curves)]
+        rotations = [found for found in map(find_rotation, parts) if found is not None]
         if rotations:
             number, error = min(rotations, key=lambda rotation: rotation[1])
             first = p[FREQUENCY] / curves

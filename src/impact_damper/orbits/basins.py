@@ -250,18 +250,14 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:
         places = [tuple(loose)]
-    states = np.concatenate(
-        [np.hstack([plane, np.tile(place, (len(plane), 1))]) for place in places]
-    )
+    planes = [np.hstack([plane, np.tile(place, (len(plane), 1))]) for place in places]
+    states = np.concatenate(planes)
     labels, periods, records = label_damped(p, states, phase, settling, **running)
     labels, periods = (each.reshape(len(places), -1) for each in (labels, periods))
     same = np.all(labels == labels[0], axis=0)
     share = [np.mean(labels == index, axis=0) for index in range(len(records))]
-    data = {
-        "basin_label": np.where(same, labels[0], BASIN_LABEL["mixed"])
-        .reshape(cells, cells)
-        .astype(np.int8)
-    }
+    shown = np.where(same, labels[0], BASIN_LABEL["mixed"])
+    data = {"basin_label": shown.reshape(cells, cells).astype(np.int8)}
     if len(places) > 1:
         data["basin_share"] = np.array(share).reshape(len(records), cells, cells)
 

@@ -94,9 +94,8 @@ def clearance_sweep(
     bounds.check_count("seed", seed, **bounds.SEED_RANGE)
     model = read_swept_damper(system, damper, frequency)
     oscillator, frequency = model.oscillator, model.frequency
-    clearances = read_increasing(
-        model.scales, "clearances", clearances, "gap", 2, **bounds.CLEARANCE_RANGE
-    )
+    limits = bounds.CLEARANCE_RANGE
+    clearances = read_increasing(model.scales, "clearances", clearances, "gap", 2, **limits)
     bounds.check_starts(starts, len(clearances))
     radius = read_radius(model.scales, radius, whole_gap)
     if method == "harmonic_balance":
@@ -111,9 +110,8 @@ def clearance_sweep(
     swept = describe(model.damper) | {"frequency": frequency}
     del swept["clearance"]
     if method == "harmonic_balance":
-        return dataset(
-            balance, {"clearance": clearances}, describe(oscillator) | swept, title, model
-        )
+        made = describe(oscillator) | swept
+        return dataset(balance, {"clearance": clearances}, made, title, model)
     parameters = np.array([pack(oscillator, each, frequency) for each in dampers])
     systems = [(each, frequency) for each in dampers]
     drawn = starts, radius, seed
@@ -255,9 +253,8 @@ def _kind(size_at, best, least, longest):
 
     If the distance from the minimum is halved, the rise falls to a quarter (smooth) or half (kink).
     """
-    rises = [
-        size_at(best + step) + size_at(best - step) - 2 * least for step in (longest, longest / 2)
-    ]
+    steps = longest, longest / 2
+    rises = [size_at(best + step) + size_at(best - step) - 2 * least for step in steps]
     # 0.36 lies between a quarter and a half.
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
 

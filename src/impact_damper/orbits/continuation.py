@@ -142,9 +142,8 @@ class Problem:
         """Return the derivative of the packed parameters by the parameter, shape (COUNT,)."""
         ahead, behind = self.family(value + NUDGE), self.family(value - NUDGE)
         # Without a damper the clearance is infinite. Its derivative is set to 0.
-        return np.subtract(ahead, behind, out=np.zeros(len(ahead)), where=ahead < np.inf) / (
-            2 * NUDGE
-        )
+        change = np.subtract(ahead, behind, out=np.zeros(len(ahead)), where=ahead < np.inf)
+        return change / (2 * NUDGE)
 
     def rows(self, x, orbit):
         """Return the derivative of `Orbit.defects` by the unknowns, shape (m n, m n + 1)."""

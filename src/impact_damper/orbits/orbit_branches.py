@@ -75,9 +75,8 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     model = read_forced(system, damper, frequency)
     state, orbit = _checked_orbit(model, state, period, phase)
     if orbit.repeats_sooner():
-        bounds.warn(
-            f"period = {period}: the orbit found already repeats after a divisor of {period}"
-        )
+        words = f"the orbit found already repeats after a divisor of {period}"
+        bounds.warn(f"period = {period}: {words}")
     data = orbit_variables([(model.frequency, orbit)]) | {"orbit_branch": np.zeros(1, int)}
     data |= dict(zip(CONTACT, orbit.contacts.T, strict=True))
     made = model.describe() | {"period": int(period), "state": state.tolist()}

@@ -95,9 +95,8 @@ def _at_heights(leaving):
         away = change / (turn.gradient @ direction or np.finfo(float).tiny)
         if abs(away) > REACH:
             continue
-        found = at_height(
-            problem, x + away * direction, turn, turn.height + change, np.sign(change)
-        )
+        guess = x + away * direction
+        found = at_height(problem, guess, turn, turn.height + change, np.sign(change))
         if found is None:
             continue
         distance = (problem.metric * (found[0].x - x)) @ direction

@@ -68,9 +68,8 @@ def branch(data, axes=None):
             _mark_events(axes, each)
             _mark_open_ends(axes, each)
         axes.plot([], [], color=style.GREY, linewidth=0.8, linestyle=":", label="unstable")
-        axes.set(
-            xlabel=followed_label(given[0]), ylabel=style.axis_label(given[0]["orbit_displacement"])
-        )
+        words = style.axis_label(given[0]["orbit_displacement"])
+        axes.set(xlabel=followed_label(given[0]), ylabel=words)
     return axes
 
 
@@ -135,6 +134,5 @@ def _mark_events(axes, data):
         chosen = data.isel(event=beside & (data["event_kind"].values == flag("event_kind", name)))
         if chosen.sizes["event"]:
             look = {"color": color, "marker": marker, "linestyle": "none", "zorder": 3}
-            style.draw(
-                axes, chosen["event_value"], chosen["event_displacement"], label=label, **look
-            )
+            value, size = chosen["event_value"], chosen["event_displacement"]
+            style.draw(axes, value, size, label=label, **look)

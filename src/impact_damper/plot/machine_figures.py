@@ -86,9 +86,8 @@ def gap_panel(axes, data):
     tolerance = parameters_of(data)["tolerances"].get("gap", 0.0)
     axes.axvspan(gap * (1 - tolerance), gap * (1 + tolerance), **TOLERATED)
     axes.axvline(gap, **CHOSEN)
-    for end, kind in zip(
-        data["keeping_gap"].values, decode(data["keeping_end"]).values, strict=True
-    ):
+    kinds = decode(data["keeping_end"]).values
+    for end, kind in zip(data["keeping_gap"].values, kinds, strict=True):
         if kind == "jump":
             axes.axvline(end, **CLIFF)
     axes.axhline(float(data["largest_bare_displacement"]), **BARE)
@@ -124,9 +123,8 @@ def draw_forces(data):
     plot_sizes(axes, force, sizes.sel(competitor="bare", detuning=0.0).values, **BARE)
     tuned = sizes.sel(competitor="tuned")
     if np.isfinite(tuned).any():
-        axes.fill_between(
-            force, finite(tuned.min("detuning")), finite(tuned.max("detuning")), **DETUNED
-        )
+        least, most = finite(tuned.min("detuning")), finite(tuned.max("detuning"))
+        axes.fill_between(force, least, most, **DETUNED)
         plot_sizes(axes, force, tuned.sel(detuning=0.0).values, **TUNED)
     ours = data["force_map_displacement"].max("operating_frequency").values
     plot_sizes(axes, force, ours, **NOMINAL | {"marker": "s", "markersize": 3.0})

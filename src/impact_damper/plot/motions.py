@@ -74,9 +74,8 @@ def _time_panel(axes, run):
 
 def _in_contact(run, wall):
     """Return the mask of times in contact with a wall. A contact whose end is NaN never ends."""
-    contacts = run[["contact_begin", "contact_end"]].isel(
-        contact=run["contact_wall"].values == wall
-    )
+    chosen = run["contact_wall"].values == wall
+    contacts = run[["contact_begin", "contact_end"]].isel(contact=chosen)
     begun = contacts["contact_begin"] <= run["time"]
     return (begun & (run["time"] <= contacts["contact_end"].fillna(np.inf))).any("contact")
 

@@ -85,9 +85,8 @@ def _draw_sweep(axes, sweep, index):
     else:
         at, values, lowest = best, size, least
     place = np.searchsorted(clearance, at)
-    axes.plot(
-        np.insert(clearance, place, at), np.insert(values, place, lowest), **style.curve(index)
-    )
+    line = np.insert(clearance, place, at), np.insert(values, place, lowest)
+    axes.plot(*line, **style.curve(index))
     axes.plot(sweep["near_clearance"], [least, least], **NEAR | color)
     filled = {"markerfacecolor": color["color"], "markeredgecolor": style.BLACK}
     axes.plot(best, least, **STAR | color | filled)

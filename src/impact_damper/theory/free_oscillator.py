@@ -44,9 +44,8 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
     if force == 0:
         return FreeSolutions(np.zeros(1), np.zeros(1))
     drag, hardening = oscillator.damping * frequency, oscillator.hardening
-    squares = polynomial_roots(
-        [-(force**2), detuning**2 + drag**2, 2 * hardening * detuning, hardening**2]
-    )
+    terms = [-(force**2), detuning**2 + drag**2, 2 * hardening * detuning, hardening**2]
+    squares = polynomial_roots(terms)
     # With a tiny k3 rounding errors produce a double root, far above the bound f/(h W).
     squares = squares[squares <= (force / drag) ** 2 * (1 + ROUNDING)]
     amplitude = np.sqrt(squares)

@@ -50,9 +50,8 @@ def smooth_roots(function, size, lower, upper) -> np.ndarray:
             extrema = interpolant.trim(rounding).deriv().roots()
             return _between(function, size, extrema, lower, upper)
         degree *= 2
-    raise ArithmeticError(
-        f"degree {LARGEST_DEGREE} does not resolve the function on [{lower:g}, {upper:g}]"
-    )
+    span = f"[{lower:g}, {upper:g}]"
+    raise ArithmeticError(f"degree {LARGEST_DEGREE} does not resolve the function on {span}")
 
 
 def _between(function, size, extrema, lower, upper):

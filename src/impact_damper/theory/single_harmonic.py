@@ -54,9 +54,8 @@ def rigid_solutions(oscillator, damper, frequency) -> Solutions:
     odd = -2 / drag * (detuning - inertia)
     cubic = -8 * oscillator.hardening * force**2 / drag**3
     push = inertia * damper.clearance / force
-    tangent = polynomial_roots(
-        [push - 1, odd, 3 * push - 1, cubic + 2 * odd, 3 * push + 1, odd, push + 1]
-    )
+    terms = [push - 1, odd, 3 * push - 1, cubic + 2 * odd, 3 * push + 1, odd, push + 1]
+    tangent = polynomial_roots(terms)
     amplitude = -2 * force * tangent / (drag * (1 + tangent**2))
     clearance = np.full(len(tangent), damper.clearance)
     return Solutions(amplitude, clearance, 2 * np.arctan(tangent))

@@ -96,9 +96,8 @@ class Flight(NamedTuple):
             for n in range(3)
         ]
         wave = np.cos(phase), -np.sin(phase), -np.cos(phase)
-        return tuple(
-            impulse * push - self.forced * each for push, each in zip(pushed, wave, strict=True)
-        )
+        pairs = zip(pushed, wave, strict=True)
+        return tuple(impulse * push - self.forced * each for push, each in pairs)
 
     def ratio(self, impulse):
         """Return rm W^2 d0 for an impulse q."""

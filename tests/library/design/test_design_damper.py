@@ -166,7 +166,7 @@ def compute():
 
 
 def kept_step(folder, compute, made):
-    return machines.Steps(folder, False).made_from(made)("one", compute)
+    return machines.Steps(folder, False, made).step("one", compute)
 
 
 def test_other_arguments_and_sources_compute_it_again(tmp_path, compute, monkeypatch):

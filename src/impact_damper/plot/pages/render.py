@@ -212,9 +212,7 @@ def numbers_of(data) -> dict:
         "sets": len(data["promise_factor"]),
         "worst_values": _worst_values(data),
         "untouched": _peak(data, "untouched_displacement").size,
-        "based": any(
-            asked["machine"].get(f"base_{each}") for each in ("displacement", "acceleration")
-        ),
+        "based": any(map(asked["machine"].get, ("base_displacement", "base_acceleration"))),
         "hits": _hits(data),
         "ballast": _hits(data) < HARDLY,
         "linear": not asked["machine"].get("cubic_stiffness"),
