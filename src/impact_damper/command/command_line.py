@@ -116,20 +116,14 @@ def simulate(
     from impact_damper.motions import simulate as motions
 
     given, machine = read(machine_file)
-    motion = motions.simulate(
-        machine,
-        damper(given, machine, gap),
-        quantity(frequency),
-        tuple(map(quantity, state.split(","))),
-        periods=periods,
-    )
+    system = machine, damper(given, machine, gap), quantity(frequency)
+    start = tuple(map(quantity, state.split(",")))
+    motion = motions.simulate(*system, start, periods=periods)
     last = motion["displacement"].values[-len(motion["time"]) // 10 :]
     largest = float(np.abs(last).max())
     contacts = motion.sizes["contact"]
-    words = [
-        f"Largest displacement in the last tenth of {periods:g} periods: {largest:.4g} mm.",
-        f"Contacts: {contacts}.",
-    ]
+    words = [f"Largest displacement in the last tenth of {periods:g} periods: {largest:.4g} mm."]
+    words += [f"Contacts: {contacts}."]
     numbers = {"largest_displacement_mm": largest, "contacts": contacts}
     tell(as_json, words + kept(motion, output), numbers)
 

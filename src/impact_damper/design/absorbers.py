@@ -61,13 +61,8 @@ def absorber_responses(
         "absorber_stiffness": springs[0],
         "absorber_damping": springs[1],
     }
-    return labelled(
-        values,
-        competitor=list(names),
-        detuning=detunings,
-        frequency=frequencies,
-        force_share=force_shares,
-    )
+    axes = {"detuning": detunings, "frequency": frequencies, "force_share": force_shares}
+    return labelled(values, competitor=list(names), **axes)
 
 
 @cache

@@ -80,10 +80,8 @@ def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_g
     With `whole_gap` starts near rest are wanted, so a small radius causes no warning.
     """
     if radius is None:
-        rows = [
-            wide_starts(oscillator, *system, count, [seed, i], settling)
-            for i, system in enumerate(systems)
-        ]
+        numbered = enumerate(systems)
+        rows = [wide_starts(oscillator, *each, count, [seed, i], settling) for i, each in numbered]
     else:
         frequencies = [frequency for _, frequency in systems]
         drawn = gap_states if whole_gap else random_states

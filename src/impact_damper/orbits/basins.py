@@ -342,10 +342,8 @@ def stable_manifold(orbit, tolerance, window, spacing, reach):
     direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)
     # With a negative multiplier, a point comes back to the same side only after two periods.
     growth = 1 / abs(values[k].real) ** (1 if values[k].real > 0 else 2)
-    sides = [
-        _grow(orbit, side * direction, growth, tolerance, window, spacing, reach)
-        for side in (-1, 1)
-    ]
+    given = growth, tolerance, window, spacing, reach
+    sides = [_grow(orbit, side * direction, *given) for side in (-1, 1)]
     return [piece for pieces, _ in sides for piece in pieces], all(whole for _, whole in sides)
 
 

@@ -101,10 +101,11 @@ def clearance_sweep(
     if method == "harmonic_balance":
         check_closed_form(oscillator, model.damper)
     dampers = [replace(model.damper, clearance=float(value)) for value in clearances]
+    mass_ratio, forcing = model.damper.mass_ratio, oscillator.forcing_amplitude(frequency)
+    inertia = mass_ratio * frequency**2
     balance = analytical_table(oscillator, dampers, frequency) | {
-        "rule_clearance": oscillator.forcing_amplitude(frequency)
-        / (model.damper.mass_ratio * frequency**2),
-        "peak_rule_clearance": _peak_rule(oscillator, model.damper.mass_ratio),
+        "rule_clearance": forcing / inertia,
+        "peak_rule_clearance": _peak_rule(oscillator, mass_ratio),
     }
     title = "Largest displacement against clearance"
     swept = describe(model.damper) | {"frequency": frequency}
@@ -118,8 +119,6 @@ def clearance_sweep(
     search = search_starts(oscillator, systems, *drawn, settling, whole_gap=whole_gap)
     running = {"workers": workers, "progress": progress}
     data = sweep(parameters, CLEARANCE, "clearance", search, settling, **running)
-    forcing = oscillator.forcing_amplitude(frequency)
-    inertia = dampers[0].mass_ratio * frequency**2
     states, sizes, anchor = _quiet_motions(data, clearances, forcing / inertia)
     known = "found", "absent"
     data |= balance | {
@@ -132,19 +131,15 @@ def clearance_sweep(
         part = _stable_part(parameters[anchor], states[anchor], span)
     data |= minimum_table(*part, span)
     sizes = np.where(reached(data), data["maximum_displacement"][1], -np.inf)
+    flight = Flight(mass_ratio, model.damper.restitution)
     data |= {
         "largest_displacement": np.max(sizes, axis=1),
         "optimum_ratio": inertia * data["optimum_clearance"] / forcing,
-        "straight_flight_ratio": least_displacement_ratio(
-            Flight(dampers[0].mass_ratio, dampers[0].restitution)
-        ),
+        "straight_flight_ratio": least_displacement_ratio(flight),
     }
     made = describe(oscillator, settling) | swept | describe_search(*drawn, whole_gap)
-    coordinates = {
-        "clearance": clearances,
-        "component": list(COMPONENTS),
-        "edge": ["lower", "upper"],
-    }
+    edges = ["lower", "upper"]
+    coordinates = {"clearance": clearances, "component": list(COMPONENTS), "edge": edges}
     return dataset(data, coordinates, made, title, model)
 
 

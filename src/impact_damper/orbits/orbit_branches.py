@@ -174,12 +174,8 @@ def orbit_branches(
             "give the divisor as the period, or a state closer to the orbit"
         )
     branch = follow_branch(family, orbit, value, ends)
-    made = model.describe() | {
-        "period": int(period),
-        "parameter": parameter,
-        "state": state.tolist(),
-        "span": list(span),
-    }
+    made = model.describe() | {"period": int(period), "state": state.tolist()}
+    made |= {"parameter": parameter, "span": list(span)}
     back = float if parameter in LINEAR else np.exp
     return branches_dataset([branch], back, made, "Branch of periodic orbits", model)
 
@@ -240,12 +236,8 @@ def _seeds(motions, damper):
             chosen &= data["contacts"].values > 0
         for row, column in zip(*np.nonzero(chosen), strict=True):
             motion = data.isel(frequency=row, motion=column)
-            yield (
-                int(motion["period"]),
-                float(motion["frequency"]),
-                float(motion["maximum_displacement"]),
-                motion["state"].values,
-            )
+            frequency, size = float(motion["frequency"]), float(motion["maximum_displacement"])
+            yield int(motion["period"]), frequency, size, motion["state"].values
 
 
 # An orbit is near a grazing if a contact begins with |Z2'| below SLOW. Multipliers are then valid
@@ -293,11 +285,7 @@ def branches_dataset(branches, back, parameters, title, model=None, more=None):
     """Return a dataset of branches, in the units of `model`, or dimensionless without a model."""
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]
-    events = [
-        (number, place, event)
-        for number, branch in enumerate(branches)
-        for place, event in branch.events
-    ]
+    events = [(number, *pair) for number, branch in enumerate(branches) for pair in branch.events]
     orbits = [event.point.orbit for _, _, event in events]
     met = [[met_by(branches, number, edge) for edge in (0, 1)] for number in range(len(branches))]
     data = orbit_variables(points) | {

@@ -102,12 +102,9 @@ def _name(axes, data):
         words = f"{float(frequency):.4g} {frequency.attrs['units']}"
     turn = float(data["basin_phase"]) / np.pi
     axes.set_title(rf"{words}, phase ${turn:.3g}\pi$", loc="right", fontsize=7.5)
-    axes.set(
-        xlabel=style.axis_label(data["basin_displacement"]),
-        ylabel=style.axis_label(data["basin_velocity"]),
-        xlim=data["basin_displacement"].values[[0, -1]],
-        ylim=data["basin_velocity"].values[[0, -1]],
-    )
+    x, v = data["basin_displacement"], data["basin_velocity"]
+    axes.set(xlabel=style.axis_label(x), ylabel=style.axis_label(v))
+    axes.set(xlim=x.values[[0, -1]], ylim=v.values[[0, -1]])
 
 
 def _attractor_words(data):

@@ -112,10 +112,8 @@ def migration(data, axes=None, span=None):
         for times, look in zip(switched, SWITCHED.values(), strict=True):
             for time in times:
                 axes.axvline(time, **look)
-        axes.set(
-            xlim=(first, last),
-            xlabel=style.axis_label(run["time"]),
-            ylabel=style.axis_label(run["displacement"]),
-        )
+        axes.set_xlim(first, last)
+        axes.set_xlabel(style.axis_label(run["time"]))
+        axes.set_ylabel(style.axis_label(run["displacement"]))
         axes.tick_params(top=False)
     return axes

@@ -200,10 +200,7 @@ def _draw_steady(axes, motions):
 def _label(axes, given):
     """Label the axes. The first variable of SIZES that a dataset has names the vertical axis."""
     first = given[0]
-    axes.set_xlabel(
-        style.axis_label(first["frequency"])
-        if "frequency" in first.coords
-        else followed_label(first)
-    )
+    swept = "frequency" in first.coords
+    axes.set_xlabel(style.axis_label(first["frequency"]) if swept else followed_label(first))
     name, each = next((name, each) for name in SIZES for each in given if name in each)
     axes.set_ylabel(style.axis_label(each[name], SIZES[name]))

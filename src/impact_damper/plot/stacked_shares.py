@@ -72,12 +72,8 @@ def shares(data, axes=None):
             low, high = (found[f"share_{end}"].values[row, column] for end in ("lower", "upper"))
             axes.vlines(places[row], below[row] + low, below[row] + high, **INTERVAL)
             below = below + share
-        axes.set(
-            xlabel=style.axis_label(found[dimension]),
-            ylabel="Share of random starts",
-            xlim=edges[[0, -1]],
-            ylim=(0, 1),
-        )
+        axes.set(xlabel=style.axis_label(found[dimension]), ylabel="Share of random starts")
+        axes.set(xlim=edges[[0, -1]], ylim=(0, 1))
     return axes
 
 

@@ -61,10 +61,8 @@ def sweep(data, axes=None):
         axes.plot([], [], **NEAR)
         for index, each in enumerate(sweeps):
             _draw_sweep(axes, each, index)
-        axes.set(
-            xlabel=style.axis_label(sweeps[0]["clearance"]),
-            ylabel=style.axis_label(sweeps[0]["quiet_displacement"]),
-        )
+        axes.set_xlabel(style.axis_label(sweeps[0]["clearance"]))
+        axes.set_ylabel(style.axis_label(sweeps[0]["quiet_displacement"]))
         axes.set_ylim(bottom=0)
     return axes
 
