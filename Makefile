@@ -9,7 +9,7 @@ READY := $(VENV)/ready
 FOR_TESTS := $(VENV)/ready-for-tests
 FOR_BENCHMARKS := $(VENV)/ready-for-benchmarks
 
-.PHONY: reproduce smoke slurm kernels test quick same-bytes benchmark faults lint format docs lock \
+.PHONY: reproduce smoke slurm kernels test promises quick same-bytes benchmark faults lint format docs lock \
 	lowest release citation archive archive-check clean
 
 reproduce: $(READY)
@@ -39,9 +39,13 @@ test quick: export PYTHONDONTWRITEBYTECODE =
 test: kernels $(FOR_TESTS)
 	$(TESTS) $(PYTEST)
 
-# Without the tests marked `workflow` or `thorough`; pyproject.toml describes these marks.
+# Search the gaps of four machines, and hold each promise against 400 starts of another program.
+promises: kernels $(FOR_TESTS)
+	$(TESTS) -m long
+
+# Without the tests marked `workflow`, `thorough` or `long`; pyproject.toml describes these marks.
 quick: kernels $(FOR_TESTS)
-	$(TESTS) -m "not workflow and not thorough" $(PYTEST)
+	$(TESTS) -m "not workflow and not thorough and not long" $(PYTEST)
 
 # Compare the results of two runs, on one core and on two, byte by byte. `make same-bytes CONFIG=`,
 # with nothing after the equals sign, compares runs of the whole paper instead of the smoke run.
