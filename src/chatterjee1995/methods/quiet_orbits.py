@@ -131,7 +131,7 @@ def _end(followed):
 
     Near a fold, det(1 - root) is proportional to the square root of the distance to the fold.
     """
-    # A step that failed in `spread` can succeed now, because the orbit of the cell behind is known.
+    # This step failed in `spread`, but can succeed now: the orbit behind this cell is known.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values

@@ -134,7 +134,7 @@ def singularity_distance(p, state) -> float:
 
 SAMPLES = 2**14  # number of values of Z1 in a cycle, for Fourier coefficients of the exact orbit
 SAME = 1e-6  # solutions are the same if coefficients differ by at most this fraction of the largest
-ROUNDING = 1e-12  # only larger errors are used in the fits of the decrease
+ROUNDING = 1e-12  # only larger errors are used to fit how errors decrease
 FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 

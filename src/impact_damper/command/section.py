@@ -245,7 +245,7 @@ def increasing(path, values, reason):
 
 
 def one_of(name, known) -> str:
-    """Return the text "must be one of ..." with all known names, and the name nearest to `name`."""
+    """Return "must be one of ..." with all known names, and a name close to `name`, if any."""
     return f"must be one of {', '.join(known)}{nearest(name, known)}"
 
 

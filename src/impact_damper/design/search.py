@@ -127,7 +127,7 @@ class Curve:
         return ends, beyond
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return `sets` with the worst gap inside the tolerance of `gap`.
+        """Return `sets` at the worst gap within the tolerance of `gap`.
 
         No set is returned if `gap` or an end of its tolerance is at least as bad.
         """

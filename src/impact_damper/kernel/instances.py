@@ -138,7 +138,7 @@ def rows(flight_order, contact_order):
 class Writer:
     """Writes the kernels of the series for a number of lanes and two orders, flight and contact.
 
-    With one lane a trajectory has up to four tangents. With several lanes each has one tangent.
+    With one lane a trajectory has up to four tangents. With several, each lane has one tangent.
     """
 
     def __init__(self, lanes, flight_order, contact_order):

@@ -81,10 +81,10 @@ def from_response(cls, data, *, force) -> Identified:
     """Find the machine whose response to a known force is nearest to a measured curve.
 
     All branches obey the balance of the first harmonic, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2
-    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). The residual is divided by
-    the balance's derivative; so it is nearly the relative error of an amplitude. If 3/4 k3 a^2
-    exceeds k/10, the neglected harmonics change the stiffness found by about 1 %, and near a jump
-    the damping by 10 %.
+    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). The residual, half of the
+    logarithm of left side by right side, is divided by its derivative by ln a. So it is nearly the
+    relative error of a. If 3/4 k3 a^2 exceeds k/10, the neglected harmonics change the stiffness
+    found by about 1 %, and near a jump the damping by 10 %.
 
     Parameters
     ----------

@@ -23,7 +23,7 @@ def parameter(limits, kind, symbol, meaning, *, machine=None, power=None, **defa
 
 
 def _check(part):
-    """Check the parameters of a frozen dataclass; turn an array without dimensions into a float."""
+    """Check the parameters of a frozen dataclass; turn NumPy numbers into floats."""
     for each in parameters_in(part):
         value = getattr(part, each.name)
         number = bounds.check_number(each.name, value, **each.metadata["bounds"])

@@ -75,7 +75,7 @@ class Search(NamedTuple):
 
 
 def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_gap=False) -> Search:
-    """Return the `Search` in systems (damper or None, W), with `count` random starts in each.
+    """Return the `Search` with `count` random starts in each system, a pair (damper or None, W).
 
     With `whole_gap` starts near rest are wanted, so a small radius causes no warning.
     """

@@ -258,7 +258,7 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
       standard errors and the tangent still grows. After a transient it no longer grows. A slow
       spiral can look like weak chaos, so an exponent below WEAK is judged just before `limit`.
 
-    The tangent and `reach` are updated after the first `patience`/2 cycles.
+    After `patience`/2 cycles, the tangent and `out.reach` are updated in each cycle.
     """
     k = seen.strobes
     bounded = p[CLEARANCE] < math.inf

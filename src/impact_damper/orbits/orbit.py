@@ -41,7 +41,7 @@ class Orbit:
     states: States at the beginnings of segments, shape (m, 4).
     sign: -1 if the segments cover half the period of a symmetric orbit, otherwise 1.
     ends: States at the ends of segments, by integration, shape (m, 4).
-    factors: Derivatives of `ends` by `states`, (m, 4, 4); the last is multiplied by `sign`.
+    factors: Derivatives of `ends` by `states`, (m, 4, 4); factors[-1] is multiplied by `sign`.
     contact_time: Total time in contact in all segments.
     maps: How often all segments were integrated to find the orbit.
     """

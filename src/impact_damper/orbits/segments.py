@@ -158,8 +158,8 @@ def _sections(orbit, cycle, between):
     return places, [place for place in places if np.min(np.abs(forced - place), initial=1) < 1e-6]
 
 
-# Central differences change the parameter by NUDGE. If the two one-sided differences differ by more
-# than BENT times their sum, a contact appears or vanishes, and the change is FINE_NUDGE.
+# Central differences change the parameter by NUDGE, or by FINE_NUDGE if the changes to both sides
+# differ by more than BENT times their sum. Then a contact appears or vanishes.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 

@@ -78,7 +78,7 @@ def harmonic_balance(system, damper, frequencies):
         The suppression band is the range of frequencies around the peak Wp of the free response in
         which (7) has exactly one stable solution, and this solution is smaller than the free
         resonance branch. Beyond the fold of this branch there is no band. The dataset has the
-        frequency of each `edge` (lower, upper; NaN if not found), the width, the reduction at Wp.
+        frequency of each `edge` (lower, upper; NaN if not found), width, and reduction at Wp.
 
     Raises
     ------

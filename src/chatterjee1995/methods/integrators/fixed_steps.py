@@ -130,7 +130,7 @@ class FixedStep(Integrator):
         return np.abs(ends[:, 3]), abs(there[0, 3])
 
 
-# A Runge-Kutta step h of y' = i omega y gives R(i z) y with z = h omega. At the limit |R(i z)| = 1.
+# Last number of a method: largest h omega for which steps h of x'' = -omega^2 x stay bounded.
 BOTH = "stable_steps", "missed_contacts"
 INTEGRATORS = (
     FixedStep(VERLET, "verlet", "velocity Verlet", 1, BOTH[:1], 2.0),

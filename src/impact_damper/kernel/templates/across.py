@@ -45,7 +45,7 @@ def load_across(a):
 
 
 def find_sway(a):
-    """Compute SWAY and its first three derivatives at T, if an acceleration across acts."""
+    """Compute SWAY and its first three derivatives at T. Do nothing if SWAYS is 0."""
     if a[SWAYS] > 0.0:
         for i in range(LANES):
             a[ANGLE + i] = 0.5 * a[FREQUENCY + i] * a[T + i]

@@ -11,7 +11,8 @@ NEAR = 1e-4
 def find_circle(a):
     """Compute CIRCLE_COSINE and CIRCLE_SINE, cosine and sine of ANGLE (rad).
 
-    Quarter turns are subtracted from the phase, because the series converge fast up to 1/8 turn.
+    Quarter turns are subtracted from ANGLE first, because the series converge fast only up to an
+    eighth of a turn.
     """
     for i in range(LANES):
         angle = a[ANGLE + i]
