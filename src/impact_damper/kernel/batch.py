@@ -43,7 +43,8 @@ class Pool(NamedTuple):
     queues: Indices of the trajectories that wait for a step of each kind; shape (4, m).
     waiting: Number of trajectories in each queue; shape (4,).
     contacts: Contacts begun since the last call of `send`; shape (m,).
-    largest: Largest |Z1| since the last call of `enter`, NaN if not wanted; shape (m,).
+    largest: Largest |Z1| since the last call of `enter`, NaN if not wanted (then for all
+        trajectories of the pool); shape (m,).
     held: Index of the trajectory whose parameters each lane holds, or -1; shape (LANES,).
     a, d: Rows of the step and of its tangents (`instances.rows`).
     """
@@ -170,8 +171,6 @@ def scatter(pool, chosen, count, kind, arrived):
         if touching and kind & 1 == FLIGHT:
             pool.contacts[m] += 1
         length = pool.a[LENGTH * LANES + lane]
-        if pool.largest[m] >= 0.0:
-            raise_largest(pool, m, lane, FLIGHT_ORDER if kind & 1 == FLIGHT else CONTACT_ORDER)
         x, v = numbers[STATE], numbers[STATE + 1]
         gone = not (abs(x) <= pool.farthest[m] or x * v <= 0.0)
         if length >= numbers[LONGEST] or gone:
@@ -186,13 +185,15 @@ def scatter(pool, chosen, count, kind, arrived):
 
 
 @kernel_only
-def raise_largest(pool, m, lane, order):
-    """Raise the largest |Z1| of trajectory m to the largest |Z1| in the step of its lane."""
+def raise_largest(pool, chosen, count, order):
+    """Raise the largest |Z1| of chosen trajectories to the largest |Z1| in the last step."""
     series = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
-    for k in range(order + 1):
-        series[k] = pool.a[_MANY.X + k * LANES + lane]
-    length = pool.a[LENGTH * LANES + lane]
-    pool.largest[m] = extremum(series, order, length, pool.largest[m])
+    for lane in range(count):
+        m = chosen[lane]
+        for k in range(order + 1):
+            series[k] = pool.a[_MANY.X + k * LANES + lane]
+        length = pool.a[LENGTH * LANES + lane]
+        pool.largest[m] = extremum(series, order, length, pool.largest[m])
 
 
 @kernel
@@ -214,6 +215,8 @@ def advance_some(pool, chosen, arrived):
             contact_step(a)
             if kind >= FLIGHT_WITH_TANGENT:
                 contact_tangents(a, d)
+        if pool.largest[chosen[0]] >= 0.0:
+            raise_largest(pool, chosen, count, CONTACT_ORDER if kind & 1 else FLIGHT_ORDER)
         ended = scatter(pool, chosen, count, kind, arrived)
     return ended
 
