@@ -121,8 +121,8 @@ lock:
 LOWEST := .venv-lowest
 lowest:
 	$(PYTHON) -m venv --clear $(LOWEST)
-	uv pip compile pyproject.toml --extra test --resolution lowest-direct --python-version 3.11 \
-		--no-header --no-emit-index-url --output-file $(LOWEST)/requirements.txt
+	uv pip compile pyproject.toml --extra command --extra test --resolution lowest-direct \
+		--python-version 3.11 --no-header --no-emit-index-url --output-file $(LOWEST)/requirements.txt
 	$(LOWEST)/bin/pip install --requirement $(LOWEST)/requirements.txt
 	PYTHONPATH=src $(LOWEST)/bin/python -m pytest --numprocesses auto --dist loadfile \
 		--ignore tests/paper $(PYTEST)
