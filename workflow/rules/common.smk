@@ -26,7 +26,7 @@ ENVIRONMENT = str(ROOT / "workflow/envs/impact-damper.yaml")
 # Jobs that need compiled kernels (functions compiled by numba) wait for this marker file. With
 # `ancient` a new date of the file reruns no job.
 KERNELS = ancient("<results>/kernels.compiled")
-# Without the option `--cache` no rule is cacheable: Snakemake would print a line for each.
+# Rules are cacheable only with the option `--cache`. Else Snakemake prints a line for each.
 SHARED = workflow.workflow_settings.cache is not None
 
 

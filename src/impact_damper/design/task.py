@@ -279,7 +279,7 @@ class Task:
     def gap_span(self) -> tuple[float, float]:
         """Least and greatest gap that a design considers, mm.
 
-        In greater gaps a machine that does not escape touches no loose mass at rest in the middle.
+        In greater gaps no steady motion of the machine reaches a loose mass at rest in the middle.
         """
         rules = np.array([1e3 * self.rule_gap(f) for f in self.grid])
         sizes = self.bare[np.isfinite(self.bare)]

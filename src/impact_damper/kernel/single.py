@@ -69,7 +69,7 @@ def extremum(c, order, length, start):
     """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
 
     On the interval |polynomial| exceeds its larger end value by at most length^2/8 times the
-    largest second derivative. If this bound exceeds `start`, turning points are searched for.
+    largest second derivative. Turning points are sought if one may be the largest value.
     """
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)

@@ -135,7 +135,7 @@ class _Balance:
         )
 
     def angle_range(self):
-        """Return the least and the greatest p within bounds on |a|; if equal, there is no solution.
+        """Return bounds on the contact angle p of all solutions; equal bounds mean no solution.
 
         (7b) bounds |a| by f/(h W), and (7a) bounds |g| |a|^3 by the other terms.
         """
