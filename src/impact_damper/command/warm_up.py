@@ -56,10 +56,8 @@ def warm_up_settling() -> None:
     batch.send(pool, 0, 0.0, 0.01, False)
     batch.advance_some(pool, places, places.copy())
 
-    from impact_damper.motions import ensemble
-
-    on, stop = pack(OSCILLATOR, DAMPER, FREQUENCY)[None], np.zeros(1, bool)
-    ensemble.follow_peaks(on, np.zeros((1, 4)), 1, 1e-9, np.zeros(1), stop)
+    on, sides, times = pack(OSCILLATOR, DAMPER, FREQUENCY)[None], np.zeros(1, np.int64), np.zeros(1)
+    batch.advance(on, np.zeros((1, 4)), sides, times, times, 1e-9, sides.copy(), np.zeros(1))
 
     from impact_damper.motions import undecided
 

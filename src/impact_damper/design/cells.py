@@ -12,6 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.design.task import NOMINAL
+from impact_damper.kernel.batch import advance
+from impact_damper.kernel.single import side_of
+from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETTLED
@@ -257,15 +260,18 @@ def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
     Each of the `number` blocks has `cycles` forcing cycles and begins at a strobe. `states` change
     in place. Displacements are infinite from an escape on.
     """
-    tolerance, stop = task.effort.settling.tolerance, np.zeros(1, bool)
     peaks = np.zeros((number, len(states)))
+    sides = np.array([side_of(*each) for each in zip(parameters, states, strict=True)], np.int64)
+    begins = 0.5 * np.pi / parameters[:, FREQUENCY]
+    ends = begins + cycles * 2 * np.pi / parameters[:, FREQUENCY]
 
     def work(part):
+        given = parameters[part], states[part], sides[part], begins[part], ends[part]
+        contacts = np.zeros(len(given[1]), np.int64)
         for row in peaks:
-            given = parameters[part], states[part], cycles, tolerance
-            ensemble.follow_peaks(*given, row[part], stop)
+            advance(*given, task.effort.settling.tolerance, contacts, row[part])
 
-    run_chunks(work, len(states), task.effort.workers, None, stop, size=FOLLOWED)
+    run_chunks(work, len(states), task.effort.workers, None, np.zeros(1), size=FOLLOWED)
     return peaks.T
 
 

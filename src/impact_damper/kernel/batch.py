@@ -173,6 +173,8 @@ def scatter(pool, chosen, count, kind, arrived):
         length = pool.a[LENGTH * LANES + lane]
         x, v = numbers[STATE], numbers[STATE + 1]
         gone = not (abs(x) <= pool.farthest[m] or x * v <= 0.0)
+        if gone:
+            pool.largest[m] = np.inf
         if length >= numbers[LONGEST] or gone:
             numbers[TIME] = pool.ends[m]
             arrived[ended] = m
@@ -222,11 +224,12 @@ def advance_some(pool, chosen, arrived):
 
 
 @kernel
-def advance(parameters, states, sides, starts, ends, tolerance, contacts):
+def advance(parameters, states, sides, starts, ends, tolerance, contacts, largest=None):
     """Integrate trajectories, each from its start time to its end time.
 
-    `states` (m, 4) and `sides` (m,), the walls in contact, are replaced by those at the end times.
-    `contacts` (m,) receives the number of contacts that each trajectory has begun.
+    The function replaces `states` (m, 4) and `sides` (m,), the walls in contact. `contacts` (m,)
+    receives the number of contacts that each trajectory has begun, `largest` (m,) its largest |Z1|,
+    infinity after an escape.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)
@@ -236,6 +239,8 @@ def advance(parameters, states, sides, starts, ends, tolerance, contacts):
     for m in range(size):
         taken[m] = m
         enter(pool, m, parameters[m], states[m], sides[m], tolerance)
+        if largest is not None:
+            pool.largest[m] = abs(states[m, 0])
         send(pool, m, starts[m], ends[m], False)
     left = len(states)
     while left > 0:
@@ -246,9 +251,13 @@ def advance(parameters, states, sides, starts, ends, tolerance, contacts):
                 states[i, k] = pool.numbers[m, STATE + k]
             sides[i] = np.int64(pool.numbers[m, SIDE])
             contacts[i] = pool.contacts[m]
+            if largest is not None:
+                largest[i] = pool.largest[m]
             left -= 1
             if following < len(states):
                 taken[m] = i = following
                 following += 1
                 enter(pool, m, parameters[i], states[i], sides[i], tolerance)
+                if largest is not None:
+                    pool.largest[m] = abs(states[i, 0])
                 send(pool, m, starts[i], ends[i], False)

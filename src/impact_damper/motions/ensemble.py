@@ -96,45 +96,6 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
         send(pool, m, start[i], strobe_time(p), False)
 
 
-@kernel
-def follow_peaks(parameters, states, periods, tolerance, largest, stop):
-    """Run motions in place from a strobe; raise `largest` to max |Z1|, infinity after an escape."""
-    size = min(len(states), RESIDENT)
-    pool = make_pool(size)
-    chosen, arrived = np.empty(LANES, np.int64), np.empty(LANES, np.int64)
-    taken, cycles = np.zeros(size, np.int64), np.zeros(size, np.int64)
-    following, left = size, len(states)
-    for m in range(size):
-        take_peak(pool, m, m, parameters, states, tolerance, largest, taken, cycles)
-    while left > 0 and not stop[0]:
-        for j in range(advance_some(pool, chosen, arrived)):
-            m = arrived[j]
-            i = taken[m]
-            p, strobe = parameters[i], strobe_time(parameters[i])
-            cycles[m] += 1
-            gone = has_escaped(p, pool.numbers[m, STATE], pool.numbers[m, STATE + 1])
-            if gone or cycles[m] == periods:
-                largest[i] = math.inf if gone else pool.largest[m]
-                for k in range(4):
-                    states[i, k] = pool.numbers[m, STATE + k]
-                left -= 1
-                take_peak(pool, m, following, parameters, states, tolerance, largest, taken, cycles)
-                following += 1
-            else:
-                send(pool, m, strobe, strobe + 2.0 * math.pi / p[FREQUENCY], False)
-
-
-@kernel_only
-def take_peak(pool, m, i, parameters, states, tolerance, largest, taken, cycles):
-    """Put motion i, if it exists, at index m of the pool, with its largest |Z1| so far."""
-    if i < len(states):
-        p, y, strobe = parameters[i], states[i], strobe_time(parameters[i])
-        taken[m], cycles[m] = i, 0
-        enter(pool, m, p, y, side_of(p, y), tolerance)
-        pool.largest[m] = max(largest[i], abs(y[0]))
-        send(pool, m, strobe, strobe + 2.0 * math.pi / p[FREQUENCY], False)
-
-
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
     """Put the motion from state i without damper, if there is one, at index m of the pool."""
