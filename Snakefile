@@ -34,7 +34,7 @@ onsuccess:
     write_provenance()
 
 
-# For each stage a target that makes all its data: `all_harmonic_balance`, `all_design_orbit`, ...
+# For each stage a target that makes all data of the stage: `all_response`, `all_motion`, ...
 for stage in STAGES:
 
     rule:

@@ -26,7 +26,7 @@ from benchmarks.timing import one_core
 from chatterjee1995.tables import files as table_files
 from impact_damper.plot import style
 
-# Amounts of work: in full, and as little as possible, to try the scripts.
+# Amounts of work. FULL is for results, QUICK is as little as possible, to try the scripts.
 FULL = {"starts": 16, "rounds": 15, "few": 5, "exponents": range(3, 14), "motions": 24,
         "sizes": (1, 16, 64, 256, 1024), "shared": 65536, "wide": 1000, "random": 40,
         "settled": 2000, "drawn": 10,
@@ -72,7 +72,7 @@ def cost(write, amount):
 
 
 def scale(write, amount):
-    """Measure ensembles, sets of trajectories computed together, over their size and the cores."""
+    """Measure the speed of ensembles (trajectories computed together) over size and cores."""
     found = scenes.from_configuration(amount["starts"])
     chosen = [scene for scene in found if scene.name in ("design", "resonance")]
     with one_core():
@@ -97,12 +97,12 @@ def time_designs(write, amount):
 
 
 def keep_promises(write, amount):
-    """Hold the promises of designs against another program."""
+    """Check the promises of designs by another program."""
     write("promises", promises.table(amount["drawn"], workers=2), how=promises.HOW)
 
 
 def settle(write, amount):
-    """Count starts settled, states of a plane labelled, and orbits found in a second."""
+    """Count per second the starts settled, the states of a plane labelled, and the orbits found."""
     with one_core():
         write("settled", settled.table(amount["settled"], amount["few"]))
         write("basins", basins.table(50 * amount["settled"], amount["few"]))

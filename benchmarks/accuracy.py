@@ -28,7 +28,7 @@ class Found(NamedTuple):
 
 
 def measured(scene, name, tolerance):
-    """Return a method prepared for a scene, and its largest error; infinite if a run fails."""
+    """Return a method prepared for a scene, and its largest error, infinite if a run fails."""
     run = TIMED[name].prepare(scene, tolerance)
     error = scene.error(run(starts_of(scene, name)))
     return run, error if math.isfinite(error) else math.inf
@@ -37,7 +37,7 @@ def measured(scene, name, tolerance):
 def loosest(scene, name, limit=LIMIT):
     """Return the loosest tolerance with an error within the limit, by bisection, as `Found`.
 
-    If no tolerance keeps the limit, return the tightest one with `met` False.
+    If no tolerance keeps the limit, return the tightest tolerance, with `met` False.
     """
     low, high = LOOSEST - 1, TIGHTEST
     best = Found(10 ** (-high / STEPS), math.nan, False, None)

@@ -25,7 +25,7 @@ CELLS = 64
 
 @kernel
 def look_up(depth, half, states):
-    """Return the number of states inside a release set, at all its phases in turn."""
+    """Return the number of states inside a release set; state i is looked up at phase i mod n."""
     inside = 0
     for i in range(len(states)):
         inside += depth_of(depth, half, i % len(depth), states[i, 0], states[i, 1]) > 0

@@ -1,7 +1,7 @@
 """Error against time: every method over its tolerances, on every scene.
 
 A scene is a test case: one motion with starts (initial states) and exact states at its end. Rivals
-are the integrators with which the package is compared; each locates contacts or steps over them.
+are the integrators compared with the package. A rival either locates contacts or steps over them.
 """
 
 import math
@@ -18,11 +18,11 @@ from chatterjee1995.methods.integrators import runs_of_accuracy
 from chatterjee1995.methods.labels import colour_of
 from impact_damper.plot import style
 
-# After a run that took longer than this, in seconds, no tighter tolerance is tried.
+# Seconds. After a run that took longer, no tighter tolerance is tried.
 LONG = 0.5
-# A run with a larger error of the state than this has lost the motion.
+# Error of the state. A run with a larger error has lost the motion.
 LOST = 0.1
-# Colour, line and marker of the kernel and of heyoka.py; rivals have the colour of their figures.
+# Colour, line and marker of the kernel and of heyoka.py. `looks` adds the rivals.
 LOOK = {
     "kernel": (style.BLUE, "-", "o"),
     "kernel_12_15": (style.BLUE, "--", "4"),

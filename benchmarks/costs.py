@@ -24,7 +24,7 @@ from impact_damper.plot import style
 OSCILLATOR = Oscillator(0.215)
 DAMPER = Damper(0.12, 2.0)
 TOLERANCES = (1e-6, 1e-9, 1e-12)
-# Forcing cycles that are timed, and that are run before.
+# Numbers of forcing cycles. PERIODS are timed, TRANSIENT are run before.
 PERIODS, TRANSIENT = 20, 30
 # Radius of the ball of random starts.
 RADIUS = 2.0
@@ -59,7 +59,7 @@ def motions(count, seed=1995):
         for i, frequency in enumerate(frequencies):
             start = random_states(1, RADIUS, damper or DAMPER, seed + i)[0]
             if damper is None:
-                # Leads to the resonance motion, if this motion exists at this frequency.
+                # This start leads to the resonance motion, if that motion exists at `frequency`.
                 start[:2] = 1.4 * frequency * np.array([0.9, -0.5])
             found.append(motion(damper, frequency, start))
     return found
@@ -102,7 +102,7 @@ def fitted(table):
 
 @style.context()
 def draw(table):
-    """Draw the time of a cycle: of free motions over (2 pi/W) max |Z1|, of others over contacts."""
+    """Draw the time of a cycle: without contacts over (2 pi/W) max |Z1|, else over contacts."""
     table = table.assign(turns=2 * math.pi / table["frequency"] * table["displacement"])
     drawn = style.figure("double", 3.2)
     left, right = drawn.subplots(1, 2, sharey=True)

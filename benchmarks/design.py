@@ -1,4 +1,4 @@
-"""Seconds of the steps of a design, and the share of each, in one run."""
+"""Seconds of each step of a design, and the step's share of all seconds, in one run."""
 
 import resource
 import tempfile
@@ -29,7 +29,7 @@ def cpu_seconds():
 
 
 def steps_of(name, size, share, workers):
-    """Return the seconds of each step of a design, keyed by step, and the CPU seconds of all."""
+    """Return the seconds of each step of a design, keyed by step, and the design's CPU seconds."""
     machine, band, mass = DESIGNS[name]
     with tempfile.TemporaryDirectory() as folder:
         begin, used = time.time(), cpu_seconds()
@@ -54,7 +54,7 @@ def steps_of(name, size, share, workers):
 def table(size, share=0.95, workers=2):
     """Return the seconds and the share of each step of all designs.
 
-    `size` are arguments of `Effort`, and `share` is that of `design_damper`.
+    `size` are arguments of `Effort`. `share` is an argument of `design_damper`.
     """
     # A small design first, which loads all modules and kernels.
     steps_of("linear", {"frequencies": 3, "candidates": 4, "starts": 16}, 0.8, 1)

@@ -18,7 +18,7 @@ from benchmarks.rivals import coefficients
 from impact_damper.model import packed
 
 FASTEST = {"fast_math": True, "force_avx512": True}
-# Trajectories of a batch. 16 is the fastest number of those tried, 8 to 64.
+# Trajectories of a batch. Of the numbers tried, 8 to 64, 16 is the fastest.
 BATCH = 16
 # Time after an event in which heyoka does not search for the event again. With heyoka's default
 # the end of a very short contact is missed, at tolerances down to 1e-10; with 0 an event is found a
@@ -39,10 +39,10 @@ SETTINGS = {
 class Motions:
     """A heyoka integrator for given parameters.
 
-    Its equations omit factors that are 1, such as the cubic coefficient and the force of the paper,
-    and have the parameters as numbers. `batch` is the number of trajectories integrated together.
+    The equations omit factors that are 1, such as the cubic coefficient and the force of the paper,
+    and contain parameters as numbers. `batch` is the number of trajectories integrated together.
     With `linear_forcing` the forcing comes from two additional linear equations, not from a cosine.
-    `settings` of heyoka override `FASTEST`.
+    `settings`, keywords of heyoka, override `FASTEST`.
     """
 
     def __init__(self, p, tolerance, *, batch=1, linear_forcing=True, **settings):
@@ -103,7 +103,7 @@ class Motions:
         return scalar if self.batch == 1 else batched
 
     def _start(self, columns):
-        """Set states, the columns of an array, and flight; return the number of components used."""
+        """Start in flight at the states `columns`; return the number of components of a state."""
         n = 4 if self.damped else 2
         self.state[:n] = columns[:n]
         for i, value in enumerate(self.begin):

@@ -1,8 +1,8 @@
 """Methods that are timed, with one interface.
 
 For a scene (a test case) and a tolerance a method prepares a function from starts (initial states)
-to states at the end. The kernel is this package's compiled integrator. The integrators with which
-it is compared, called rivals, come from `chatterjee1995.methods.integrators`.
+to states at the end. The kernel is this package's compiled integrator. The integrators compared
+with the kernel are called rivals and come from `chatterjee1995.methods.integrators`.
 """
 
 from collections.abc import Callable
@@ -72,7 +72,7 @@ def of_orders(orders):
 
 
 def advance_rows(scene, states, tolerance):
-    """Advance states in place to the end of the scene, as an ensemble: several side by side."""
+    """Advance states in place to the end of the scene, as an ensemble (several states together)."""
     count = len(states)
     rows = np.tile(scene.parameters, (count, 1))
     sides, contacts = np.zeros((2, count), int)
@@ -103,7 +103,7 @@ def heyoka_batch(scene, tolerance):
 
 
 def rival(label):
-    """Return the timed method of a run of the stage `accuracy`, called for each start."""
+    """Return the timed method for a label of `runs_of_accuracy`, called for each start."""
     integrator, locate = runs_of_accuracy()[label]
 
     def prepare(scene, tolerance):

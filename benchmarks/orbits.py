@@ -16,7 +16,7 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 
 DAMPER, FREQUENCY, SPAN = Damper(0.12, 2.0), 2.0, (0.3, 2.6)
-# A state near the quiet motion, and the disturbance from which each orbit is found again.
+# A state near the quiet motion, and the disturbance of a state from which an orbit is found again.
 QUIET, DISTURBED = (0.006, 0.187, 0.002, -2.408), 1e-8
 
 

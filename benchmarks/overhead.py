@@ -31,7 +31,7 @@ Job(SimpleNamespace(log=[log], output=["empty.nc"], params=[{}]))
 
 
 def last_run(folder):
-    """Return Snakemake's log of the run with the most jobs, the newest of these, or None."""
+    """Return Snakemake's log of the run with the most jobs, the newest such run, or None."""
     texts = [path.read_text() for path in sorted(folder.glob("*.snakemake.log"), reverse=True)]
     done = [(len(_rules(text)), text) for text in texts if "Elapsed time:" in text]
     return max(done, key=lambda found: found[0], default=(0, None))[1]

@@ -1,10 +1,10 @@
-"""Designs of machines drawn at random, and their promises held against another program.
+"""Designs of machines drawn at random, with their promises checked by another program.
 
-For each machine: the decision of the design; the share of new starts that exceed the promise by
-Boost.odeint (`rivals/odeint.cpp`), which shares no code with the library, at the gap, at both ends
-of its tolerance and between points of the grid; and the promised displacement of the best of 40
-gaps in a sweep without search. Dampers with gravity, friction or a moving base are run by a C
-program instead (`tests/references/built.c`).
+The table has for each machine the decision of the design, the share of new starts that exceed the
+promise, and the promised displacement of the best of 40 gaps, swept without search. Boost.odeint
+(`rivals/odeint.cpp`), which shares no code with the library, runs the new starts: at the gap, at
+both ends of the gap's tolerance, and between frequencies of the grid. Dampers with gravity,
+friction or a moving base are run by a C program (`tests/references/built.c`).
 """
 
 import math
@@ -54,14 +54,14 @@ BUILT = {
         "damping_ratio": 0.01, "base_displacement": 2e-4}, AS_BUILT | {"band": (20, 22)}),
 }  # fmt: skip
 EXCITATIONS = ("force", "base_displacement", "unbalance")
-# New starts in each of four cells, FEWER for drawn machines and for dampers as they are built.
-# Cycles of a run: the first LEAD are left out, because transients last up to a thousand cycles. The
-# promise is for motions that last.
+# STARTS is the number of new starts in each of four cells, FEWER for drawn machines and for dampers
+# as they are built. CYCLES are forcing cycles of a run. The first LEAD cycles are left out: the
+# promise holds after transients, which last up to a thousand cycles.
 STARTS, FEWER, CYCLES, LEAD = 400, 100, 1500, 1000
 TOLERANCE = 1e-8  # of the other program
-# The sweep: gaps, frequencies and starts, the fewest that bound a share of 95 %.
+# Numbers of gaps, frequencies and starts of the sweep. 59 starts are the fewest that bound 95 %.
 GAPS, FREQUENCIES, SWEPT = 40, 7, 59
-# A gap of the sweep that is better than the design by less than a share of BETTER is none.
+# A gap of the sweep counts as better than the design if its displacement is less by this share.
 BETTER = 0.1
 HOW = (
     f"New starts: {STARTS}, or {FEWER} of drawn machines and of dampers as they are built, in each "
@@ -73,12 +73,12 @@ HOW = (
     f"with a probability below 0.001. The sweep has {GAPS} gaps, {FREQUENCIES} frequencies and "
     f"{SWEPT} starts; a gap that seems better by {BETTER:.0%} is computed as the design was."
 )
-# A promise counts as broken if so many starts exceed it with a probability below this.
+# A promise is broken if, at 5 % for each start, so many starts exceed it with a lower probability.
 CHANCE = 1e-3
 
 
 def drawn(number) -> tuple:
-    """Return a machine and arguments of a design, drawn with a number as seed."""
+    """Return a machine and arguments of a design, drawn at random with the seed `number`."""
     random = np.random.default_rng([1995, number])
     mass, frequency = 10 ** random.uniform(-1, 3), 10 ** random.uniform(0.5, 2.3)
     stiffness = mass * (2 * math.pi * frequency) ** 2
@@ -91,7 +91,7 @@ def drawn(number) -> tuple:
     size = {"force": stiffness * static, "base_displacement": static, "unbalance": mass * static}
     machine[excitation] = size[excitation]
     resonance = static / (2 * damping)
-    # The spring's frequency changes by `shift` at the displacement without the damper.
+    # The spring's frequency changes by the share `shift` at the displacement without the damper.
     shift = random.choice([0.0, random.uniform(0.02, 0.2), -random.uniform(0.01, 0.04)])
     if excitation != "base_displacement":
         machine["cubic_stiffness"] = 8 / 3 * stiffness * shift / resonance**2
@@ -111,7 +111,7 @@ def drawn(number) -> tuple:
 
 
 def cells_of(task, design) -> list:
-    """Return four cells: the gap, both ends of its tolerance, and between points of the grid."""
+    """Return four cells: the gap, both ends of its tolerance, and a frequency beside the grid."""
     gap, worst = 1e-3 * float(design["design_gap"]), float(design["promised_frequency"])
     sets = design["promise_factor"].values
     between = task.grid[:-1] + np.diff(task.grid) / 2
@@ -126,7 +126,7 @@ def cells_of(task, design) -> list:
 def new_sizes(task, cell, count, number, lead=LEAD, tolerance=TOLERANCE) -> np.ndarray:
     """Return the largest displacements (mm) of new starts by Boost.odeint, from `lead` cycles on.
 
-    `number` is a part of the seed.
+    The seed of the starts is [2026, `number`].
     """
     system = task.system(*cell)
     states, _ = random_starts(*system, count, [2026, number], task.effort.settling)
@@ -156,7 +156,7 @@ def exceeded(task, design, count) -> list:
 
 
 def swept(task) -> tuple:
-    """Return the best of GAPS gaps (mm) and its displacement (mm), each bounded with few starts.
+    """Return the best of GAPS gaps (mm), and its displacement (mm), bounded with SWEPT starts.
 
     The displacement of a gap is the largest within the tolerances, interpolated between the gaps.
     """
@@ -177,7 +177,7 @@ def swept(task) -> tuple:
 
 
 def confirmed(task, gap) -> float:
-    """Return the promised displacement of a gap (mm) with all starts and frequencies, mm."""
+    """Return the promised displacement (mm) of a gap (mm), with all starts and frequencies."""
     return Promise(task, 1e-3 * gap, factor_sets(task, gap), ("masses", 8)).refined().size
 
 

@@ -1,4 +1,4 @@
-"""Speed of the kernel against heyoka.py and SciPy at equal error, in one interleaved run.
+"""Speed of the kernel against heyoka.py and SciPy at equal error. The methods take turns.
 
 The kernel is this package's compiled integrator. A scene is a test case: a motion with several
 initial states.
@@ -74,7 +74,7 @@ def compared(scenes, rounds, limit=LIMIT, timed=COMPARED):
     """Return two tables: times at equal error, and their ratios.
 
     `limit` is the largest error of a component of a state at the end, and `timed` names methods.
-    Times are microseconds for a forcing cycle of a trajectory. Ratios are of the times in a round.
+    Times are microseconds for a forcing cycle of a trajectory. A ratio is of times in one round.
     """
     times, ratios = [], []
     for scene in scenes:

@@ -21,14 +21,14 @@ from impact_damper.motions.steady import run_chunks
 
 TOLERANCE = 1e-9
 RADIUS = 2.0
-# Trajectories that a thread takes at a time; they keep it busy for some milliseconds.
+# Trajectories that a thread takes at a time, enough to keep the thread busy for milliseconds.
 SHARE = 512
 # Longest time in seconds until a process is ready.
 PATIENCE = 300
 
 
 def starts_of(scene, count):
-    """Return starts near the scene's orbit, and starts in a ball, whose motions diverge."""
+    """Return starts near the scene's orbit, and random starts in a ball, whose motions differ."""
     near = np.resize(scene.starts, (count, 4))
     damper = Damper(0.12, scene.parameters[CLEARANCE]) if scene.components == 4 else None
     return {"near the orbit": near, "random": random_states(count, RADIUS, damper, 1995)}
@@ -63,7 +63,7 @@ def cores(scenes, count, rounds):
 
     The speed-up is the throughput divided by the throughput of one thread. The starts are random.
     For comparison the table also has the speed-up by several processes that share nothing, each
-    with all starts. This is the largest speed-up that the computer allows.
+    with all starts. The speed-up by processes is the largest that the computer allows.
     """
     threads = range(1, min(os.cpu_count(), 8) + 1)
     rows = []
@@ -98,7 +98,7 @@ def processes_apart(count, scene, starts):
 
 
 def prepare(ready, scene, starts):
-    """Begin a process: keep scene and starts, load the kernels, and wait for the others."""
+    """Begin a process: keep scene and starts, load the kernels, wait for the other processes."""
     alone.update(scene=scene, starts=starts)
     advance_in_shares(scene, starts[:1], 1)
     ready.wait(PATIENCE)

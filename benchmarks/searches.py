@@ -29,7 +29,7 @@ from impact_damper.motions.start_states import barrier
 from impact_damper.motions.sweep import SIMILAR, size_ratio
 from impact_damper.theory.design_rule import peak_frequency
 
-# Ratio of the largest displacements and speeds of the starts of both searches.
+# Largest displacement and speed of starts in the wide search, divided by the default search's.
 WIDER = 10.0
 # Seeds of the random systems, and of the starts of the wide search.
 SYSTEMS_SEED, SEED = 19, 6
@@ -132,7 +132,7 @@ class Known(NamedTuple):
     Attributes
     ----------
     motions : list of dict
-        Outcome, period, largest displacement and state of each.
+        Outcome, period, largest displacement and state of each motion.
     later : list of records.MOTION
         Records of the motions that have not settled, after a longer run.
     """
@@ -143,7 +143,7 @@ class Known(NamedTuple):
     def hold(self, record):
         """Return whether a motion is among the known ones.
 
-        A settled motion must agree in size within SAME, another one within the factor SIMILAR.
+        A settled motion must agree in size within SAME, any other motion within the factor SIMILAR.
         """
         here = [each for each in self.motions if kind(each) == kind(record)]
         size = record["maximum_displacement"]
@@ -172,7 +172,7 @@ def known_by(found, p):
 
 
 def table(systems, count) -> pd.DataFrame:
-    """Return a row for each system: sizes by both searches, and starts at missed motions."""
+    """Return a row for each system: sizes by both searches, and starts of missed motions."""
     rows = []
     for name, oscillator, damper, frequency in systems:
         begin = time.process_time()

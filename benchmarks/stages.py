@@ -61,7 +61,7 @@ def table(folder):
 def with_costs(text, results):
     """Return the text of `config/README.md` with jobs and CPU seconds of the run in `results`.
 
-    A row of its table names stages, and has the costs of their jobs. It stays if there were none.
+    A row of the table names stages, and gets the costs of their jobs. A row without jobs stays.
     """
     costs = jobs(results / "timings").groupby("stage")["cpu_seconds"].agg(["size", "sum"])
     machine = json.loads((results / "provenance.json").read_text())["machine"]

@@ -1,4 +1,4 @@
-"""Wall times of calls that take turns, so that other load on the computer affects all alike."""
+"""Wall times of calls that take turns: other load on the computer then slows all calls alike."""
 
 import gc
 import math
@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-# A shorter call is repeated until all repeats together, called a block, take this long, in seconds.
+# Seconds. A shorter call is repeated; all repeats together, called a block, take about this long.
 SHORTEST = 1e-3
 # Blocks in a round, of which the fastest counts: another process that occupies the core for a while
 # slows down only some of the blocks.
@@ -48,7 +48,7 @@ def repeats_of(call):
 def interleaved(calls, rounds):
     """Return the seconds of each call in each round, by name; in a round every call has its turn.
 
-    They are of the fastest of BLOCKS blocks, or of one block that takes 50 times SHORTEST.
+    The fastest of BLOCKS blocks counts. A block that takes 50 times SHORTEST stays the only one.
     """
     repeats = {name: repeats_of(call) for name, call in calls.items()}
     seconds = {name: np.empty(rounds) for name in calls}

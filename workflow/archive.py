@@ -1,7 +1,7 @@
 """Archive of a run: `python workflow/archive.py write FILE`, and `check FILE`.
 
-The archive is a zip of the results and of their sources, with an RO-Crate that names the
-digest of each file and the job that made it. The check compares the digests and runs a job again.
+The archive is a zip of the results and of their sources. Its RO-Crate names for each file the
+digest and the job that made the file. The check compares digests and runs a job again.
 """
 
 import argparse

@@ -63,7 +63,7 @@ def codemeta(project, cited):
 
 
 def article(reference):
-    """Return a reference of CITATION.cff as an article, with the terms that CodeMeta has."""
+    """Return a reference of CITATION.cff as an article in the terms of CodeMeta."""
     issue = f"{reference['volume']}({reference['issue']})"
     pages = f"{reference['start']}-{reference['end']}"
     return {
@@ -83,7 +83,7 @@ def article(reference):
 
 
 def files(pyproject):
-    """Return the text of each file, by its name, for the text of a pyproject.toml."""
+    """Return a dict: name of a file -> text of the file, from the text of a pyproject.toml."""
     table = tomllib.loads(pyproject)
     project, cited = table["project"], table["tool"]["citation"]
     head = "# Made from pyproject.toml by `make citation`.\n"

@@ -34,7 +34,7 @@ UNITS = {"seconds": "SEC", "cpu_seconds": "SEC", "peak_memory_mb": "MegaBYTE"}
 
 
 def entity(name, kind, /, **properties):
-    """Return an entity without None and empty lists. A list of one value becomes the value."""
+    """Return an entity without properties None and []. A list of one value becomes the value."""
     given = {key: value for key, value in properties.items() if value not in (None, [])}
     for key, value in given.items():
         if isinstance(value, list) and len(value) == 1:
@@ -83,7 +83,7 @@ def jobs_of(root, files):
 
 
 def files_of(root, paths, jobs):
-    """Yield the entity of each file; figures and tables have their captions."""
+    """Yield the entity of each file. The entity of a figure or table has the caption."""
     rules = {output: job["rule"] for job in jobs.values() for output in job["output"]}
     for path in paths:
         caption = (root / path).with_suffix(".rst")
@@ -156,7 +156,7 @@ def actions(root, jobs):
 
 
 def rules_of(jobs, version):
-    """Yield the step of each rule, its tool (the function that its jobs call), and parameters."""
+    """Yield for each rule a step, a tool (the function that the jobs call), and parameters."""
     for rule in sorted({job["rule"] for job in jobs.values()}):
         same = [job for job in jobs.values() if job["rule"] == rule]
         first = same[0]

@@ -1,8 +1,8 @@
 """Other programs that integrate motions with contacts, each as its own documentation recommends.
 
-Each module has the functions `obstacle`, which returns why the program is not available, or an
-empty string; `version`; and `prepare`, which returns a function from starts to states at the end of
-a scene and the numbers of contacts.
+Each module has three functions. `obstacle` returns why the program is not available, or an empty
+string. `version` returns a text. `prepare` returns a function of starts, which returns the states
+at the end of a scene and the numbers of contacts.
 """
 
 from importlib.util import find_spec
@@ -35,5 +35,5 @@ def coefficients(p):
 
 
 def lacks(module, package):
-    """Return that a package is missing if its module cannot be found, or an empty string."""
+    """Return a text if a package is missing (its module cannot be found), or an empty string."""
     return "" if find_spec(module) else f"no {package} (pip install 'impact-damper[benchmark]')"

@@ -1,7 +1,7 @@
 """CVODE of SUNDIALS with root finding, through scikit-sundae, with compiled equations.
 
 The method is Adams', which the documentation recommends for problems that are not stiff. The one
-root function is |Z2| - d0. At a root CVODE returns, the phase changes, and CVODE starts again.
+root function is |Z2| - d0. At a root CVODE returns and starts again in the next phase.
 """
 
 import math
@@ -24,7 +24,7 @@ def version():
 
 
 def equations(p):
-    """Return compiled rates and root function; their last argument is the phase, -1, 0 or 1."""
+    """Return compiled rates and root function. `side` is 0 in flight, -1 or 1 at a wall."""
     h, linear, cubic, amplitude, w, d0, wall, dashpot, heavy = coefficients(p)
 
     @numba.njit

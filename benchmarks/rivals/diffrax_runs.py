@@ -22,7 +22,7 @@ def version():
 
 
 def equations(p):
-    """Return the rates, with the phase -1, 0 or 1 as argument, and the root function."""
+    """Return the functions of rates and root. `side` is 0 in flight, -1 or 1 at a wall."""
     import jax.numpy as jnp
 
     h, linear, cubic, amplitude, w, d0, wall, dashpot, heavy = coefficients(p)
@@ -34,7 +34,7 @@ def equations(p):
         return jnp.array([y[1], free - force, y[3], free - heavy * force])
 
     def beyond(t, y, args, **_):
-        # Negative within a phase, so that only the end of a phase crosses zero upwards.
+        # The value is negative within a flight or contact, and crosses zero upwards at its end.
         return jnp.where(args == 0, 1.0, -1.0) * (jnp.abs(y[2]) - d0)
 
     return rates, beyond
@@ -42,7 +42,7 @@ def equations(p):
 
 @functools.cache
 def _compiled(parameters, end, damped):
-    """Return the compiled function of starts, begin and tolerance; parameters are bytes."""
+    """Return the compiled function of starts, begin and tolerance; `parameters` are bytes."""
     import diffrax
     import jax
     import jax.numpy as jnp

@@ -24,7 +24,7 @@ struct Motion {
         rates = {v, free - force, w, free - base * drive + gravity - heavy * force};
     }
 
-    // Whether a state is on the other side of the wall than the present phase.
+    // Whether a state has left the present phase: no wall pressed in contact, or a wall in flight.
     bool changed(const State &y) const {
         const double depth = std::abs(y[2]) - clearance;
         const bool pushed = depth > 0 && depth + lag * std::copysign(std::abs(y[3]), y[2] * y[3]) > 0;

@@ -56,7 +56,7 @@ def largest(p, states, begin, lead, end, tolerance) -> np.ndarray:
 
 
 def _given(p):
-    """Return the members of Motion in the program; it has no friction."""
+    """Return the members of Motion in the program; Motion has no friction."""
     assert p[FRICTION] == 0
     return np.array([*coefficients(p), p[LAG], p[BASE], p[GRAVITY]])
 

@@ -32,7 +32,7 @@ HOW = (
 
 
 def available():
-    """Return the programs that can run here, and print what the others need."""
+    """Return the programs that can run here, and print what the other programs need."""
     found = {}
     for title, program in PROGRAMS.items():
         if obstacle := program.obstacle():

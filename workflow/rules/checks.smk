@@ -16,7 +16,7 @@ def check_results(folder):
 
     Snakemake compares the contents of an input only if the input is newer than the output. After
     the clock was set back, outputs have dates in the future, and later edits of inputs would be
-    overlooked. With the oldest date of the outputs the contents of all inputs are compared.
+    overlooked. With outputs of the date OLDEST, Snakemake compares the contents of all inputs.
     """
     ahead = []
     try:

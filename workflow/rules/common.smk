@@ -18,7 +18,7 @@ from chatterjee1995.workflow.kernels import compiled_kernels
 from impact_damper.command.section import ConfigurationError, check_file
 from impact_damper.kernel.sources import KERNEL, kernel_digest, module_file, sources
 
-# Planning makes many small objects, none of which becomes garbage. Collecting it rarely saves time.
+# Planning makes many small objects, and none becomes garbage: fewer collections save time.
 gc.set_threshold(100_000)
 
 ROOT = Path(str(workflow.current_basedir)).parents[1]
@@ -26,7 +26,7 @@ ENVIRONMENT = str(ROOT / "workflow/envs/impact-damper.yaml")
 # Jobs that need compiled kernels (functions compiled by numba) wait for this marker file. With
 # `ancient` a new date of the file reruns no job.
 KERNELS = ancient("<results>/kernels.compiled")
-# Rules are cacheable only with the option `--cache`. Else Snakemake prints a line for each.
+# Rules are cacheable only with the option `--cache`: Snakemake prints a line for a cacheable rule.
 SHARED = workflow.workflow_settings.cache is not None
 
 
@@ -37,8 +37,8 @@ wildcard_constraints:
 def checked(given):
     """Return the configuration as an object, or raise an error that lists its problems.
 
-    Only the main process checks all, because other processes run jobs that it has planned. A
-    configuration with which the last run into the same folder succeeded is not checked again.
+    Only the main process checks everything: other processes run jobs that the main process has
+    planned. The configuration of the last complete run into this folder is not checked again.
     """
     main = workflow.is_main_process
     try:
@@ -74,7 +74,7 @@ def local(path):
 
 @cache
 def code(script, *modules):
-    """Return the source files of a job: script, modules, and the modules that they import.
+    """Return the source files of a job: script, modules, and all modules that these import.
 
     Texts and templates beside these modules count too, and the lock file stands for the versions of
     all other packages.
@@ -111,7 +111,7 @@ def inputs(stage):
 
 
 def read_by(stage, key, wildcards):
-    """Return the datasets of earlier stages that a job reads under a keyword."""
+    """Return the datasets of earlier stages that a job reads as the argument `key`."""
     stages = selection.read_by(settings, stage, wildcards.name)[key]
     return [path for each in stages for path in data(each, [wildcards.name])]
 
@@ -184,8 +184,8 @@ def table_files(chapter):
 def target_files(stage):
     """Return the files that the target of a stage makes.
 
-    These are its datasets. If the stage is not part of the paper, they are also its pages, and the
-    figures and tables that show it in chapters beside the paper.
+    For a stage of the paper these are the datasets. For another stage, pages are added, and the
+    figures and tables of the chapters that show the stage and are not part of the paper.
     """
     if STAGES[stage].paper:
         return data(stage)
@@ -233,7 +233,7 @@ def write_provenance():
 
 
 def compile_again():
-    """Compile the kernels again if an existing marker file has another digest of their sources."""
+    """Compile the kernels again if the marker file exists and has another digest of the sources."""
     orders = settings.comparison.orders
     marker, now = Path(settings.results) / "kernels.compiled", compiled_kernels(orders)
     if not marker.exists() or marker.read_bytes() == now.encode():

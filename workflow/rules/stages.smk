@@ -1,4 +1,4 @@
-# A rule for each stage, which calls the function of its record in the registry.
+# For each stage a rule. Jobs of the rule call the stage's function, which the registry names.
 for stage in STAGES.values():
 
     if stage.name != "studies":

@@ -1,1 +1,1 @@
-"""Claims of the paper, numbers that decide them, and verdicts. (7) is equation (7) of the paper."""
+"""Claims of the paper, numbers that decide the claims, and verdicts on the claims."""

@@ -8,8 +8,8 @@ from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading.datasets import Missing
 from impact_damper.data.datasets import flag, is_settled
 
-AROUND = 0.1  # largest |W/Wp - 1| at which W counts as around the peak frequency Wp
-BELOW = 0.75  # smallest W/Wp at which violent motions below the band are searched for
+AROUND = 0.1  # W is "around" the peak frequency Wp if |W/Wp - 1| is at most this number
+BELOW = 0.75  # lowest W/Wp of the range below the band that is searched for violent motions
 ALL_DESIGNS = (*reading.CAPTIONS, *reading.RULES)  # names of all designs of figure 3
 
 
@@ -41,7 +41,7 @@ def small_motion(datasets):
 
 
 def rigid_against_elastic(datasets):
-    """Return the numbers of claim 2: large solutions of (14) and (7) have the same amplitude."""
+    """Return the numbers of claim 2: large amplitudes by (14) equal large amplitudes by (7)."""
     designs = reading.damped(datasets, "harmonic_balance").values()
     if not designs:
         raise Missing("There is no dataset of the stage harmonic_balance with a damper")
@@ -66,7 +66,7 @@ def rigid_against_elastic(datasets):
 
 
 def quiet_and_high(datasets):
-    """Return the numbers of claim 3: quiet motions exist around Wp, violent ones below the band."""
+    """Return the numbers of claim 3: quiet motions around Wp, violent motions below the band."""
     around, beside, found = [], [], []
     for design in reading.select(datasets, "harmonic_balance", ALL_DESIGNS):
         peak = float(design.peak_frequency)

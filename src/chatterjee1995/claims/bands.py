@@ -1,4 +1,4 @@
-"""Evidence (numbers) for claims 4, 16 and 17, on the suppression band and amplitudes in it."""
+"""Evidence (numbers) for claims 4, 16 and 17: width of the suppression band, amplitudes in it."""
 
 import itertools
 
@@ -38,7 +38,7 @@ def widening(datasets):
 
 
 def _growth(series, width):
-    """Return the smallest ratio of a design's width to the width of the design before it."""
+    """Return the smallest width(design) / width(previous design) of all designs in `series`."""
     return min(
         float(width(after) / width(before))
         for designs in series
@@ -47,7 +47,7 @@ def _growth(series, width):
 
 
 def _remaining(datasets, names):
-    """Return max |Z1| of each design's quiet orbit at Wp, as a share of the free resonance."""
+    """Return for each design (max |Z1| of the quiet orbit at Wp) / (max |Z1| of free resonance)."""
     return [
         float(reading.design_point(orbit).orbit_displacement)
         / orbits.resonance_fold(orbits.free_of(datasets, orbit))[1]

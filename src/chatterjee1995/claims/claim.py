@@ -1,4 +1,4 @@
-"""A claim of the paper, as stated in `claims.yaml`, and its verdict, computed from datasets."""
+"""A claim of the paper, read from `claims.yaml`, and its verdict, computed from datasets."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -18,12 +18,12 @@ NOT_DECIDABLE = "not decidable"
 
 
 def part(share, digits=2) -> str:
-    """Return a share as "all", "none" or a percentage, so that "of the" can follow."""
+    """Return a share as text to which "of the" can be added: "all", "none" or a percentage."""
     return {1.0: "all", 0.0: "none"}.get(float(share)) or percent(share, digits)
 
 
 def rounding(distance) -> str:
-    """Return in words whether a number is rounded rightly; `distance` is from `misrounding`."""
+    """Return "a right rounding" or "not a rounding". `distance` is a result of `misrounding`."""
     return "a right rounding" if distance <= 1 else "not a rounding"
 
 
@@ -68,14 +68,14 @@ class Bound(NamedTuple):
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper. `number` is "1" to "19", or "S1" to "S6" for misprints.
+    """A statement of the paper. `number` is "1" to "19", or "S1" to "S6" (misprints, omissions).
 
-    `evidence` takes all datasets, keyed by stage and name. It returns a dict for the template
-    `finding`, with a number for each bound, or NaN if the data do not determine the number. It
-    raises `Missing` if the data lack something needed. `finding` must be true for every verdict.
-    `reading` says how we read vague words. `required` and `full_agreement` map each bound to the
-    meaning of its number; the second bound of a number maps to None. `figures` are names, the most
-    important first. `verdicts` maps usual verdicts to other words.
+    `evidence(datasets)` returns the values of the template `finding`, among them a number for each
+    bound, or NaN if the data do not determine the number. It raises `Missing` if a dataset is
+    missing. The text `finding` must be true for every verdict. `reading` says how we read vague
+    words. `required` and `full_agreement` map each bound to the meaning of its number. A second
+    bound of the same number is mapped to None. `figures` are names, the most important first.
+    `verdicts` maps usual verdicts to other words.
     """
 
     number: str

@@ -17,7 +17,7 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return, for the damped motions of one kind, the shares of their releases to `free_motion`."""
+    """Return for each damped motion of a kind the share of its releases to `free_motion`."""
     rows = case.damped_kind.values == flag("released_from", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]
@@ -44,8 +44,8 @@ def release_phase(datasets):
 def _scanned(datasets, case):
     """Return a dict: W -> whether the phase of release selects the motion.
 
-    The phase selects it if releases from one quiet motion lead to the non-resonance motion and also
-    to the subharmonic. Only scans with the oscillator and the damper of `case` count.
+    The phase selects the motion if some releases from one quiet motion lead to the non-resonance
+    motion and others to the subharmonic. Only scans with oscillator and damper of `case` count.
     """
     wanted = oscillator_of(case), damper_of(case)
     found = {}
@@ -60,7 +60,7 @@ def _scanned(datasets, case):
 
 
 def _nearest_range(decides, frequency):
-    """Return both ends of the range of true `decides` that is nearest to `frequency`, or NaN."""
+    """Return the ends of the range of W nearest to `frequency` where `decides` is true, or NaN."""
     scanned = list(decides)
     ends = [
         (scanned[first], scanned[last - 1]) for first, last in runs_of_true(list(decides.values()))
@@ -119,7 +119,7 @@ def early_release(datasets):
 
 
 def by_policy(datasets, case, policy):
-    """Return for a policy the share of runs that arrive, and the median cycles; NaN if unknown."""
+    """Return the share of a policy's runs that reach the goal, and their median cycles, or NaN."""
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"
     for data in datasets.get("release_policies", {}).values():

@@ -116,7 +116,7 @@ def first_collisions(datasets):
 
 
 def contact_model(datasets):
-    """Return the numbers of claim 15: the model is good for high e and fails for low e."""
+    """Return the numbers of claim 15: the contact model is good for high e and fails for low e."""
     used = [
         reading.parameter(data, "restitution")
         for stage in ("response", "optimum")
@@ -136,7 +136,7 @@ def contact_model(datasets):
 
 
 def _duration(restitution):
-    """Return the time in contact without load, divided by its value for e = 1."""
+    """Return (time in contact without load) / (time in contact without load for e = 1)."""
     return 1 / math.sqrt(1 - damping_ratio(restitution) ** 2)
 
 

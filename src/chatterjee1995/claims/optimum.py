@@ -14,7 +14,7 @@ AWAY = 0.1  # the rise of max |Z1| is read at (1 - AWAY) and (1 + AWAY) times th
 
 
 def excess(datasets):
-    """Return the numbers of claim 9: the optimum d0 slightly exceeds the optimum by (7)."""
+    """Return the numbers of claim 9: the optimum d0 slightly exceeds the optimum d0 by (7)."""
     groups = _sweeps(datasets, "damping", restitution=1)
     members = [sweep for group in groups.values() for sweep in group]
     over = [float(sweep.optimum_clearance / sweep.analytical_optimum) - 1 for sweep in members]
@@ -24,7 +24,7 @@ def excess(datasets):
         spreads.append(np.max(sizes) / np.min(sizes) - 1)
     for sweep in members:
         damping, frequency = reading.parameters(sweep, "damping", "frequency")
-        displaced.append(_displaced(sweep) * damping * frequency)  # relative to resonance, 1/(h W)
+        displaced.append(_displaced(sweep) * damping * frequency)  # divided by resonance, 1/(h W)
     return {
         "dampings": len(groups),
         "least": np.min(over),
@@ -48,7 +48,7 @@ def _sweeps(datasets, *keys, **fixed):
 
 
 def _displaced(sweep):
-    """Return the larger max |Z1| of the motions with d0 10 % below and 10 % above the optimum."""
+    """Return the larger max |Z1| of two motions, with d0 10 % below and 10 % above the optimum."""
     ends = float(sweep.optimum_clearance) * np.array([1 - AWAY, 1 + AWAY])
     size = np.interp(ends, sweep.clearance, sweep.quiet_displacement, left=np.nan, right=np.nan)
     return float(np.max(size))
@@ -83,7 +83,7 @@ def restitution(datasets):
 
 
 def _restitution_steps(group):
-    """Return ratios for each step to a lower e. `overall` compares the lowest and the highest e."""
+    """Return ratios value(e) / value(next larger e); `overall` is value(least e) / value(most)."""
     group = sorted(group, key=lambda sweep: -reading.parameter(sweep, "restitution"))
     return [
         {

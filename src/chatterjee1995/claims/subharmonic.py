@@ -7,11 +7,11 @@ from chatterjee1995.reading import orbits
 
 # Curves. LIGHT: small loose masses. HEAVY: a large loose mass. LOW_DAMPING: low damping h.
 LIGHT, HEAVY, LOW_DAMPING = reading.BY_MASS[:2], reading.BY_MASS[2], "figure_08"
-AS_LARGE = 0.95  # an unchanged subharmonic has at least this share of the free max |Z1|
+AS_LARGE = 0.95  # a subharmonic counts as unchanged if max |Z1| / (free max |Z1|) is at least this
 
 
 def _remaining(datasets, name):
-    """Return widths in W of stable subharmonics, and largest ratios of max |Z1| to the free one."""
+    """Return widths in W of stable subharmonics, and the largest max |Z1| / (free max |Z1|)."""
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
     edges = reading.band_edges(reading.get(datasets, "harmonic_balance", name))
@@ -41,7 +41,7 @@ def reappearance(datasets):
 
 
 def by_damping(datasets):
-    """Return the numbers of claim 18: the subharmonic is reduced more at lower h."""
+    """Return the numbers of claim 18: a damper reduces the subharmonic more at lower h."""
     low, high = (_reduction(datasets, name) for name in (LOW_DAMPING, reading.BY_MASS[0]))
     return {
         "fall": low["fall"] / high["fall"],
@@ -54,11 +54,11 @@ def by_damping(datasets):
 
 
 def _reduction(datasets, name):
-    """Return how much a damper reduces the subharmonic, where the free one exists.
+    """Return how much a damper reduces the subharmonic, in the range of W of the free subharmonic.
 
-    `fall` is the mean reduction of max |Z1|; starts that lead to another motion count as 0.
+    `fall` is the mean reduction of max |Z1|. A start that leads to another motion counts with 0.
     `relative` is `fall` divided by the mean max |Z1| without damper. `unchanged` is the share of
-    the range in which a stable subharmonic is at least `AS_LARGE` times the free one.
+    the range in which max |Z1| of a stable subharmonic is at least `AS_LARGE` (free max |Z1|).
     """
     branches, free = orbits.of_curve(datasets, name)
     ends = orbits.subharmonic_range(free)

@@ -1,4 +1,4 @@
-"""All claims of the paper, the table of their verdicts, and its page in Markdown."""
+"""All claims of the paper, the table of verdicts, and the Markdown page of the claims."""
 
 import re
 from importlib.resources import files

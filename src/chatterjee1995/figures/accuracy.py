@@ -10,7 +10,7 @@ from chatterjee1995.methods.labels import colour_of, method_in_words
 from impact_damper.data.datasets import decode, parameters_of
 from impact_damper.plot import style
 
-# Colour, marker and line of the models in `orbit_models`.
+# Model in `orbit_models` -> colour, marker, line.
 MODELS = {
     "rigid": (style.GREY, "s", "none"),
     "rigid_mended": (style.GREY, "D", "none"),
@@ -19,9 +19,9 @@ MODELS = {
     "many_harmonics": (style.SKY, "h", "-"),
     "shooting": (style.BLACK, "*", "none"),
 }
-LOCATED = {True: ("^", "-"), False: ("v", ":")}  # whether contacts are located -> marker, line
-OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]  # marker, line of further Taylor series
-# Quantity of the required accuracy -> variable or statistic of the dataset, and label of the axis.
+LOCATED = {True: ("^", "-"), False: ("v", ":")}  # method locates contacts -> marker, line
+OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]  # marker, line of other Taylor series
+# Quantity whose accuracy is required -> variable or statistic of the dataset, label of the axis.
 QUANTITIES = {
     "amplitude": ("amplitude_error", r"Relative error of max $|Z_1|$"),
     "state": ("state_error", "Error of the state at the end"),
@@ -32,7 +32,7 @@ QUANTITIES = {
     "exponent": ("exponent", "Relative error of the Lyapunov exponent"),
 }
 FINEST = 1e-16  # smallest error drawn
-ENDED = "ok", "missed_contacts", "invented_contacts"  # values of `run_status` with a result
+ENDED = "ok", "missed_contacts", "invented_contacts"  # `run_status` of runs with a result
 DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 
@@ -97,7 +97,7 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the runs of one method. Runs in `bad` or with errors up to `bars` have open markers."""
+    """Draw the runs of one method. Runs in `bad` or with an error <= `bars` get open markers."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     if bars is None:

@@ -1,4 +1,4 @@
-"""Figures of the errors of harmonic balance: against harmonics, and as maps of two parameters."""
+"""Figures of errors of harmonic balance: over the highest harmonic, and maps of two parameters."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -14,7 +14,7 @@ PANELS = {
     "retained": "Error of $Z_1$ in harmonics up to $N$",
     "multiplier": "Error of a Floquet multiplier (Hill)",
 }
-ROUNDING = 1e-12  # smallest error used in the fit; rounding dominates smaller errors
+ROUNDING = 1e-12  # smallest error by which `_guide` places its line; smaller errors are rounding
 FLOOR = 1e-16  # smallest error drawn
 GUIDE = {"color": style.GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
 # Result of a cold start (Newton's method from one harmonic) -> legend text and marker.
@@ -30,7 +30,7 @@ PARAMETERS = {
     "clearance": "Clearance, $d_0$",
     "restitution": "Coefficient of restitution, $e$",
 }
-# Verdict (answer of harmonic balance, answer of exact motions) -> legend text, colour, hatching.
+# Verdict: answer of harmonic balance, then of exact motions -> legend text, colour, hatching.
 QUIET = {
     "stable_stable": ("rightly called stable", style.PALE_SKY, ""),
     "stable_unstable": ("called stable, orbit is unstable", style.VERMILION, "////"),
@@ -91,7 +91,7 @@ def _draw_errors(axes, harmonics, measure):
 
 
 def _guide(data, at):
-    """Return the line of predicted decrease, raised by a factor of 3 to keep errors visible."""
+    """Return the line of predicted decrease, 3 times above the errors to leave them visible."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():

@@ -26,7 +26,7 @@ RULES = {
     "elastic": style.line("explicit, elastic contact", style.ORANGE),
     "flight": style.line("flight with corrections", style.BLACK, linewidth=1.8),
 }
-# Hatching of the cells of a study in which some motion neither settled nor ended without contact.
+# Hatching of the cells of a study in which some motion with contacts has not settled.
 UNSETTLED = {"hatch": "////", "edgecolor": style.BLACK, "linewidth": 0}
 
 
@@ -41,7 +41,7 @@ def draw_optimum(*, optimum):
 
 @style.context()
 def draw_design_rules(*, design_rules):
-    """Draw optima and rules against each swept parameter, and the distribution of all errors."""
+    """Draw optima and rules against each swept parameter, and the distribution of rules' errors."""
     swept = [[name for name in SWEPT if data.sizes[name] > 1] for data in design_rules]
     sweeps = [
         (d, names[0]) for d, names in zip(design_rules, swept, strict=True) if len(names) == 1
@@ -79,7 +79,7 @@ def _draw_sweep(axes, data, name):
 
 
 def _draw_errors(axes, datasets):
-    """Draw for each rule the share of optima predicted within an error, against this error."""
+    """Draw for each rule the cumulative distribution of its relative errors, in per cent."""
     for rule, look in RULES.items():
         errors = np.concatenate(
             [
@@ -95,7 +95,7 @@ def _draw_errors(axes, datasets):
 
 @style.context()
 def draw_studies(*, studies):
-    """Draw the largest displacement of a study, a panel for each restitution and frequency."""
+    """Draw the largest displacement of a study, a panel for each pair (restitution, frequency)."""
     (data,) = studies
     pairs = list(product(data["restitution"].values, data["frequency"].values))
     rows, columns = data.sizes["restitution"], data.sizes["frequency"]

@@ -21,7 +21,7 @@ MOTIONS = (
 
 @style.context()
 def draw_contact_model(*, contact_model):
-    """Draw errors of restitution by both exit rules (first dataset) and contacts (all datasets)."""
+    """Draw the error of e for both exit rules (first dataset), and all datasets' contacts."""
     drawn = style.figure("double", 4.0)
     panels = drawn.subplots(1, 2, sharex=True, sharey=True)
     data = contact_model[0]

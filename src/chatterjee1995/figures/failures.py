@@ -75,7 +75,7 @@ def draw_stable_steps(*, stable_steps):
         words = style.parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
         axes.set(xscale="log", yscale="log", xlabel=style.axis_label(data["contact_stiffness"]))
         axes.set_title(words)
-        # Limits are fixed, because a panel may have no points.
+        # The limits of the axes are set here, because a panel may have no points.
         stiffness, tested = data["contact_stiffness"].values, data["scaled_step"].values
         axes.set(xlim=(stiffness.min() / 2, stiffness.max() * 2))
         axes.set(ylim=(tested.min(), tested.max()))
@@ -100,7 +100,7 @@ def _draw_method(axes, data, index, title):
 
 
 def _edges(values):
-    """Return edges of cells, midway on a logarithmic axis. A single cell is a decade wide."""
+    """Return edges of cells, midway between values on a log axis. A lone cell is a decade wide."""
     if len(values) == 1:
         return np.asarray(values) * np.sqrt([0.1, 10])
     return np.exp(edges_of(np.log(values)))

@@ -9,7 +9,7 @@ from impact_damper.plot.basin_plane import basins as basins_plot
 from impact_damper.plot.motions import migration as migration_plot
 
 AROUND = -15, 25  # first and last cycle of the detail panel, relative to the last release
-# DESTINATIONS: motion after release -> marker. MOTIONS: motion before release -> panel title.
+# Motion after the release -> marker.
 DESTINATIONS = {
     "non_resonance": style.markers(
         "released to the non-resonance motion", style.BLUE, ".", markerfacecolor=style.BLUE
@@ -19,7 +19,7 @@ DESTINATIONS = {
     "other": style.markers("released to another motion", style.GREEN, "d"),
     "unresolved": style.markers("not settled after the release", style.ORANGE, "*"),
 }
-MOTIONS = {
+MOTIONS = {  # motion before the release -> title of the panel
     "unsettled": "before it has settled",
     "quiet": "quiet motion",
     "violent": "violent motion",
@@ -30,7 +30,7 @@ DAMPER = "mass_ratio", "clearance", "restitution"
 
 @style.context({"axes.titley": None})  # keeps the panel letters clear of the upper axis
 def draw_migration(*, migration):
-    """Draw the displacement in the stored run of each case: the whole run, and its last release."""
+    """Draw the displacement in the stored run of each case: whole, and around the last release."""
     drawn = style.figure("double", 0.7 + 3.6 * len(migration))
     panels = drawn.subplots(2 * len(migration), 1, squeeze=False)[:, 0]
     for runs, whole, part in zip(migration, panels[::2], panels[1::2], strict=True):
@@ -56,7 +56,7 @@ def draw_release(*, migration):
     drawn, panels = style.grid(len(sources), 2.6, 0.6, columns)
     for axes, (runs, row) in zip(panels, sources, strict=True):
         _draw_releases(axes, runs.isel(damped=row))
-    # With three panels in a row only the middle one has a label: three labels would overlap.
+    # With three panels in a row only the middle panel gets a label: three labels would overlap.
     for axes in panels[1::3] if columns == 3 else panels:
         axes.set_xlabel(style.axis_label(migration[0]["release_displacement"]))
     drawn.supylabel(style.axis_label(migration[0]["release_velocity"]), fontsize="medium")
@@ -113,7 +113,7 @@ def _draw_case(above, below, one):
         above.errorbar(frequency + 0.004 * (k - 1.5), success[:, 0], spread, capsize=1.5, **look)
         cycles = one["policy_cycles"].sel(policy=policy, quantile=0.5).values
         middle = np.where(np.isfinite(cycles[:, 0]), cycles[:, 0], np.nan)
-        # An infinite upper end becomes a bar that leaves the panel.
+        # An interval with an infinite upper end becomes a bar that leaves the panel.
         spread = middle - cycles[:, 1], np.minimum(cycles[:, 2], 1e6) - middle
         below.errorbar(frequency + 0.004 * (k - 1.5), middle, spread, capsize=1.5, **look)
     ends = frequency[0] - 0.03, frequency[-1] + 0.03

@@ -72,7 +72,7 @@ def elastic_model():
 
 @style.context()
 def inelastic_model():
-    """Return figure 9: as figure 1, with a dashpot c2 parallel to each contact spring."""
+    """Return figure 9: figure 1 with a dashpot c2 added parallel to each contact spring k2."""
     axes = parts.sheet("double", 2.75)
     carriage(axes)
     slot(axes, inelastic_contact)

@@ -28,7 +28,7 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Return the mask of violent motions. Above the end of the free resonance none is violent."""
+    """Return the mask of violent motions. No motion above the free resonance is violent."""
     frequency = response.frequency
     size = xr.DataArray(orbits.resonance(free, frequency), {"frequency": frequency})
     return reading.touching(response) & (response.maximum_displacement > orbits.HALF * size)
@@ -41,10 +41,10 @@ def quiet_motions(response, free):
 
 
 def suppression_band(datasets, name):
-    """Return the `Band` of a curve, from the last violent motion to the end of the free resonance.
+    """Return a curve's `Band`: from the highest W with a violent motion to the resonance's end.
 
     Without violent motions, `lower` and `resolution` are NaN. `resolution` is 0 if all violent
-    motions are periodic. Otherwise it is at most a step in W.
+    motions are periodic. Otherwise `resolution` is at most the step between two computed W.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

@@ -1,20 +1,18 @@
 """Choose datasets, and read parameters, flags and solutions of harmonic balance from datasets.
 
-`datasets` are keyed by stage, then by entry. A `design` is a dataset of `harmonic_balance`.
+`datasets` are keyed by stage, then by entry. A `design` is a dataset of stage `harmonic_balance`.
 """
 
 import numpy as np
 
 from impact_damper.data.datasets import decode, flag, has_damper, named, parameters_of
 
-# Names of curves. CAPTIONS: figure 3 with d0 of its captions, by increasing omega_l. RULES: the
-# curves of CAPTIONS with d0 by rule (19). BY_MASS: figure 5, by increasing rm. ELASTIC: all
-# simulated responses with elastic contact. INELASTIC: BY_MASS[1] with e < 1.
-CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")
-RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")
-BY_MASS = ("figure_05a", "figure_05b", "figure_05c")
-ELASTIC = (*BY_MASS, "figure_08")
-INELASTIC = "figure_10"
+# Names of curves. CAPTIONS and RULES are sorted by omega_l, BY_MASS by rm.
+CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")  # figure 3 with d0 of the captions
+RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")  # CAPTIONS with d0 by rule (19)
+BY_MASS = ("figure_05a", "figure_05b", "figure_05c")  # figure 5
+ELASTIC = (*BY_MASS, "figure_08")  # all simulated responses with elastic contact
+INELASTIC = "figure_10"  # BY_MASS[1] with e < 1
 # Words for the policies of release in tables and figures.
 POLICIES = {
     "settled": "random phase once settled",
@@ -25,7 +23,7 @@ POLICIES = {
 
 
 class Missing(LookupError):
-    """A dataset does not exist, or lacks a number that is needed."""
+    """A needed dataset does not exist, or a dataset lacks a needed number."""
 
 
 def get(datasets, stage, name):
@@ -93,7 +91,7 @@ def within(data, lower, upper):
 
 
 def crossing(x, y, level):
-    """Return the first x at which y, interpolated, crosses `level` between two points, or NaN."""
+    """Return the first x at which the polygon through the points (x, y) crosses `level`, or NaN."""
     side = np.sign(np.asarray(y) - level)
     changes = np.flatnonzero(side[:-1] * side[1:] < 0)
     if len(changes) == 0:
@@ -123,7 +121,7 @@ def quiet_balance(design):
 
 
 def design_point(orbit):
-    """Return the exact quiet orbit at Wp, which has the least h of its branch, or raise Missing."""
+    """Return the exact quiet orbit at Wp (the least h of the branch), or raise Missing."""
     if named(orbit, "design_orbit_status") != "found":
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))

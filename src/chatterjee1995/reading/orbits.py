@@ -1,6 +1,6 @@
 """Branches of exact periodic orbits, cut into pieces and evaluated at any frequency.
 
-`free` are branches without damper. An orbit above half the free resonance is high (violent).
+`free` are branches without damper. A high (violent) orbit exceeds half of the free resonance.
 """
 
 import numpy as np
@@ -34,10 +34,10 @@ def pieces(branches) -> pd.DataFrame:
     """Return a row for each piece of the branches; a piece joins two successive orbits.
 
     `lower` and `upper` are the ends in W. `size` is the mean max |Z1| of both orbits. `amplitude`
-    is the mean complex first harmonic of Z1, with its phase relative to Z2. `loose` is the same,
-    with the phase relative to Z1 - Z2. `*_change` is the second orbit minus the first. `fewest` and
-    `contacts` are the least and largest number of contacts. `restitution` is the least ratio of
-    departure to approach speed.
+    and `loose` are means of the complex first harmonic of Z1. The phase of `amplitude` is relative
+    to Z2, the phase of `loose` to Z1 - Z2. `size_change` is the size of the second orbit minus the
+    size of the first, and so on. `fewest` and `contacts` are the least and largest number of
+    contacts. `restitution` is the least (departure speed) / (approach speed).
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -68,7 +68,7 @@ def pieces(branches) -> pd.DataFrame:
 
 
 def ranges(part):
-    """Return the ranges [lower, upper] of W that pieces cover, merged and in ascending order."""
+    """Return the ranges [lower, upper] of W that pieces cover, ascending and without overlap."""
     merged = []
     for lower, upper in part[["lower", "upper"]].sort_values("lower").to_numpy():
         if merged and lower <= merged[-1][1]:
@@ -98,7 +98,7 @@ def coexisting(part, column):
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Return an interpolated row of `pieces` for each frequency and each piece that contains it."""
+    """Return a row, interpolated in a piece, for each frequency and each piece around it."""
     frequency = np.atleast_1d(np.asarray(frequency, float))
     inside = frequency[:, None] >= part.lower.to_numpy()
     inside &= frequency[:, None] <= part.upper.to_numpy()
@@ -119,12 +119,12 @@ def smallest(part, frequency) -> pd.DataFrame:
 
 
 def largest_sizes(part, frequency):
-    """Return the largest size of the pieces at each frequency; NaN if no piece contains it."""
+    """Return the largest size of the pieces at each frequency; NaN at a frequency in no piece."""
     return crossings(part, frequency).groupby("frequency")["size"].max().reindex(frequency).values
 
 
 def resonance_fold(free):
-    """Return W and max |Z1| at the highest fold of free period-1 orbits, or raise Missing."""
+    """Return W and max |Z1| of the period-1 fold with the largest max |Z1|, or raise Missing."""
     fold = free.event_kind.values == flag("event_kind", "fold")
     fold &= free.branch_period.values[free.event_branch.values] == 1
     if not fold.any():
@@ -167,7 +167,7 @@ def smallest_quiet(branches, free, frequency):
 def high_counterparts(design, branches, free) -> pd.DataFrame:
     """Return for each stable violent solution of (7) the row of `crossings` nearest in amplitude.
 
-    Only symmetric orbits of period 1 with two contacts are taken: (7) approximates no others.
+    Rows are only symmetric orbits of period 1 with two contacts: (7) approximates no other orbits.
     """
     part = pieces(branches)
     part = part[(part.period == 1) & (part.asymmetry < SYMMETRIC)]

@@ -8,7 +8,7 @@ from impact_damper.command.section import choice, count, missing, number, proble
 from impact_damper.model.bounds import FREQUENCY_RANGE, HARMONIC_RANGE
 from impact_damper.model.text import plain
 
-MAPPED = ("damping", "mass_ratio", "clearance", "restitution")  # one of these changes along a map
+MAPPED = ("damping", "mass_ratio", "clearance", "restitution")  # a map varies one of these
 
 
 class HarmonicConvergence(system.MaybeWithDamper):

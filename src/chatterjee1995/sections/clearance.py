@@ -105,11 +105,11 @@ class Study(system.WithOscillator):
             yield problem(("chunks",), config.chunks, reason)
 
     def cells(self) -> int:
-        """Return the number of combinations of the points of the axes."""
+        """Return the number of cells (points of the grid)."""
         return math.prod(points(getattr(self, key)) for key in AXES)
 
     def chunk(self, config, chunk) -> dict:
-        """Return the parameters of the job for one part of the grid; `chunk` is like "2-of-4"."""
+        """Return the parameters of the job of a part; "2-of-4" is the second of four parts."""
         number, count = map(int, chunk.split("-of-"))
         grid = {
             "axes": {key: even(getattr(self, key)) for key in AXES},

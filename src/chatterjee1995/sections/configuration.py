@@ -27,7 +27,7 @@ from impact_damper.command.section import (
 )
 from impact_damper.model import bounds
 
-# Pairs of keys. The product of the two values is the number of runs of a job, which has a bound.
+# Pairs of keys. The product of the two values, the number of runs of a job, has an upper bound.
 COUNTS = (
     ("points.free", "search.starts"),
     ("points.simulated", "search.starts"),
@@ -36,7 +36,7 @@ COUNTS = (
     ("points.scanned", "controller.releases"),
     ("points.map_frequencies", "points.map_values"),
 )
-# Names of drawings. A figure of the kind `schematic` has one of these in `data`, and no entries.
+# Names of drawings. A figure of the kind `schematic` has one such name in `data`, not an entry.
 SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
 
 TEXT = text("in Markdown or reStructuredText without links")
@@ -66,7 +66,7 @@ class Search(Section):
     life_periods: count("forcing cycles of the runs `life_runs`", **bounds.LIFETIME_RANGE)
 
     def job(self, config, starts) -> dict:
-        """Return the parameters of a search from as many random states as `starts` says."""
+        """Return the parameters of a search from `starts` random states."""
         return {"starts": starts, "radius": self.radius, "seed": config.seed}
 
 
@@ -210,7 +210,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Remove null entries, and their names from figures; remove figures that then name no entry."""
+    """Return `given` without null entries, their names in figures, and figures that lose all names."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}

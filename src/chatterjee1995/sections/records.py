@@ -11,12 +11,12 @@ class Stage(NamedTuple):
     name: str
     section: str
     # Method of an entry. It takes the whole configuration and returns the arguments of `function`.
-    # Some arguments describe objects that `workflow.job.made` makes.
+    # `workflow.job.made` makes an object of an argument such as {"Damper": {...}}.
     job: Callable
     function: str  # "module:name" of the function that computes the dataset
     message: str  # printed for each job
-    reads: dict = {}  # argument of `function` -> stages whose datasets of the entry it gets
-    files: dict = {}  # argument of `function` -> JSON file whose content it gets
+    reads: dict = {}  # argument of `function` -> stages; their datasets of the entry are its value
+    files: dict = {}  # argument of `function` -> JSON file; the content is the argument's value
     together: bool = False  # whether one job computes all entries (jobs start slowly)
     # 2: other jobs wait for these jobs. 1: the longest jobs, which should not start last.
     priority: int = 0
@@ -25,7 +25,7 @@ class Stage(NamedTuple):
 
 
 def stage(function, message, **options):
-    """Mark a method of a section as a stage's job. The stage's name is by default the method's."""
+    """Mark a method of a section as a stage's job. By default the stage has the method's name."""
 
     def mark(job):
         job.stage = {"name": job.__name__, "function": function, "message": message} | options
@@ -41,7 +41,7 @@ class Shown:
     name: str
     chapter: str
     module: str  # name in the package `tables` or `figures`, or full name
-    stages: tuple[str, ...]  # stages read; a drawn entry of `curves` must list the first of them
+    stages: tuple[str, ...]  # stages read; a curve that is drawn must list the first stage
 
     room: ClassVar[str]
 
@@ -53,10 +53,10 @@ class Shown:
 
 @dataclass(frozen=True)
 class Table(Shown):
-    """A table, made by the function with its name."""
+    """A table. The function that makes the table has the table's name."""
 
     room = "tables"
-    pictures: bool = False  # whether its Markdown shows figures
+    pictures: bool = False  # whether the Markdown page shows figures
 
 
 @dataclass(frozen=True)
@@ -65,6 +65,6 @@ class Kind(Shown):
 
     room = "figures"
     most: int = 6  # largest number of entries in a figure
-    # If True, entries of `curves` must have a damper; if False, they must have none. If True, a
-    # figure that reads `branches` also draws the branches of its oscillators without a damper.
+    # True: drawn curves must have a damper; a figure that reads `branches` then also draws the
+    # branches of the same oscillators without a damper. False: drawn curves must have no damper.
     damper: bool = True

@@ -28,7 +28,7 @@ def reference() -> str:
 
 
 def _table(model, keys=None):
-    """Return the Markdown table of a model's keys, or of those in `keys` only."""
+    """Return the Markdown table of a model's keys; if `keys` is given, only of these keys."""
     fields = {key: each for key, each in model.model_fields.items() if keys is None or key in keys}
     return "\n".join([COLUMNS, *_rows("", fields), ""])
 

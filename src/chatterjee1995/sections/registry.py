@@ -40,7 +40,7 @@ def section_of(kind) -> str | None:
 
 
 def is_paper(chapter) -> bool:
-    """Return whether the paper covers all stages that a chapter reads."""
+    """Return whether all stages that a chapter reads are part of the paper."""
     shown = [each for each in (*KINDS.values(), *TABLES.values()) if each.chapter == chapter]
     return all(STAGES[stage].paper for each in shown for stage in each.stages)
 

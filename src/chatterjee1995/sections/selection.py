@@ -31,7 +31,7 @@ def job(config, stage, name) -> dict:
 
 
 def read_by(config, stage, name) -> dict:
-    """Return a dict: argument of a stage's function -> stages with its datasets of `name`."""
+    """Return a dict: argument of a stage's function -> stages to read that have an entry `name`."""
     return {
         key: [each for each in stages if name in entries(config, each)]
         for key, stages in STAGES[stage].reads.items()
@@ -39,7 +39,7 @@ def read_by(config, stage, name) -> dict:
 
 
 def figure_data(config, name) -> dict:
-    """Return a dict: stage -> entries that a figure draws, with those that `Kind.damper` adds."""
+    """Return a dict: stage -> entries that a figure draws, with all entries that `damper` adds."""
     figure = config.figures[name]
     kind, found = KINDS[figure.kind], {}
     for stage in kind.stages:

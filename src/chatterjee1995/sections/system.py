@@ -43,12 +43,12 @@ CLEARANCE_OR_RULE = number_or_word(
     f"{MEANINGS['clearance']}, or the word `rule` for the clearance by equation (19) of the paper",
     **BOUNDS["clearance"],
 )
-COMMON = "contact_stiffness"  # key of the whole configuration, since all dampers share it
+COMMON = "contact_stiffness"  # key at the top of the configuration: all dampers share its value
 NEEDED = ("mass_ratio", "clearance", "restitution")  # parameters that a damper must have
 
 
 def keys_of(names, *, needed=(), without=()):
-    """Return a base class with a key for each parameter. Only those in `needed` are required."""
+    """Return a base class with a key for each parameter. Only keys in `needed` are required."""
     types = {
         name: PARAMETERS[name] if name in needed else (PARAMETERS[name], None)
         for name in names
@@ -58,7 +58,7 @@ def keys_of(names, *, needed=(), without=()):
 
 
 def given(section, names) -> dict:
-    """Return a dict: key -> value, for those keys in `names` that have a value in the section."""
+    """Return a dict: key -> value, for the keys in `names` that have a value in the section."""
     found = {name: getattr(section, name, None) for name in names}
     return {name: value for name, value in found.items() if value is not None}
 

@@ -1,1 +1,1 @@
-"""Tables of the paper. A CSV file has all columns; a Markdown file has the first `files.SHOWN`."""
+"""Tables of the paper. A CSV file has all columns, a Markdown file the first `SHOWN` columns."""

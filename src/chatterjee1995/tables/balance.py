@@ -9,7 +9,7 @@ from chatterjee1995.tables.files import parameter_columns
 from impact_damper.data.datasets import decode, is_settled, parameters_of
 from impact_damper.data.shares import wilson
 
-NEAR = 0.2  # largest relative difference of an amplitude that counts as near the exact one
+NEAR = 0.2  # an amplitude is near the exact amplitude if the relative difference is at most this
 ACCURACIES = {0.01: "1 %", 1e-3: "1e-3", 1e-6: "1e-6"}  # error of the amplitude -> text
 # Question about each cell of a map -> variable whose flag is the answer.
 QUESTIONS = {
@@ -76,7 +76,7 @@ def _exact_orbit(orbit):
 
 
 def harmonic_convergence(datasets) -> pd.DataFrame:
-    """Return for each motion: harmonics needed, decrease of the error, and ends of cold starts."""
+    """Return for each motion: harmonics needed, decrease of the error, results of cold starts."""
     return pd.DataFrame(
         {"motion": name} | _convergence(data)
         for name, data in datasets.get("harmonic_convergence", {}).items()
@@ -84,7 +84,7 @@ def harmonic_convergence(datasets) -> pd.DataFrame:
 
 
 def _convergence(data):
-    """Return the row of a motion in the table of convergence."""
+    """Return a motion's row. A cold start begins Newton's method from the one-harmonic solution."""
     highest, cold = data["highest_harmonic"].values, decode(data["cold_status"]).values
     error = data["series_error"].sel(error_measure="maximum").values
     decay = data.sel(error_measure="maximum")
@@ -148,7 +148,7 @@ def _answers(meaning):
 
 
 def _cells(question, balance, truth, count, total):
-    """Return a row: a count of cells, its share of `total`, and the share's Wilson interval."""
+    """Return a row: a count of cells, the share count / total, and the share's Wilson interval."""
     share, lower, upper = wilson(int(count), int(total))
     return {
         "question": question,
@@ -163,7 +163,7 @@ def _cells(question, balance, truth, count, total):
 
 
 def _summary(data):
-    """Yield rows: on chaos among violent motions, and on cells with balance and orbit stable."""
+    """Yield rows on chaos of violent motions, and on cells where balance and orbit are stable."""
     kinds = decode(data["high_run_motion"])
     chaotic = np.sum(kinds == "high_chaotic")
     settled = np.sum(kinds == "high")

@@ -8,7 +8,7 @@ from chatterjee1995.tables.files import DAMPER, parameter_columns
 from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true
 
-# Reason to stop on a branch although its orbits go on -> text of the table.
+# Reason to stop the continuation although the branch goes on -> text of the table.
 LEFT = {
     "unstable": "left among unstable orbits, since it winds through chaos there",
     "point limit": "left after the largest number of orbits, since it winds through chaos",
@@ -57,7 +57,7 @@ def _branches(datasets):
 
 
 def _ends_of(data, branch):
-    """Return for both ends of a branch a text: why it ends, and which branch it meets, if any."""
+    """Return a text for each end of a branch: why the branch ends, and which branch it meets."""
     ends, met = data["branch_end"][branch], data["branch_met"].values[branch]
     names = [LEFT.get(name, name) for name in map(reading.meaning, ends)]
     return [

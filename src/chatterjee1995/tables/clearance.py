@@ -73,7 +73,7 @@ def _grids(datasets):
 
 
 def _sweeps(datasets):
-    """Yield a frame for each sweep, with columns as in `_grids`. Optima of sweeps are stable."""
+    """Yield a frame for each sweep, with the columns of `_grids`. Optima of sweeps are stable."""
     for data in datasets.get("optimum", {}).values():
         parameters = parameters_of(data)
         oscillator, damper = oscillator_of(data), damper_of(data, clearance=1.0)

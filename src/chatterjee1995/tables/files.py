@@ -10,7 +10,7 @@ from impact_damper.data.datasets import parameters_of
 from impact_damper.data.whole_files import whole
 from impact_damper.model.text import number
 
-DIGITS, FEW_DIGITS = 6, 4  # significant digits of numbers in CSV files, and in Markdown files
+DIGITS, FEW_DIGITS = 6, 4  # significant digits in CSV files, significant digits in Markdown files
 SHOWN = 9  # number of columns that the page of a table shows
 HEADS = {
     "damping": "damping h",
@@ -35,7 +35,7 @@ def as_markdown(frame) -> str:
 
 
 def save_table(frame, csv_path, markdown_path, document=as_markdown) -> None:
-    """Write a table as CSV, and as Markdown made by `document`. Cells of NaN and None are empty."""
+    """Write a table as CSV, and as Markdown made by `document`. NaN and None become empty cells."""
     values = frame.map(_rounded).astype(object)
     _write(csv_path, values.to_csv(index=False, lineterminator="\n"))
     shown = frame.map(partial(_rounded, digits=FEW_DIGITS)).astype(object)
@@ -75,6 +75,6 @@ def _rounded(value, digits=DIGITS):
 
 
 def parameter_columns(data, *names) -> dict:
-    """Return a dict: head of a column -> parameter, for those `names` that a dataset has."""
+    """Return a dict: head of a column -> parameter, for the parameters `names` in a dataset."""
     parameters = parameters_of(data)
     return {HEADS[name]: parameters[name] for name in names if name in parameters}

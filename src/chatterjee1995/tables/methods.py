@@ -21,7 +21,7 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return for each scene and method the cheapest accurate run, or else the most accurate run."""
+    """Return for each scene (test case) and method the cheapest accurate run, or the best run."""
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
         asked = parameters_of(data)["accuracy"]
@@ -89,7 +89,7 @@ def _errors(of):
 
 
 def _averages(data, of):
-    """Return the columns with the averages of a run on a chaotic scene, and their references."""
+    """Return columns with the averages of a run on a chaotic scene, and the reference averages."""
     row = {}
     heads = {"contact_rate": "contacts a cycle", "displacement": "mean max |Z1|"}
     for key, head in (heads | {"exponent": "Lyapunov exponent"}).items():
@@ -130,7 +130,7 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return for each method, accuracy and r1 the step below which all steps are accurate."""
+    """Return for each method, accuracy and r1 the step up to which all steps are accurate."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         cycle = 2 * np.pi / reading.parameter(data, "frequency")

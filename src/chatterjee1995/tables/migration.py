@@ -58,7 +58,7 @@ def _destination(motion):
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """Return for each kind of damped motion at which W its releases lead to which free motions."""
+    """Return rows: kind of damped motion, free motions to which its releases lead, at which W."""
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
         ends = list(scan.free_motion.values)
@@ -122,7 +122,7 @@ def release_policies(datasets) -> pd.DataFrame:
 
 
 def _rule(one):
-    """Return the policy in words, with the parameters that were chosen for it."""
+    """Return a policy in words, with the parameters chosen for this policy."""
     words, cycles = POLICIES[str(one.policy.values)], f"K = {float(one.policy_hold):g}"
     return {
         "hold": f"{words}, {cycles}",

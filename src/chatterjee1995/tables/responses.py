@@ -10,7 +10,7 @@ from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.files import DAMPER, parameter_columns
 from impact_damper.data.motion_variables import OUTCOME
 
-# Stage that stores the outcome of each start -> its name in the table `outcomes`.
+# Stage that stores the outcome of each start -> name of the stage in the table `outcomes`.
 SWEPT = {
     "response": "frequency responses",
     "subharmonic": "starts on the free subharmonic",
@@ -111,7 +111,7 @@ def chaos(datasets) -> pd.DataFrame:
 
 
 def _motions(data, chosen):
-    """Yield each motion of a response that a mask selects, as a dataset."""
+    """Yield as a dataset each motion of a response that the mask `chosen` selects."""
     for k, j in np.argwhere(chosen.transpose("frequency", "motion").values):
         yield data.isel(frequency=k, motion=j)
 

@@ -1,4 +1,4 @@
-"""Figures and tables of a chapter of the report, in two formats each, with captions."""
+"""Save figures and tables of a chapter of the report, each in two formats and with a caption."""
 
 from functools import partial
 from importlib import import_module
@@ -8,7 +8,7 @@ from impact_damper.data.whole_files import whole
 
 
 def make_table(name, given, datasets, path) -> None:
-    """Save a table of `selection.table_values` as CSV and Markdown, and the caption."""
+    """Save a table as CSV and Markdown, and its caption. `selection.table_values` makes `given`."""
     from chatterjee1995.tables import files as table_files
 
     module = import_module(given["module"])
@@ -23,7 +23,7 @@ def make_table(name, given, datasets, path) -> None:
 
 
 def draw_figure(given, datasets, path) -> None:
-    """Save a figure of `selection.figure_values` as PDF and PNG, and the caption."""
+    """Save a figure as PDF and PNG, and its caption. `selection.figure_values` makes `given`."""
     from impact_damper.plot.style import save_figure
 
     drawn = given["drawn"].items()

@@ -1,4 +1,4 @@
-"""A job of the workflow. Scripts import this module first, since it makes other imports faster."""
+"""A job of the workflow. Scripts import this module first: it makes the imports after it faster."""
 
 import atexit
 import gc
@@ -19,7 +19,7 @@ from pathlib import Path
 
 import psutil
 
-# Collect garbage more rarely than by default: objects of imports stay, and a job makes few others.
+# Collect garbage rarely: objects of imported modules stay in use, and a job makes few others.
 gc.set_threshold(10_000)
 
 # Seconds between checks that Snakemake is alive. A new run of Snakemake takes longer than LOOK to
@@ -69,11 +69,11 @@ def counts(first, last, points):
 
 
 class Job:
-    """A job, given by the variable `snakemake` of its script. It ends soon after Snakemake ends."""
+    """A job, given by the variable `snakemake` of its script. A job ends soon after Snakemake."""
 
     def __init__(self, snakemake):
         self.snakemake = snakemake
-        # Each parameter is a dictionary with one key, see `parameters` in the rules.
+        # Each parameter is a dictionary with one key, see `parameters` in `rules/common.smk`.
         self.given = ChainMap(*snakemake.params)
         log = Path(snakemake.log[0])
         depth = log.parts[::-1].index("logs")
@@ -98,7 +98,7 @@ class Job:
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Call the stage's function, with those of `offered` that it takes; return its result."""
+        """Return the stage's dataset. The stage's function gets from `offered` what it accepts."""
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}
@@ -174,10 +174,10 @@ def end_with_parent() -> None:
 
 
 def _write_timing(path):
-    """Write seconds, CPU seconds (of children too) and peak memory (MB) of this process."""
+    """Write seconds, CPU seconds (children included) and peak memory in MB of this process."""
     process = psutil.Process()
     seconds = time.time() - process.create_time()
-    cpu = sum(process.cpu_times()[:4])  # user, system; user and system of children
+    cpu = sum(process.cpu_times()[:4])  # user and system time of this process and of its children
     with suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
         numbers = "\t".join(f"{value:.3f}" for value in (seconds, cpu, peak_memory()))

@@ -1,4 +1,4 @@
-"""Compile and cache every kernel (numba function) before the jobs that need them."""
+"""Compile every kernel (numba function) and cache the code, before jobs call the kernel."""
 
 import gc
 import json
@@ -17,7 +17,7 @@ def compiled_kernels(orders) -> str:
 
 
 def compile_all(processes, orders) -> None:
-    """Compile all kernels; `orders` are pairs of Taylor orders, which `accuracy` compares."""
+    """Compile all kernels. The stage `accuracy` compares the pairs of Taylor orders in `orders`."""
     from chatterjee1995.workflow.job import end_with_parent
     from impact_damper.command.warm_up import warm_up_orbits, warm_up_settling
 

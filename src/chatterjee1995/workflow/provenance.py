@@ -43,7 +43,7 @@ def processor() -> str:
 
 
 def _versions(lock):
-    """Return the versions of impact-damper and of the installed packages in a lock file's text."""
+    """Return the versions of impact-damper and of all installed packages that `lock` names."""
     found = {}
     for name in ["impact-damper", *re.findall(r"^([\w.-]+)==", lock, re.MULTILINE)]:
         try:
