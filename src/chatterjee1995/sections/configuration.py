@@ -210,7 +210,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return `given` without null entries, their names in figures, and figures with no names left."""
+    """Return `given` without null entries, their names in figures, and figures without any name."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}
