@@ -4,7 +4,7 @@ import sys
 
 
 def run():
-    """Run the command. If a package that only the command needs is missing, say so."""
+    """Run the command. If a package is missing that only the command needs, exit with a message."""
     try:
         from impact_damper.command.command_line import run_app
     except ModuleNotFoundError as error:

@@ -62,7 +62,7 @@ def design(
     force: Force = False,
     as_json: AsJson = False,
 ):
-    """Find the gap with which the machine moves least, and how sure that is.
+    """Find the gap with which the machine moves least, and how sure this answer is.
 
     A design takes minutes. The same command continues an interrupted design.
     """
@@ -83,9 +83,9 @@ def evaluate(
     force: Force = False,
     as_json: AsJson = False,
 ):
-    """Say how far the machine moves with a given gap, and how sure that is.
+    """Say how far the machine moves with a given gap, and how sure this answer is.
 
-    The answer and its tests are the same as by `impact-damper design`.
+    The answer is tested like the answer of `impact-damper design`.
     """
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.design_damper import evaluate_damper
@@ -180,7 +180,7 @@ def response(
 
 
 def different(sizes, alike=1e-4):
-    """Return ascending pairs: a size, and the indices of all `sizes` close to this size."""
+    """Return pairs (size, indices of all `sizes` close to this size), by ascending size."""
     found = []
     for place in sorted(range(len(sizes)), key=lambda i: sizes[i]):
         if not found or sizes[place] > found[-1][0] * (1 + alike):
@@ -259,7 +259,7 @@ def report(
 
 
 def read(path):
-    """Return the content of a YAML file and its `Machine`. Local imports make `--help` fast."""
+    """Return the content of a YAML file and the `Machine`. Local imports make `--help` fast."""
     from impact_damper.command.machine_file import read_machine_file
     from impact_damper.model.machine import Machine
 
@@ -309,7 +309,7 @@ def quantity(text):
 
 
 def write_report(data, file, folder):
-    """Write the page of a dataset, stored as `file`, into a folder; return the path of the page."""
+    """Write the page of a dataset into a folder; return the page's path. `file` has the dataset."""
     from impact_damper.plot.pages.render import write_page
 
     name = Path(data.attrs.get("input_file", file.name)).stem
@@ -319,7 +319,7 @@ def write_report(data, file, folder):
 
 
 def kept(data, output):
-    """Save a dataset if `output` is a path. Return the lines to print: one, or none."""
+    """Save a dataset if `output` is a path. Return a list of the lines to print about the file."""
     if output is None:
         return []
     from impact_damper.data.datasets import save

@@ -1,4 +1,4 @@
-"""Check the description of a machine: an entry of the configuration, or a file of its own."""
+"""Checks of the description of a machine, in the configuration or in a file of its own."""
 
 import re
 from dataclasses import MISSING, fields
@@ -33,7 +33,7 @@ class AllowedQuantity(Allowed):
         return core_schema.with_info_plain_validator_function(self._quantity)
 
     def _quantity(self, value, info):
-        # Jobs do not check values again, because the import of pint takes a third of a second.
+        # In a job `context` is true. Values were checked before, and the import of pint is slow.
         if info.context:
             return value
         if any((absolute_value(value, each) or -1) > 0 for each in self.absolute):
@@ -49,13 +49,13 @@ class AllowedQuantity(Allowed):
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
     """Return the type of a quantity within bounds.
 
-    A value may also be text in a unit of one of the quantities in `absolute`.
+    A value may also be text with a unit of another quantity, one of those named in `absolute`.
     """
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 
 
 def fields_of(part, *, optional=False):
-    """Return the fields of a pydantic model for a dataclass. If `optional`, none is required."""
+    """Return the fields of a dataclass for a pydantic model. If `optional`, none is required."""
     found = {}
     for each in fields(part):
         facts = each.metadata
@@ -92,7 +92,7 @@ def span_of(quantity, meaning):
 
 
 class Damper(Given):
-    """A loose mass in a gap that is to be found."""
+    """The loose mass and the walls of a damper. The design finds the gap."""
 
     mass: quantity_of("mass", "loose mass, at most the mass of the machine", above=0)
     restitution: quantity_of("number", "coefficient of restitution", **RESTITUTION_RANGE)
@@ -118,7 +118,7 @@ Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 
 def deviation_of(what, *absolute):
-    """Return an optional field for the deviation of `what`. Some deviations may have a unit."""
+    """Return an optional field: the deviation of `what`, a fraction or in units of `absolute`."""
     meaning = f"largest deviation of {what}, as a fraction of it"
     return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 
@@ -177,7 +177,7 @@ class MachineEntry(section.Section):
             yield f"{section.dotted(path)}: {error}" if path else str(error)
 
     def _lacking(self, path):
-        """Yield a line for each missing key, and one if stiffness and contact are both given."""
+        """Yield a line for each missing key, and one if contact_stiffness and contact are given."""
         rival, ball = self.absorber.values(), self.contact.values()
         for key in Rival.model_fields:
             if rival and key not in rival:
@@ -216,7 +216,7 @@ def design_arguments(content, workers=1) -> dict:
 
 
 class _Loader(section.LOADER):
-    """YAML loader that reads 2e5 as a number; in YAML 1.1 it is text."""
+    """YAML loader that reads 2e5 as a number; by YAML 1.1, 2e5 is text."""
 
 
 _Loader.add_implicit_resolver(
@@ -229,10 +229,10 @@ POINTS = 9  # number of frequencies in the band
 
 
 def read_machine_file(path) -> dict:
-    """Check a machine's file, and return its content with defaults for missing keys.
+    """Check a machine's file, and return the content of the file with defaults for missing keys.
 
-    Unlike in the configuration, `band` may be a list: first and last frequency. The key
-    `frequencies` may give the number of frequencies in the band.
+    In a file (not in the configuration) `band` may be a list of the first and the last frequency,
+    and the key `frequencies` may give the number of frequencies in the band.
     """
     section.check_file(path)
     given = yaml.load(Path(path).read_bytes(), _Loader)

@@ -1,6 +1,6 @@
-"""Types of values in YAML files, the base class of their sections, and lines on problems.
+"""Types of values in YAML files, the base class of sections, and lines that report problems.
 
-The types are strict: 3.0 is not a whole number, and neither NaN, infinity nor text is a number.
+The types are strict: 3.0 is no whole number; NaN, infinity and text are no numbers.
 """
 
 import re
@@ -25,14 +25,14 @@ from pydantic_core import PydanticCustomError, core_schema
 from impact_damper.model.bounds import POINTS_RANGE, RUNS_RANGE, nearest
 from impact_damper.model.text import plain
 
-# Tags that pydantic adds to the path of a number or a range. Keys cannot have these names.
+# Tags that pydantic adds to the path of a number or a range. No key can have these names.
 NUMBER, RANGE = "<number>", "<range>"
 
 
 class Allowed:
-    """The allowed values of a key, in words that follow "must be" in place of pydantic's message.
+    """The allowed values of a key. An error says "must be" and `words`, not pydantic's message.
 
-    For a list or a mapping, `test` is a function that returns whether its form is allowed.
+    For a list or a mapping, `test` is a function that returns whether the value's form is allowed.
     """
 
     def __init__(self, words, meaning="", why="", test=None):
@@ -57,7 +57,7 @@ class Allowed:
             handler(value)
         except ValidationError:
             raise self._error() from None
-        # The value as the user wrote it: pydantic would turn the integer 2 into 2.0.
+        # Return the value as the user wrote it. pydantic would turn the integer 2 into 2.0.
         return value
 
     def _error(self, reason=""):
@@ -66,7 +66,7 @@ class Allowed:
 
 
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
-    """Return the type of a finite number within bounds. `also` adds words to the message."""
+    """Return the type of a finite number within bounds. An error also names `also` as allowed."""
     bounds = {"greater than": above, "at least": least, "at most": most}
     words = [f"a finite number{also and f' or {also}'}", *_bounds(bounds)]
     kind = confloat(strict=True, allow_inf_nan=False, gt=above, ge=least, le=most)
@@ -163,9 +163,9 @@ def _shown(bound):
 
 NAME = text("a name becomes part of a file name", pattern="[A-Za-z0-9][A-Za-z0-9_]{0,63}")
 
-# The loader of the C library libyaml, if it is installed, is several times as fast.
+# CSafeLoader, of the C library libyaml if installed, is several times as fast as SafeLoader.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-# Numbers with an exponent. Without a point and a signed exponent, YAML 1.1 reads them as text.
+# Numbers with an exponent. YAML 1.1 reads 2.0e+5 as a number, but 2e5, 2.0e5 and 2e+5 as text.
 SCIENTIFIC = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 
 
@@ -179,7 +179,7 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     def contradictions(self, path, config):
-        """Yield a line for each contradiction. `path` is the place of the section in `config`."""
+        """Yield a line for each contradiction. `path` leads from `config` to this section."""
         yield from ()
 
     @model_validator(mode="wrap")
@@ -202,7 +202,7 @@ class Section(BaseModel):
         if not path:
             words = "must be keys with values"
         elif kind in ("extra_forbidden", "invalid_key"):
-            if kind == "invalid_key":  # a key that is not text; pydantic reports the key as input
+            if kind == "invalid_key":  # the key is not text; pydantic gives the key, not its value
                 given = value[given]
             kind = "unknown"
             words = f"unknown key; known: {', '.join(known)}{nearest(path[-1], known)}"
@@ -215,7 +215,7 @@ class Section(BaseModel):
 
 
 def parts(value, path=()):
-    """Yield each section inside a value, with its path of keys."""
+    """Yield a pair (path of keys, section) for each section inside a value."""
     if isinstance(value, Section):
         yield path, value
         for key in type(value).model_fields:
@@ -250,7 +250,7 @@ def one_of(name, known) -> str:
 
 
 def dotted(path) -> str:
-    """Return a path of keys as text with dots. Long or unprintable keys are quoted."""
+    """Return a path of keys, joined by dots. Long or unprintable keys are shortened and quoted."""
     return (
         ".".join(
             key
@@ -263,9 +263,9 @@ def dotted(path) -> str:
 
 
 def problems_of(error) -> list:
-    """Return a line for each problem that pydantic found, in alphabetical order of their paths."""
+    """Return a line for each problem that pydantic found, in alphabetical order of paths."""
     details = error.errors(include_url=False)
-    # Paths mix names and positions in lists, which Python cannot compare.
+    # A path holds keys (text) and positions in lists (int). Python cannot compare text with int.
     return [_line(detail) for detail in sorted(details, key=lambda d: [*map(str, d["loc"])])]
 
 

@@ -1,4 +1,4 @@
-"""Labelled datasets: built from the registry of variables, written and checked as NetCDF files."""
+"""Functions that build labelled datasets of registered variables, save them and load them."""
 
 import hashlib
 import json
@@ -20,12 +20,12 @@ from impact_damper.model.units import QUANTITIES
 
 SOURCE = "impact-damper"
 
-# Kinds whose values are not converted. Values of the kind "mixed" stay in the machine's scales.
+# Kinds of variables whose values stay dimensionless in datasets of machines.
 PURE = ("number", "angle", "mixed")
 
 
 def variable(name, data, dims=None) -> xr.Variable:
-    """Return a variable as registered under `name`; `dims` replaces the registered dimensions."""
+    """Return `data` as the variable registered under `name`; `dims` replaces its dimensions."""
     entry = VARIABLES[name]
     attributes = {"long_name": entry.long_name, "units": entry.units}
     if entry.symbol:
@@ -39,7 +39,7 @@ def variable(name, data, dims=None) -> xr.Variable:
 
 
 def shown_variable(name, values):
-    """Return a registered variable with values in the unit for machines, such as mm."""
+    """Return a registered variable whose `values` are in the unit for machines, such as mm."""
     found = variable(name, values)
     found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
     return found
@@ -48,7 +48,7 @@ def shown_variable(name, values):
 def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
     """Return a dataset of registered variables, in the units of the machine if `model` has one.
 
-    Both dicts, keyed by registered name, hold dimensionless arrays, or pairs (dims, array).
+    `data` and `coordinates` map registered names to dimensionless arrays or pairs (dims, array).
     """
 
     def labelled(items):
@@ -75,8 +75,8 @@ def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
 def in_si(data, machine, damper=None) -> xr.Dataset:
     """Return a dimensionless dataset converted to the units of a machine.
 
-    Displacements are in mm, but states in m and m/s so that functions accept them. The attribute
-    `machine` holds machine and damper in SI units; `parameters` stay dimensionless.
+    Displacements become mm, but states m and m/s, the units in which functions take states. The
+    attribute `machine` holds machine and damper in SI units; `parameters` stays dimensionless.
     """
     scales = machine.scales
     found = _converted(data, lambda values, unit: values * unit, scales)
@@ -89,12 +89,12 @@ def in_si(data, machine, damper=None) -> xr.Dataset:
 
 
 def from_si(data, scales) -> xr.Dataset:
-    """Return a dataset in dimensionless numbers; one of a machine is converted by `scales`."""
+    """Return a dataset in dimensionless numbers; `scales` are the scales of its machine, if any."""
     return _converted(data, lambda values, unit: values / unit, scales) if scales.si else data
 
 
 def _converted(data, convert, scales):
-    """Return a dataset with each variable converted by the unit of its kind."""
+    """Return a dataset with convert(values, unit) for each variable and the unit of its kind."""
     found = {}
     for name, each in data.variables.items():
         kind = _kind(name, data)
@@ -110,11 +110,11 @@ def _converted(data, convert, scales):
 
 
 def _kind(name, data):
-    """Return the kind of a variable; for "followed", the kind of the parameter that varies."""
+    """Return the kind of a variable; if it is "followed", the kind of the parameter that varies."""
     kind = VARIABLES[name].kind
     if kind == "followed":
         parameter = parameters_of(data).get("parameter")
-        # The parameter of a sweep is not stored by name, but is the coordinate of the sweep.
+        # A sweep does not store its parameter's name; the parameter is one of its coordinates.
         swept = "clearance" if "clearance" in data.coords else "frequency"
         kind = facts_of(parameter)[1] if parameter else swept
     return "gap" if kind == "clearance" else kind
@@ -139,7 +139,7 @@ def flag(name, meaning) -> int:
 
 
 def named(data, name) -> str:
-    """Return the name of the single number in a flag variable."""
+    """Return the name of the single number in the flag variable `name`, such as "settled"."""
     return decode(data[name]).item()
 
 
@@ -190,12 +190,12 @@ def decode(values) -> xr.DataArray:
 
 
 def is_settled(motions):
-    """Return the mask of the motions, in a dataset or in records, with the outcome "settled"."""
+    """Return the mask of motions with the outcome "settled", in a dataset or a structured array."""
     return np.asarray(motions["outcome"]) == flag("outcome", "settled")
 
 
 def touches_no_wall(motions):
-    """Return the mask of the motions, in a dataset or in records, whose loose mass hits no wall."""
+    """Return the mask of motions that touch no wall, in a dataset or a structured array."""
     names = ("non_colliding", "drifting")
     return np.isin(motions["outcome"], [flag("outcome", name) for name in names])
 
@@ -211,7 +211,7 @@ def oscillator_of(data) -> Oscillator:
 
 
 def damper_of(data, **others) -> Damper:
-    """Return the damper that a dataset was computed for; `others` are fields that vary."""
+    """Return the damper of a dataset; `others` are fields that vary, so the dataset lacks them."""
     return Damper(**pick(Damper, parameters_of(data)), **others)
 
 
@@ -248,7 +248,7 @@ def load(path) -> xr.Dataset:
         raise BrokenFileError(f"{path} holds {held}")
     if data.attrs.get("sha256") != sealed["sha256"]:
         raise BrokenFileError(f"{path} holds other numbers than were written")
-    # The seal belongs to this file; a dataset derived from it gets another seal when it is saved.
+    # Drop the attributes of `seal`, which hold for this file only; `save` will make new ones.
     data.attrs = {name: value for name, value in data.attrs.items() if name not in sealed}
     return data
 

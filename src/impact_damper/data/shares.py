@@ -14,7 +14,7 @@ DOUBT = 0.05
 
 
 def wilson_intervals(successes, total):
-    """Return the ends of Wilson's 95 % intervals of k successes in n > 0 trials, shape (..., 2)."""
+    """Return the ends of Wilson's 95 % intervals of successes/total (total > 0), shape (..., 2)."""
     k, n = np.broadcast_arrays(np.asarray(successes, float), total)
     middle, square = k + QUANTILE**2 / 2, QUANTILE**2
     half = QUANTILE * np.sqrt(k * (n - k) / n + square / 4)
@@ -31,21 +31,21 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return k: the k-th largest of `total` sampled values bounds at least a share of all values.
+    """Return k: at least a share of all values is below the k-th largest of `total` samples.
 
-    The bound holds with the confidence 1 - doubt for any distribution (S. S. Wilks, Ann. Math.
-    Stat. 12, 1941). If there are too few values, k is 0.
+    This holds with the confidence 1 - doubt for any distribution of the values (S. S. Wilks, Ann.
+    Math. Stat. 12, 1941). If there are too few samples, k is 0.
     """
     return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= doubt))
 
 
 def starts_needed(share) -> int:
-    """Return how many sampled values are needed for the largest to bound a share of all values."""
+    """Return the least number of samples for which `bounding_rank` is 1 or more."""
     return math.ceil(math.log(DOUBT) / math.log(share))
 
 
 def escape_rate(lives, horizon):
-    """Return the rate at which runs end before the horizon, with its 95 % interval, shape (3,)."""
+    """Return the rate at which runs end up to a horizon, and its 95 % interval, shape (3,)."""
     captures = np.sum(lives <= horizon)
     exposure = np.sum(np.minimum(lives, horizon))
     # Interval of a Poisson count: quantiles of the gamma distribution.

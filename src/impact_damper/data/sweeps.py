@@ -1,4 +1,4 @@
-"""Sweeps: the motions found along the swept parameter, and runs of True in a mask."""
+"""The motions found in a sweep of a parameter, and runs of True in a mask."""
 
 from typing import NamedTuple
 
@@ -10,9 +10,9 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 
 
 class Family(NamedTuple):
-    """A motion over a sweep: outcome, period in cycles or 0, number of starts that lead to it.
+    """A motion over a sweep. `period` is in cycles, or 0. `starts` starts lead to the motion.
 
-    `places` is the mask of the motion's entries in arrays of the sweep, shape (value, motion).
+    `places` is the mask of this motion in arrays of the sweep, shape (parameter values, motions).
     """
 
     outcome: str
@@ -35,5 +35,5 @@ def families(data) -> list[Family]:
 
 
 def runs_of_true(mask) -> np.ndarray:
-    """Return for each run of True its first index and the index after its last, shape (n, 2)."""
+    """Return the first index of each run of True and the index after the run, shape (n, 2)."""
     return np.flatnonzero(np.diff(np.asarray(mask, int), prepend=0, append=0)).reshape(-1, 2)

@@ -12,7 +12,7 @@ class Variable(NamedTuple):
 
     `kind` gives the unit in datasets of machines: a key of `model.units.QUANTITIES`, "state" for
     displacements and velocities, "followed" for the parameter that varies, or "mixed" for a number
-    that combines several kinds, such as the distance of two states.
+    that combines several kinds, such as the distance between two states.
     """
 
     dims: tuple
@@ -58,7 +58,7 @@ def register(table) -> None:
 
 
 def _named_values(text):
-    """Return the flags that a text lists, or the flags of a variable it names; None if empty."""
+    """Return the flags listed in a text, or of the variable named in it; None for an empty text."""
     text = text.strip()
     if not text or text in VARIABLES:
         return VARIABLES[text].flags if text else None
@@ -66,7 +66,7 @@ def _named_values(text):
     return {name: int(value) for name, value in pairs}
 
 
-# Labels of states without attractor. `mixed`: the place of the loose mass decides on the label.
+# Labels of states without attractor. `mixed`: the attractor depends on the loose mass's place.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,

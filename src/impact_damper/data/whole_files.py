@@ -16,22 +16,22 @@ LENGTH = slice(28, 36)
 
 
 class BrokenFileError(OSError):
-    """A file is damaged or was not written by this project; the message names it and says why."""
+    """A file is damaged, or was not written by this project. The message names the file."""
 
 
 @contextmanager
 def whole(path):
-    """Yield a temporary path to write to, which is renamed to `path` on success."""
+    """Yield a temporary path. On success, the file written there is renamed to `path`."""
     path = Path(path)
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        for left in path.parent.glob(f"{glob.escape(path.name)}.part-*"):  # of killed processes
+        for left in path.parent.glob(f"{glob.escape(path.name)}.part-*"):  # by killed processes
             left.unlink(missing_ok=True)
         yield part
         os.replace(part, path)
     except BrokenFileError:
-        raise  # the error concerns another file, which was read
+        raise  # the caller read another file, and that file is broken
     except OSError as error:
         raise OSError(f"{path} cannot be written: {_reason(path.parent, error)}") from error
     finally:
@@ -40,7 +40,7 @@ def whole(path):
 
 
 def _reason(folder, error):
-    """Write a trial file, and return in one line why a file could not be written.
+    """Return in one line why a file could not be written, found by writing a trial file.
 
     The messages of the NetCDF library are vague, and wrong if the disk is full.
     """
@@ -57,7 +57,7 @@ def _reason(folder, error):
 
 
 def check_length(path) -> None:
-    """Raise BrokenFileError if the first bytes of a file show that it is no whole NetCDF-4 file."""
+    """Raise BrokenFileError if its first bytes show that a file is no whole NetCDF-4 file."""
     with open(path, "rb") as file:
         start = file.read(LENGTH.stop)
     if not start.startswith(SIGNATURE):

@@ -1,4 +1,4 @@
-"""Read and check arguments of the public functions; the arguments are in the user's units."""
+"""Check arguments of public functions, and convert them from the user's units to numbers."""
 
 import math
 from dataclasses import replace
@@ -20,16 +20,16 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, describe
 from impact_damper.model.units import UNITLESS, Scales
 
-# STATE: kinds of the components of a state. STATE_UNITS: their units for a machine.
+# STATE: kind of each component Z1, Z1', Z2, Z2' of a state. STATE_UNITS: SI units of a state.
 STATE = ("displacement", "velocity", "displacement", "velocity")
 STATE_UNITS = "m, m/s, m, m/s"
 FARTHEST_STATE = dict(zip(STATE, (FARTHEST, FASTEST) * 2, strict=True))
-# Names of coordinates that hold the forcing phase of the states in a dataset.
+# Names of the coordinates of datasets that hold the forcing phase W T of a state.
 PHASES = ("state_phase", "orbit_phase")
 
 
 class Model(NamedTuple):
-    """A dimensionless system with or without a damper; for a machine also its SI values."""
+    """A dimensionless system with or without a damper; for a machine also the SI values."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -39,11 +39,11 @@ class Model(NamedTuple):
 
     @property
     def scales(self) -> Scales:
-        """Scales in which the user gives values and gets results."""
+        """Scales that convert between the user's units and dimensionless numbers."""
         return self.oscillator.scales
 
     def pack(self, frequency=None) -> np.ndarray:
-        """Return the array for kernels at a frequency W, by default at the model's frequency."""
+        """Return the packed parameters at a frequency W, by default the model's frequency."""
         return pack(self.oscillator, self.damper, frequency or self.frequency)
 
     def describe(self, *others) -> dict:
@@ -53,7 +53,7 @@ class Model(NamedTuple):
 
 
 def read_system(system, damper=None, *, needs_damper=False) -> Model:
-    """Return the model of `system` and `damper`; with `needs_damper` a damper of None is an error.
+    """Return the model of `system` and `damper`. If `needs_damper`, a damper of None is an error.
 
     Raise TypeError for a wrong type, ValueError if the damper does not fit the machine.
     """
@@ -68,7 +68,7 @@ def read_system(system, damper=None, *, needs_damper=False) -> Model:
         raise TypeError(f"system = {shown(system)}: must be an Oscillator or a Machine")
     if not isinstance(damper, Damper) and (needs_damper or damper is not None):
         raise TypeError(f"damper = {shown(damper)}: must be a Damper")
-    # With any oscillator, even if a machine made it, all other arguments are dimensionless.
+    # If `system` is an Oscillator, even one made by a machine, all arguments are dimensionless.
     return Model(replace(system, scales=UNITLESS), damper)
 
 
@@ -125,7 +125,7 @@ def read_frequencies(scales, values) -> np.ndarray:
 
 
 def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
-    """Return the least and the greatest value of a range, dimensionless."""
+    """Return the least and the greatest value of a range as dimensionless numbers."""
     ends = read_numbers(scales, name, span, kind, **bounds)
     if ends.shape != (2,) or not ends[0] < ends[1]:
         raise ValueError(f"{name} = {shown(span)}: must be two numbers, least and greatest")
@@ -133,7 +133,7 @@ def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
 
 
 def read_radius(scales, radius, whole_gap=False) -> float | None:
-    """Return the radius of the ball of random starts, or None for a search without this ball."""
+    """Return the dimensionless radius of the ball of random starts, or None for None."""
     if radius is None:
         if whole_gap:
             raise ValueError("radius = None: must be given with whole_gap; 0 for a machine at rest")
@@ -149,7 +149,7 @@ def read_pair(scales, name, values) -> np.ndarray:
 
 
 def _components(scales, name, values, kinds, words):
-    """Return dimensionless displacements and velocities; `words` describe them in an error."""
+    """Return dimensionless displacements and velocities; an error says "must be" and `words`."""
     numbered = list(_numbered(values))
     if len(numbered) != len(kinds):
         raise ValueError(f"{name} = {shown(values)}: must be {words}")
@@ -171,7 +171,7 @@ def read_state(model, state) -> np.ndarray:
     scales, damper = model.scales, model.damper
     if hasattr(state, "coords"):
         units, expected = state.attrs.get("units"), STATE_UNITS if scales.si else "1"
-        # a dataset of one motion has dimensions of length 1
+        # in a dataset of one motion, the state has further dimensions of length 1
         state = np.squeeze(state.values)
         if units not in (None, expected):
             wanted = f"in {STATE_UNITS}, and is" if scales.si else "dimensionless, and is in"
@@ -201,7 +201,7 @@ def read_state(model, state) -> np.ndarray:
 
 
 def carried_phase(state):
-    """Return the phase W T that a state of a dataset has as a coordinate, or None."""
+    """Return the phase W T that a dataset stores with a state, or None if no phase is stored."""
     coordinates = getattr(state, "coords", {})
     phases = [coordinates[name].item() for name in PHASES if name in coordinates]
     return check_number("state phase", phases[0]) if phases else None
@@ -210,8 +210,8 @@ def carried_phase(state):
 def read_start(model, state, start) -> float:
     """Return the time T of a state, from the argument `start` of a public function.
 
-    If `start` is None, T follows from the phase that a state of a dataset has, or is 0 without a
-    phase. A `start` that contradicts this phase is an error.
+    If `start` is None, T is the phase stored with the state (`carried_phase`) divided by W, or 0 if
+    no phase is stored. A `start` at another phase is an error.
     """
     phase, frequency = carried_phase(state), model.frequency
     if start is None:

@@ -24,7 +24,7 @@ AMPLITUDE_RANGE = {"least": 0.0, "most": 1e6}
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
 # Largest natural frequency of the contact divided by the forcing frequency.
 MOST_STIFF = 1e6
-# Radius of the ball of random initial states. MOST_RADIUS: largest ratio of radius to clearance.
+# RADIUS_RANGE: radius of the ball of random starts. MOST_RADIUS: largest radius over clearance.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 MOST_RADIUS = 1e3
 # Bounds of the fields of `settling.Settling`.
@@ -33,26 +33,26 @@ PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "motions rarely settle in 
 LIMIT_RANGE = {"least": 100, "most": 10**8}
 WATCHED_RANGE = {"least": 1, "most": 10**6}
 FURTHER_RANGE = {"least": 0, "most": 10**7}
-# Largest number of runs of one call. The results of all runs are in memory.
+# Largest number of runs in one call of a function. The results of all runs are in memory.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# Number of forcing cycles in a run. LIFETIME_RANGE: in a run that measures a chaotic transient.
+# PERIODS_RANGE: cycles in a run. LIFETIME_RANGE: cycles in a run that measures the life of chaos.
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest |displacement| and |velocity| of an initial state. Beyond these a cycle takes minutes.
+# Largest |displacement| and |velocity| of a start. Beyond them, computing a cycle takes minutes.
 FARTHEST, FASTEST = 1e3, 1e6
 # Highest harmonic N of a harmonic balance. Memory grows as N^2, and computing time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
 PACKAGE = f"{__name__.partition('.')[0]}."
 # Number of points of a grid.
 POINTS_RANGE = {"least": 2, "most": 10**5}
-# Tolerance of an integrator in a comparison.
+# Tolerance of an integrator in a comparison of integrators.
 METHOD_TOLERANCE_RANGE = TOLERANCE_RANGE | {"most": 0.1}
 
 
 def warn(text) -> None:
-    """Issue a warning that shows the line of the user's code that has called this package."""
+    """Issue a warning that points to the line at which the user's code called this package."""
     frame, level = sys._getframe(1), 2
     while frame and frame.f_globals.get("__name__", "").startswith(PACKAGE):
         frame, level = frame.f_back, level + 1
@@ -60,7 +60,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return a value, or the number in an array without dimensions; units are an error."""
+    """Return a value, or the number in a 0-dimensional array. Units except radian are an error."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")
@@ -80,7 +80,7 @@ def check_number(
     """Return `value` as a float, or raise an error if it is not allowed.
 
     Raise TypeError for a value that is no real number, such as True. Raise ValueError if the value
-    is not finite or out of bounds; the message shows `given` as the value, and the reason `why`.
+    is not finite or out of bounds; the message has `given` (by default the value) and `why`.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -110,7 +110,7 @@ def range_words(unit="", *, above=None, least=None, most=None, why="") -> list:
 
 
 def check_count(name, value, *, least=1, most=10**9, why=""):
-    """Return `value` as an int, or raise an error unless it is a whole number in the range."""
+    """Return `value` as an int; an error if it is no whole number from `least` to `most`."""
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} = {shown(value)}: must be a whole number")
@@ -126,7 +126,7 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Raise an error unless `starts` is from `least` to MOST_RUNS / `points`, or just `least`."""
+    """Raise an error unless least <= starts <= max(least, MOST_RUNS // points)."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 
@@ -138,7 +138,7 @@ def nearest(name, known) -> str:
 
 
 def names_arguments(function):
-    """Decorate a public function or class: an error for a wrong argument lists the known names.
+    """Decorate a public function or class: errors for wrong arguments then list all known names.
 
     The docstring of a dataclass gets a list of the fields that have a `meaning`.
     """

@@ -1,11 +1,11 @@
 """The two rules for the end of a contact, and the damping that causes a given restitution.
 
-With no other force the penetration u obeys u'' + 2 z u' + u = 0 in natural units of time. z is the
-damping ratio, and u + 2 z u' is the force of the wall. Under `zero_penetration`, the paper's rule
-(25), a contact ends when u = 0; just before, a wall with damping pulls. Under `no_tension` a
-contact ends when the force falls to 0. If z = sin(A), the restitution is exp(-(pi - 2 A) tan A)
-(Schwager and Poeschel, Physical Review E 78, 2008, 051304). If z = cosh(B) > 1, the restitution is
-exp(-2 B coth B).
+Without other forces the penetration u of a wall obeys u'' + 2 z u' + u = 0. The time is multiplied
+by the natural frequency, z is the damping ratio, and u + 2 z u' is the force of the wall. Under
+`zero_penetration`, the paper's rule, a contact ends when u = 0, and equation (25) gives z. Just
+before the end a damped wall pulls. Under `no_tension` a contact ends when the force falls to 0: if
+z = sin(A), the restitution is exp(-(pi - 2 A) tan A) (Schwager and Poeschel, Physical Review E 78,
+2008, 051304); if z = cosh(B) > 1, the restitution is exp(-2 B coth B).
 """
 
 import math
@@ -29,7 +29,7 @@ def restitution(ratio) -> float:
 
 @cache
 def damping_ratio(restitution_, rule=ZERO_PENETRATION) -> float:
-    """Return the damping ratio z that gives a restitution under a rule."""
+    """Return the damping ratio z that gives a restitution under an exit rule."""
     logarithm = math.log(1 / restitution_)
     if rule == ZERO_PENETRATION or not logarithm:
         return logarithm / math.hypot(math.pi, logarithm)

@@ -9,13 +9,13 @@ from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
-# Parameters that can vary along a branch, each with its dataclass (None for the frequency). If a
-# name is in LINEAR, the coordinate along a branch is the parameter itself, otherwise its logarithm.
+# PARAMETERS: dataclass of each parameter that can vary along a branch; None for the frequency. The
+# coordinate along a branch is the parameter if LINEAR has its name, otherwise its logarithm.
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
-# Indices of the two terms of the forcing amplitude in the packed array (see `packed`).
+# Indices of F and U, of the forcing amplitude F + U W^2, in the packed array (see `packed`).
 FORCING = {"force": FORCE, "unbalance": UNBALANCE}
 
 
@@ -29,9 +29,9 @@ def facts_of(parameter) -> tuple:
 
 
 def read_followed(model, parameter, span) -> tuple:
-    """Return the arguments `parameter` and `span` of a branch, dimensionless.
+    """Return the name in PARAMETERS of the argument `parameter`, and a dimensionless `span`.
 
-    Machines have other names for some PARAMETERS. The span must contain the parameter's own value.
+    For a machine, `parameter` is a field of it or its damper. The span must hold the model's value.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}
@@ -51,7 +51,7 @@ def read_followed(model, parameter, span) -> tuple:
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
-    """Return a function that maps the coordinate along a branch to the packed parameters.
+    """Return a function from the coordinate along a branch to the packed parameters.
 
     Also return the coordinate of the given system, and the coordinates of both ends of the span.
     Raise ValueError if the contact is too stiff at an end of the span.

@@ -1,7 +1,7 @@
 """Contact of curved elastic bodies after Hertz: F = (4/3) E* sqrt(R) q^(3/2).
 
-Here q is the approach of the bodies, 1/E* the sum of (1 - nu^2)/E over both bodies, and 1/R the sum
-of their curvatures (K. L. Johnson, Contact Mechanics, 1985, sections 4.2 and 11.4).
+F is the force and q the approach of the bodies. 1/E* is the sum of (1 - nu^2)/E over both bodies,
+1/R the sum of both curvatures (K. L. Johnson, Contact Mechanics, 1985, sections 4.2 and 11.4).
 """
 
 import math
@@ -11,18 +11,18 @@ from typing import NamedTuple
 from impact_damper.model.bounds import names_arguments
 from impact_damper.model.units import convert, optional, physical
 
-# Duration of an impact, divided by the ratio of largest compression to speed:
+# Duration of an impact times speed, divided by the largest compression:
 # (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
 DURATION = 2.9432752
-# Pressure p0 at the centre of a ball's contact when a material begins to yield, divided by the
-# yield strength, for nu = 0.3 (Johnson, section 6.1).
+# A material under a ball yields if p0, the pressure at the centre of the contact, is at least YIELD
+# times the yield strength (Johnson, section 6.1, for Poisson's ratio nu = 0.3).
 YIELD = 1.6
 POISSON_RANGE = {"least": 0, "most": 0.5}
 WALLS = "of the walls, if they are of another material"
 
 
 class Impact(NamedTuple):
-    """Largest compression (m) and force (N) of an elastic impact, and its duration (s)."""
+    """Largest compression (m), largest force (N) and duration (s) of an elastic impact."""
 
     compression: float
     force: float
@@ -40,7 +40,7 @@ class HertzContact:
     Raises
     ------
     TypeError, ValueError
-        If a value is not of its kind or out of range.
+        If a value is missing or out of range, or has a wrong type or unit.
 
     Examples
     --------
@@ -90,27 +90,27 @@ class HertzContact:
         return (6 * force * self.modulus**2 / (math.pi**3 * self.radius**2)) ** (1 / 3)
 
     def yields(self, pressure) -> str:
-        """Return whether loose mass or wall yields at the pressure p0: yes, no or unknown."""
+        """Return "yes", "no" or "unknown": does the loose mass or a wall yield at a pressure p0?"""
         strengths = [self.yield_strength, self.wall_yield_strength]
         if any(each is not None and pressure >= YIELD * each for each in strengths):
             return "yes"
         return "unknown" if None in strengths else "no"
 
     def compression(self, speed, mass) -> float:
-        """Return the largest compression q of an elastic impact, m, from (2/5) K q^(5/2) = m v^2/2.
+        """Return the largest compression q (m) of an elastic impact: (2/5) K q^(5/2) = m v^2/2.
 
         v (m/s) is the relative speed, and m (kg) the reduced mass m1 m2/(m1 + m2).
         """
         return (5 * mass * speed**2 / (4 * self.coefficient)) ** 0.4
 
     def impact(self, speed, mass) -> Impact:
-        """Return the `Impact` of an elastic contact; the arguments are as in `compression`."""
+        """Return the elastic `Impact` for a relative speed and a reduced mass (`compression`)."""
         q = self.compression(speed, mass)
         return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
 
     def stiffness(self, speed, mass) -> float:
-        """Return the stiffness, N/m, of the linear spring with the same largest compression.
+        """Return the stiffness k (N/m) of the linear spring with k q^2/2 = m v^2/2 (`compression`).
 
-        The spring then stores the same energy. Its largest force is 4/5 of that in Hertz's contact.
+        The largest force k q of this spring is 4/5 of the largest force K q^(3/2) after Hertz.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

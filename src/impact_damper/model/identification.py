@@ -1,6 +1,6 @@
 """Machines that fit measured curves by least squares.
 
-Functions import NumPy and SciPy, because Snakemake imports this module in every dry run.
+Only functions import NumPy and SciPy: each dry run of Snakemake imports the module, and stays fast.
 """
 
 import csv
@@ -15,16 +15,16 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# FOLD: lower bound for the derivative of the balance, which is 0 at a fold. PASSES: number of fits.
+# For `from_response`. FOLD: keeps a divisor, which is 0 at a fold, from 0. PASSES: number of fits.
 FOLD, PASSES = 0.1, 6
 
 
 class Identified(NamedTuple):
     """A machine found by a fit, and the uncertainties of its values.
 
-    `uncertainties`, keyed by field of the machine, are standard uncertainties in SI units. They are
-    valid if errors are independent and of equal size. `noise` is the standard deviation of the
-    residuals, in m for a free decay and relative for a response. `ended` says how the fit ended.
+    `uncertainties` has the standard uncertainty of each fitted field, in SI units, valid if errors
+    of the samples are independent and equally large. `noise` is the standard deviation of the
+    residuals, in m for a decay, a fraction for a response. `ended` says how the fit ended.
     """
 
     machine: object
@@ -35,23 +35,23 @@ class Identified(NamedTuple):
 
 @names_arguments
 def from_ring_down(cls, data, *, mass, **excitation) -> Identified:
-    """Find the machine whose free decay m x'' + c x' + k x + k3 x^3 = 0 is nearest to a record.
+    """Find the machine whose decay by m x'' + c x' + k x + k3 x^3 = 0 is nearest to a measured one.
 
     Parameters
     ----------
     data : str, pathlib.Path, or sequence of 2 arrays
         CSV file whose first line names columns and units, such as "time_s, displacement_mm"; or
-        time (s) and displacement (m), each of shape (n,), n at least 20. A constant offset of the
+        two arrays of shape (n,), n >= 20: time (s) and displacement (m). A constant offset of the
         displacement is fitted too.
     mass : float, str or pint.Quantity
-        kg, taken as exact: stiffnesses and damping are proportional to it.
+        Exact mass, kg. The stiffnesses and the damping found are proportional to this mass.
     excitation
-        Excitation of the machine, such as force="40 N"; by default force=0.
+        Excitation of the machine that is returned, such as force="40 N"; by default force=0.
 
     Raises
     ------
     TypeError, ValueError
-        If the data are not such a record; a wrong cell of a file is named.
+        If `data` are not as described. The message names a wrong cell of a file.
 
     Examples
     --------
@@ -81,24 +81,24 @@ def from_response(cls, data, *, force) -> Identified:
     """Find the machine whose response to a known force is nearest to a measured curve.
 
     All branches obey the balance of the first harmonic, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2
-    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). The residual, half of the
-    logarithm of left side by right side, is divided by its derivative by ln a. So it is nearly the
-    relative error of a. If 3/4 k3 a^2 exceeds k/10, the neglected harmonics change the stiffness
-    found by about 1 %, and near a jump the damping by 10 %.
+    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). With R = ln(left side/right
+    side)/2 the residual is R/(dR/d ln a), which is nearly the relative error of a. The neglected
+    harmonics matter where 3/4 k3 a^2 exceeds k/10: they change the fitted stiffness by about 1 %,
+    and near a jump the fitted damping by 10 %.
 
     Parameters
     ----------
     data : str, pathlib.Path, or sequence of 2 arrays
         CSV file whose first line names columns and units, such as "frequency_Hz, displacement_mm";
-        or frequency (Hz) and amplitude a of the first harmonic (m), each of shape (n,), n at least
-        20, in any order, on both sides of the resonance.
+        or two arrays of shape (n,), n >= 20: frequency (Hz) and amplitude a of the first harmonic
+        (m). Samples may have any order, and must lie on both sides of the resonance.
     force : float, str or pint.Quantity
-        Amplitude of the force, N, the same for all samples.
+        Amplitude F of the force (N), equal for all samples.
 
     Raises
     ------
     TypeError, ValueError
-        If the data are not such a curve; a wrong cell of a file is named.
+        If `data` are not as described. The message names a wrong cell of a file.
 
     Examples
     --------
@@ -133,9 +133,9 @@ def from_response(cls, data, *, force) -> Identified:
 
 
 def _fit(residuals, guess, scale):
-    """Return the fitted parameters, their standard errors, `noise` and the solver's message.
+    """Return fitted parameters, standard errors, standard deviation of residuals, and a message.
 
-    `residuals` takes n columns of parameters, and returns residuals of shape (samples, n).
+    `residuals` maps parameters of shape (parameters, n) to residuals of shape (samples, n).
     """
     import numpy as np
     from scipy.optimize import least_squares
@@ -157,7 +157,7 @@ def _fit(residuals, guess, scale):
 
 
 def _free(time, parameters):
-    """Return a free decay of a unit mass for each column of parameters, shape (times, columns)."""
+    """Return the decay of a mass of 1 kg for each column of parameters, shape (times, columns)."""
     import numpy as np
     from scipy.integrate import solve_ivp
 
@@ -171,20 +171,20 @@ def _free(time, parameters):
     least = 1e-8 * np.max(np.abs(start))
     found = solve_ivp(slope, ends, start, "DOP853", time, rtol=1e-8, atol=least)
     count = parameters.shape[1]
-    if not found.success:  # a decay that escapes is far from every record
+    if not found.success:  # the motion escapes: return values far from any measurement
         return np.full((len(time), count), 1e3 * np.max(np.abs(parameters[3])))
     return found.y[:count].T
 
 
 def _decay(time, measured):
-    """Guess the 6 parameters of a decay by its analytic signal; return them and their scales."""
+    """Return a guess of the 6 parameters of a decay, by its analytic signal, and their scales."""
     import numpy as np
     from scipy.signal import hilbert
 
     t = np.linspace(0, time[-1] - time[0], len(time))
     offset = np.mean(measured)
     signal = hilbert(np.interp(time[0] + t, time, measured) - offset)
-    begin = 1 + len(t) // 30  # the ends of an analytic signal are wrong
+    begin = 1 + len(t) // 30  # an analytic signal is wrong near its ends
     sizes = np.abs(signal[begin:-begin])
     top = np.argmax(sizes)
     end = begin + top + np.argmax(np.append(sizes[top:] < 0.1 * sizes[top], True))
@@ -202,7 +202,7 @@ def _decay(time, measured):
 
 
 def _resonance(w, amplitude, force):
-    """Guess c at the peak, then k, k3, m by linear fits; return k, c, k3, m, and their scales."""
+    """Return guesses of k, c, k3, m, and their scales: c from the peak, k, k3, m by linear fits."""
     import numpy as np
 
     top = np.argmax(amplitude)
@@ -219,7 +219,7 @@ def _resonance(w, amplitude, force):
 
 
 def _read(data, kinds):
-    """Return two columns in SI units as arrays, from a CSV file or a pair of arrays."""
+    """Return two arrays in SI units, from two columns of a CSV file or from a pair of arrays."""
     import numpy as np
 
     is_file = isinstance(data, (str, Path))
@@ -235,7 +235,7 @@ def _read(data, kinds):
 
 
 def _columns(path, kinds):
-    """Return those columns of a CSV file that `kinds` name, as tuples of numbers in SI units."""
+    """Return the columns of a CSV file with names in `kinds`, as tuples of numbers in SI units."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         reader = csv.DictReader(file)
         matches = filter(None, map(COLUMN.fullmatch, reader.fieldnames or ()))
@@ -256,7 +256,7 @@ def _columns(path, kinds):
 
 
 def _cell(path, line, kind, text):
-    """Return the number in a cell, or raise an error that names the cell."""
+    """Return the number in a cell of a CSV file, or raise an error that names the cell."""
     try:
         return float(text)
     except (TypeError, ValueError):

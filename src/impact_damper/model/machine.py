@@ -1,4 +1,4 @@
-"""A machine on a spring with its excitation, its impact damper, and an absorber, in SI units."""
+"""A machine with spring and excitation, its impact damper, and a tuned absorber, in SI units."""
 
 import math
 from dataclasses import asdict, dataclass, fields, replace
@@ -12,19 +12,18 @@ from impact_damper.model.text import with_unit
 from impact_damper.model.units import Scales, check_si, convert, optional, physical
 
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
-# Acceleration of gravity, m/s^2. Range of an angle, radian. Range of a coefficient of friction.
-GRAVITY = 9.81
-ANGLES = {"least": 0, "most": 1.5708}
-FRICTIONS = {"least": 0, "most": 10}
+GRAVITY = 9.81  # acceleration of gravity, m/s^2
+ANGLES = {"least": 0, "most": 1.5708}  # range of the inclination of a gap, radian
+FRICTIONS = {"least": 0, "most": 10}  # range of a coefficient of friction
 # Keys of a damper in a machine's file that are arguments of `mounting`, not of `MachineDamper`.
 MOUNT = ("inclination", "friction_coefficient", "normal_force")
-GRAVITIES = {"least": -1e3, "most": 1e3}
+GRAVITIES = {"least": -1e3, "most": 1e3}  # range of gravity along the gap, m/s^2
 # Largest damping ratio. At 1, critical damping, the machine no longer vibrates.
 MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """A value that a machine computes from its others; each copy of the machine does so again."""
+    """A number that a machine computes from its other fields; a copy computes the number again."""
 
 
 @bounds.names_arguments
@@ -50,10 +49,10 @@ class MachineDamper:
         convert(self)
 
     def check_for(self, machine):
-        """Raise ValueError, with the range allowed, if the damper does not fit a machine.
+        """Raise ValueError if the damper does not fit a machine; the message has the allowed range.
 
-        The gap must exceed the static play: the compressions of both contacts, added, under the
-        force F m2/(m1 + m2) on the loose mass m2, with the static force F on the machine's mass m1.
+        The gap must exceed the static play, twice the compression of a contact under the force
+        F m2/(m1 + m2). F is the static force on the machine, m1 its mass, and m2 the loose mass.
         """
         scales = machine.scales
         gaps = scales.range_to_si(bounds.CLEARANCE_RANGE, "gap")
@@ -93,12 +92,12 @@ class Machine:
 
     Each value is a number in the SI unit, text with units such as "12 kg", or a quantity of pint;
     the fields hold numbers. The restoring force at the deflection x is
-    linear_stiffness x + cubic_stiffness x^3. The natural frequency may be given in place of the
-    linear stiffness. Give one of damping_ratio, quality_factor and damping, and one excitation.
-    Functions that take a machine take frequencies in Hz and states in m and m/s, and return
-    datasets in mm, Hz, N, m/s and s. An unbalance exerts a force of amplitude unbalance w^2.
-    On a moving base displacements are relative to the base. Its acceleration acts on both masses.
-    The deflection is measured from rest under the weight of the machine.
+    linear_stiffness x + cubic_stiffness x^3, where x is 0 at rest under the machine's weight. The
+    natural frequency may be given in place of the linear stiffness. Give one of damping_ratio,
+    quality_factor and damping, and one excitation. Functions that take a machine take frequencies
+    in Hz and states in m and m/s, and return datasets in mm, Hz, N, m/s and s. At the angular
+    frequency w, an unbalance exerts a force of the amplitude unbalance w^2. On a moving base,
+    displacements are relative to the base, and the base's acceleration acts on both masses.
 
     Raises
     ------
@@ -177,7 +176,7 @@ class Machine:
             )
 
     def _derive(self):
-        """Compute stiffness, natural frequency, damping ratio from values given in their place."""
+        """Set linear_stiffness or natural_frequency, and damping_ratio, from the fields given."""
         if self.natural_frequency is None:
             found = math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
             object.__setattr__(self, "natural_frequency", Derived(found))
@@ -236,8 +235,8 @@ class Machine:
     def scales(self) -> Scales:
         """Scales with which the dimensionless equations describe the machine.
 
-        The length is the geometric mean of the static deflection and the displacement at resonance.
-        So motions and useful gaps are of order 1. The time is such that omega_l^2 + |k3| = 1.
+        The scale of length is sqrt(static deflection times displacement at resonance): motions and
+        useful gaps are then of order 1. The scale of time makes omega_l^2 + |k3| = 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -245,11 +244,11 @@ class Machine:
         return Scales(length, time, self.mass, si=True)
 
     def _static_deflection(self):
-        """Return the deflection under the force or under the base's acceleration, m.
+        """Return the static deflection (m) under the force, or under mass times base_acceleration.
 
-        For an unbalance: unbalance/mass. For a base's displacement: its amplitude. Without
-        excitation: the deflection at which the linear force of the spring equals the cubic force,
-        or 1 mm if the spring lacks one of them.
+        For an unbalance the result is unbalance/mass, for a base_displacement this amplitude.
+        Without excitation it is the deflection at which the linear force of the spring equals the
+        cubic force, or 1 mm if one of these forces is absent.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
@@ -264,9 +263,9 @@ class Machine:
 
     @property
     def resonant_displacement(self) -> float:
-        """Displacement of a linear machine at resonance, m: static deflection times max(1, m w/c).
+        """Displacement (m) of a linear machine at resonance: static deflection times max(1, m w/c).
 
-        w^2 is the secant stiffness of the spring at the static deflection, divided by the mass.
+        c is `viscous_damping`, and m w^2 the spring's secant stiffness at the static deflection.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -301,7 +300,7 @@ class Machine:
 
     @property
     def forcing(self) -> tuple[float, float]:
-        """F (N) and U (kg m) of the forcing amplitude F + U w^2."""
+        """F (N) and U (kg m) of the forcing amplitude F + U w^2 at the angular frequency w."""
         if self.is_based:
             moved = self.base_displacement or 0.0
             return self.mass * (self.base_acceleration or 0.0), self.mass * moved
@@ -318,12 +317,12 @@ class Machine:
         Parameters
         ----------
         mass : float, str or pint.Quantity
-            kg.
+            Loose mass, kg.
         gap : float, str or pint.Quantity
             Full play of the loose mass from wall to wall, m.
         clearances : sequence of 2 floats, str or pint.Quantity
-            In place of `gap`, the clearances on both sides of the loose mass at rest, m. Motions
-            depend on their sum only, because nothing holds the loose mass between the walls.
+            In place of `gap`, the distances (m) of the loose mass at rest to both walls. Motions
+            depend on the sum only, because no spring holds the loose mass between the walls.
         mount : dict, optional
             Arguments of `mounting`, such as {"inclination": "90 deg"}.
         contact
@@ -332,7 +331,7 @@ class Machine:
         Raises
         ------
         TypeError, ValueError
-            If a value is out of range, in general or for this machine.
+            If a value is out of range, or does not fit this machine.
         """
         if (gap is None) == (clearances is None):
             raise ValueError(
@@ -359,8 +358,8 @@ def mounting(
 
     `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
     default 0. `normal_force` (N) presses the loose mass on its floor; the default is the weight's
-    component normal to the gap. `gravity` may be given in place of `inclination`, and `friction` in
-    place of `friction_coefficient` and `normal_force`. Raise ValueError if both are given.
+    component normal to the gap. `gravity` may replace `inclination`, and `friction` may replace
+    `friction_coefficient` and `normal_force`. Raise ValueError for values that exclude each other.
     """
     mass = check_si("mass", mass, "mass", above=0)
     coefficient = check_si("friction_coefficient", friction_coefficient, "number", **FRICTIONS)
@@ -423,7 +422,7 @@ def static_deflection(force, linear, cubic) -> float:
 
 def describe_si(machine, damper=None) -> dict:
     """Return the values of a machine and its damper in SI units; the gap is the full play."""
-    others = ("natural_frequency", "quality_factor")  # they follow from stiffness and damping ratio
+    others = ("natural_frequency", "quality_factor")  # computed from stiffness and damping ratio
     found = {
         name: float(value)
         for name, value in asdict(machine).items()

@@ -7,9 +7,9 @@ from impact_damper.model.exit_rules import NO_TENSION
 from impact_damper.model.parameters import NONLINEAR, Oscillator, check_damper, parameters_in
 from impact_damper.model.text import number
 
-# Names of the numbers in their order: W; the fields of `Oscillator`, with omega_l^2 in place of
-# omega_l; d0; r1; 1/rm; coefficient of the dashpot; LAG; gravity along the gap; friction per unit
-# of loose mass. LAG is 0 if walls may pull, otherwise the time DASHPOT / CONTACT_STIFFNESS.
+# Names of the numbers in `p`, in their order. FREQUENCY is W, STIFFNESS omega_l^2. DASHPOT is the
+# coefficient of the dashpot in the walls. FRICTION is per unit of loose mass. LAG is the time
+# DASHPOT / CONTACT_STIFFNESS if the walls never pull, and 0 if the walls may pull.
 FIELDS = [each.name for each in parameters_in(Oscillator)]
 NAMES = (
     "FREQUENCY",
@@ -65,7 +65,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
 
 def cubic_spring(p) -> tuple:
-    """Return omega_l^2 and k3 for closed forms; other terms of the spring raise ValueError."""
+    """Return omega_l^2 and k3. Raise ValueError if the spring has a term that closed forms lack."""
     for name in NONLINEAR:
         value = p[NAMES.index(name.upper())]
         if value and name != "cubic":

@@ -1,7 +1,7 @@
 """Dataclasses of the oscillator and of the damper, dimensionless as in section 2.1 of the paper.
 
-Lengths are scaled by x0 = (F/k1)^(1/3) and times by 1/w0 = sqrt(m1/(k1 x0^2)), with the amplitude F
-of the force, the coefficient k1 of the cubic spring and the primary mass m1.
+Lengths are divided by x0 = (F0/k1)^(1/3), and times by 1/w0 = sqrt(m1/(k1 x0^2)). F0 is the
+amplitude of the force, k1 the coefficient of the cubic spring, and m1 the primary mass.
 """
 
 import math
@@ -13,10 +13,10 @@ from impact_damper.model.units import UNITLESS, Scales
 
 
 def parameter(limits, kind, symbol, meaning, *, machine=None, power=None, **default):
-    """Return a dataclass field for a dimensionless number, with all facts about it.
+    """Return the dataclass field of a dimensionless parameter, whose metadata describe it.
 
-    `kind` is a key of `units.QUANTITIES`. `machine` is the parameter's name in machines, if it is
-    different. `power` belongs to a coefficient of the spring: the power of Z1 in its term.
+    `kind` is a key of `units.QUANTITIES`. `machine` is the parameter's name in a machine, if it has
+    another name there. `power` is the power of Z1 that a coefficient of the spring multiplies.
     """
     facts = {"bounds": limits, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
     return field(metadata=facts | {"meaning": f"{symbol}, {meaning}"}, **default)
@@ -42,9 +42,9 @@ def check_damper(damper):
 class Oscillator:
     """Harmonically forced Duffing oscillator, equation (3) without the damper, dimensionless.
 
-    The forcing has the amplitude F + U W^2. U stands for a rotating unbalance, or for a base that
-    moves with a constant amplitude. On a moving base Z1 is relative to the base, and the forcing is
-    the force of inertia. This force acts on the loose mass too, so `base` is 1.
+    The forcing has the amplitude F + U W^2. U stands for a rotating unbalance, or for a base whose
+    displacement has a fixed amplitude. On a moving base Z1 is relative to the base, and the forcing
+    is the force of inertia. This force acts on the loose mass too, so `base` is 1.
 
     Raises
     ------
@@ -104,7 +104,7 @@ class Oscillator:
         return [name for name in NONLINEAR if getattr(self, name)]
 
     def told(self, *names) -> str:
-        """Return fields as "name = value"; for a machine with its names and in SI units."""
+        """Return fields as "name = value", for a machine with its names and SI units."""
         found = []
         for name in names:
             facts = self.__dataclass_fields__[name].metadata
@@ -120,7 +120,7 @@ class Oscillator:
 
     @property
     def hardening(self) -> float:
-        """Coefficient of a^3 in the first harmonic of the spring's force under Z1 = a cos t."""
+        """Coefficient of a^3 in the first harmonic of the spring's force for Z1 = a cos(W T)."""
         others = [name for name in self._terms if name != "cubic"]
         if others:
             raise ValueError(f"{self.told(*others)}: must be 0 in closed forms (cubic springs)")
@@ -136,8 +136,8 @@ class Oscillator:
 class Damper:
     """Loose mass in a gap whose walls have a spring and a dashpot (figures 1 and 9 of the paper).
 
-    `exit_rule` decides when a contact ends (`exit_rules`). With "zero_penetration", the paper's
-    rule, the walls may pull. With "no_tension" the walls never pull.
+    `exit_rule` decides when a contact ends (see `exit_rules`). With "zero_penetration", the rule of
+    the paper, the walls may pull. With "no_tension" the walls never pull.
 
     Raises
     ------
@@ -196,7 +196,7 @@ class Damper:
 
     @property
     def contact_frequency(self) -> float:
-        """Natural frequency wn = sqrt(r1 (1 + 1/rm)); an elastic contact lasts pi/wn."""
+        """Natural frequency wn = sqrt(r1 (1 + 1/rm)) of the contact; if elastic, it lasts pi/wn."""
         return math.sqrt(self.contact_stiffness * (1 + 1 / self.mass_ratio))
 
     @property
@@ -206,13 +206,13 @@ class Damper:
 
 
 def beyond_closed_forms(oscillator, damper) -> list:
-    """Return pairs (part, name): the nonzero parameters that closed forms with a damper refuse."""
+    """Return pairs (oscillator or damper, name) of nonzero parameters that closed forms refuse."""
     terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
     return [(part, name) for part, name in terms if getattr(part, name)]
 
 
 def check_closed_form(oscillator, damper):
-    """Raise TypeError for a wrong damper, ValueError if `beyond_closed_forms` finds a parameter."""
+    """Raise TypeError if `damper` is no Damper, ValueError if `beyond_closed_forms` finds any."""
     check_damper(damper)
     why = "must be 0 in closed forms and harmonic balance with a damper; simulate it instead"
     for part, name in beyond_closed_forms(oscillator, damper):
@@ -225,7 +225,7 @@ def parameters_in(part) -> list:
     return [each for each in fields(part) if each.type in (int, float)]
 
 
-# Powers of Z1 in the spring's nonlinear terms, keyed by name. SPRING_POWER: the highest power.
+# NONLINEAR: power of Z1 in each nonlinear term of the spring, keyed by the coefficient's name.
 NONLINEAR = {
     each.name: each.metadata["power"]
     for each in parameters_in(Oscillator)
@@ -251,5 +251,5 @@ def describe(*parts) -> dict:
 
 
 def pick(kind, values) -> dict:
-    """Return those entries of `values` whose keys are parameters of the dataclass `kind`."""
+    """Return the entries of `values` whose keys are parameters of the dataclass `kind`."""
     return {each.name: values[each.name] for each in parameters_in(kind) if each.name in values}

@@ -1,4 +1,4 @@
-"""Settings for the length and the accuracy of the runs of motions."""
+"""Settings: length and accuracy of the runs in which motions settle."""
 
 from dataclasses import dataclass
 
@@ -16,17 +16,17 @@ class Settling:
     tolerance : float
         Largest local error in a step of the integrator, dimensionless.
     patience : int
-        Number of forcing cycles after which a motion is stopped if it is strongly chaotic, or if
-        the loose mass hardly moves and has touched no wall during these cycles.
+        Number of forcing cycles after which a run is stopped if the motion is strongly chaotic, or
+        if the loose mass hardly moves and has touched no wall during these cycles.
     limit : int
-        Number of forcing cycles after which every motion is stopped. The motion is then chaotic if
-        this is certain, drifting if the primary mass is on an orbit and the loose mass has touched
+        Number of forcing cycles after which every run is stopped. The motion is then chaotic if
+        chaos is certain, drifting if the primary mass is on an orbit and the loose mass has touched
         no wall for `patience` cycles, and otherwise undecided.
     watched : int
-        Number of further forcing cycles in which an unsettled motion is measured.
+        Number of forcing cycles after the run in which a motion that has not settled is measured.
     further : int
-        Largest number of further forcing cycles of an undecided motion. They can show that the
-        motion is quasi-periodic, chaotic, or periodic with a long period.
+        Largest number of forcing cycles after `limit` in which an undecided motion may prove to be
+        quasi-periodic, chaotic, or periodic with a long period.
 
     Raises
     ------
@@ -55,7 +55,7 @@ class Settling:
 
 
 def check_settling(settling) -> Settling:
-    """Return `settling`, or the default for None; raise TypeError if it is not a Settling."""
+    """Return `settling`, or the default if it is None; raise TypeError for another type."""
     if settling is None:
         return Settling()
     if not isinstance(settling, Settling):

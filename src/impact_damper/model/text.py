@@ -2,7 +2,7 @@
 
 import math
 
-# Numbers from 1 to below 10**POSITIONAL are written without an exponent, after rounding.
+# Rounded numbers from 1 to below 10**POSITIONAL are written without an exponent.
 POSITIONAL = 5
 
 
@@ -22,14 +22,14 @@ def number(value, digits=3) -> str:
 
 def percent(share, digits=3) -> str:
     """Return a share in per cent; a share below 1 never becomes "100 %"."""
-    if 0.9 < share < 1:  # rounding must not make it 1
+    if 0.9 < share < 1:  # rounding must not give 100 %
         digits = max(digits, 1 - math.floor(math.log10(1 - share)))
     text = number(100 * share, digits)
     return text if text == "none" else f"{text} %"
 
 
 def with_unit(value, unit, digits=6) -> str:
-    """Return a number with its unit; the unit "1" and the unit of "none" are left out."""
+    """Return a number with its unit. The unit "1" is left out, and so is any unit after "none"."""
     text = number(value, digits)
     return text if text == "none" or unit in ("", "1") else f"{text} {unit}"
 

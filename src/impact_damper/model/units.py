@@ -12,9 +12,9 @@ from impact_damper.model.text import number, with_unit
 
 
 class Quantity(NamedTuple):
-    """A kind of physical quantity: its SI unit, and the exponents of its dimensions.
+    """A kind of physical quantity: its SI unit, and its exponents of length, time and mass.
 
-    Datasets use the unit `shown`, if there is one. 1 `unit` is `factor` times the unit `shown`.
+    Datasets use the unit `shown` if it is not empty. 1 `unit` is `factor` times the unit `shown`.
     """
 
     unit: str
@@ -26,7 +26,7 @@ class Quantity(NamedTuple):
 
     @property
     def label(self) -> str:
-        """Unit in datasets, "1" for a number."""
+        """Unit of the quantity in datasets of machines; "1" for a plain number."""
         return self.shown or self.unit or "1"
 
 
@@ -52,7 +52,7 @@ QUANTITIES = {
     "impulse": Quantity("N s", length=1, time=-1, mass=1),
     "power": Quantity("W", length=2, time=-3, mass=1),
 }
-# A text is one number and units with powers only, because pint would evaluate any expression.
+# TEXT matches a number with units. Other text never reaches pint, which evaluates any expression.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
 TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")
@@ -65,8 +65,8 @@ def si_value(name, value, quantity) -> float:
     """Return a value as a number in the SI unit of its `quantity`, a key of QUANTITIES.
 
     The value is a number in the SI unit, text with units, a quantity of any registry of pint, or a
-    single value of a dataset. Angular frequencies ("188 rad/s", "1800 rpm") are divided by 2 pi,
-    which pint does not do. Raise TypeError, or ValueError for infinity, NaN or a wrong unit.
+    single value of a dataset. Angular frequencies ("188 rad/s", "1800 rpm") become Hz; pint alone
+    omits the factor 1/(2 pi). Raise TypeError, or ValueError for infinity, NaN or a wrong unit.
     """
     value = _from_dataset(value)
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
@@ -112,8 +112,8 @@ def _from_dataset(value):
 
 @cache
 def _factor(text, unit):
-    """Return the factor from the unit `text` to an SI unit; None if there is no such factor."""
-    import pint  # takes a third of a second, which plain numbers need not wait for
+    """Return how many SI units `unit` the unit `text` is; None if the two cannot be converted."""
+    import pint  # takes a third of a second; plain numbers do without pint
 
     registry = pint.get_application_registry()
     try:
@@ -127,14 +127,14 @@ def _factor(text, unit):
 
 
 def check_si(name, value, quantity, **bounds) -> float:
-    """Return a physical quantity in its SI unit; the bounds of `check_number` are in this unit."""
+    """Return a value in the SI unit of its quantity; `bounds` (`check_number`) are in this unit."""
     given = shown(value) if isinstance(value, str) else ""
     unit = QUANTITIES[quantity].unit
     return check_number(name, si_value(name, value, quantity), unit=unit, given=given, **bounds)
 
 
 def absolute_value(value, quantity) -> float | None:
-    """Return a deviation in SI units if it has a unit of the quantity; None for a fraction."""
+    """Return a deviation in the SI unit of `quantity`; None for a fraction, such as "5 %"."""
     if quantity is None or not (isinstance(value, str) or hasattr(value, "units")):
         return None
     try:
@@ -155,7 +155,7 @@ optional = partial(physical, default=None)
 
 
 def convert(part) -> None:
-    """Convert the `physical` fields of a frozen dataclass to SI units; a default None stays."""
+    """Convert `physical` fields of a frozen dataclass to SI units; a default of None stays None."""
     for each in fields(part):
         value = getattr(part, each.name)
         if "quantity" in each.metadata and not (value is None and each.default is None):

@@ -1,4 +1,4 @@
-"""Design rule (19) of the paper for the clearance. Dry runs of Snakemake use it without NumPy."""
+"""Design rule (19) of the paper for the clearance. Snakemake's dry runs use it without NumPy."""
 
 import math
 
@@ -7,13 +7,13 @@ def peak_frequency(oscillator) -> float:
     """Return the peak frequency Wp of rule (19), dimensionless; raise ValueError without a peak.
 
     At Wp the displacement Z1 without the damper lags the forcing by a quarter of a cycle. By
-    section 2.1, s = Wp^2 solves the following equation with g = (3/4) k3.
+    section 2.1 of the paper, s = Wp^2 solves the following equation with g = (3/4) k3.
 
         (1 - g U^2/h^2) s^2 - (wl^2 + 2 g F U/h^2) s - g F^2/h^2 = 0
 
-    With a softening spring there are two solutions; the peak has the smaller amplitude. The maximum
-    of the response curve (`free_oscillator.maximum_response`) lies at a slightly lower frequency
-    under a constant force, and at a slightly higher frequency under an unbalance.
+    With a softening spring there are two solutions; Wp^2 is the larger s. The maximum of the
+    response curve (`free_oscillator.maximum_response`) lies at a frequency slightly below Wp if
+    U = 0, and slightly above Wp if F = 0.
     """
     stiffness, hardening = oscillator.linear_frequency**2, oscillator.hardening
     scale = hardening / oscillator.damping**2
@@ -46,7 +46,7 @@ def peak_frequency(oscillator) -> float:
 
 
 def rule_clearance(oscillator, mass_ratio) -> float:
-    """Return the clearance d0 = f/(rm Wp^2) of rule (19). With this d0, a = 0 solves (13) at Wp."""
+    """Return the clearance d0 = f/(rm Wp^2) of rule (19). f is the forcing amplitude at Wp."""
     peak = peak_frequency(oscillator)
     forcing = oscillator.forcing_amplitude(peak)
     if forcing == 0:

@@ -1,6 +1,6 @@
 """Single-term harmonic balance of the free oscillator (without damper): Z1 = a cos(W T + t1).
 
-With g = (3/4) k3 and the forcing amplitude f, (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2.
+The balance is (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2: g = (3/4) k3, forcing amplitude f.
 """
 
 from functools import lru_cache
@@ -12,12 +12,12 @@ from numpy.polynomial import Polynomial
 from impact_damper.model.bounds import check_frequency
 from impact_damper.theory.roots import polynomial_roots
 
-# Rounding may lift an amplitude, or its square, above its bound by this fraction of the bound.
+# Rounding may lift an amplitude or its square above a bound, by this fraction of the bound.
 ROUNDING = 1e-9
 
 
 class FreeSolutions(NamedTuple):
-    """Amplitudes a, ascending, and phases t1 of solutions at one frequency, shape (count,)."""
+    """Solutions at one frequency: amplitudes a (ascending) and phases t1, shape (count,)."""
 
     amplitude: np.ndarray
     phase: np.ndarray
@@ -46,7 +46,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
     drag, hardening = oscillator.damping * frequency, oscillator.hardening
     terms = [-(force**2), detuning**2 + drag**2, 2 * hardening * detuning, hardening**2]
     squares = polynomial_roots(terms)
-    # With a tiny k3 rounding errors produce a double root, far above the bound f/(h W).
+    # If k3 is tiny, rounding errors produce a wrong root, far above the bound f/(h W) of a.
     squares = squares[squares <= (force / drag) ** 2 * (1 + ROUNDING)]
     amplitude = np.sqrt(squares)
     inline = amplitude * (detuning + hardening * squares)
@@ -54,7 +54,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def main_solutions(oscillator, frequency) -> FreeSolutions:
-    """Return the solutions on the part of the response curve with the peak; all if g >= 0."""
+    """Return the solutions up to the amplitude of the peak; all solutions if g >= 0."""
     free = free_solutions(oscillator, frequency)
     if oscillator.hardening >= 0:
         return free
@@ -63,7 +63,7 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def balance_amplitudes(oscillator, frequency):
-    """Return the amplitudes of `main_solutions`, or the least if a softening spring has no peak."""
+    """Return the amplitudes of `main_solutions`; without a peak, the least of `free_solutions`."""
     try:
         return main_solutions(oscillator, frequency).amplitude
     except ValueError:
@@ -90,7 +90,7 @@ def maximum_response(oscillator) -> Point:
     """Return the maximum of the free response curve over W.
 
     The curve has the amplitude a at the roots W of (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2
-    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. At a maximum the discriminant is 0.
+    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. At the maximum both roots W^2 are equal.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening
@@ -117,8 +117,8 @@ def maximum_response(oscillator) -> Point:
 def free_folds(oscillator) -> tuple[Point, ...]:
     """Return the folds of the free response curve, by ascending amplitude.
 
-    At a fold the left side of the equation in `maximum_response` and its derivative with respect to
-    u = a^2 are zero. Both are quadratic in s = W^2; their resultant has degree five in u.
+    P is the left side of the equation in `maximum_response`, and u = a^2. At a fold P = 0 and
+    dP/du = 0. Both equations are quadratic in W^2. Their resultant has degree five in u.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening

@@ -24,15 +24,15 @@ from impact_damper.theory.single_harmonic import (
     stability,
 )
 
-# Largest distance of neighbouring solutions of a branch, divided by the largest of all components.
+# Largest distance of neighbouring solutions of a branch, over the largest component of a solution.
 JUMP = 0.25
 
 
 def branches_over(rows) -> list[np.ndarray]:
     """Return the branch numbers of solutions, an array for each row of solutions.
 
-    Neighbouring rows belong to neighbouring values of a parameter. Two solutions in such rows are
-    on one branch if each is the nearest to the other and their distance is small (see JUMP).
+    A row holds the solutions at one value of a parameter. Solutions x and y of consecutive rows are
+    on one branch if y is the nearest to x, x is the nearest to y, and x - y is small (see JUMP).
     """
     sizes = [np.max(np.abs(row)) for row in rows if len(row)]
     reach = JUMP * max(sizes, default=1.0)
@@ -77,15 +77,15 @@ def harmonic_balance(system, damper, frequencies):
 
         The suppression band is the range of frequencies around the peak Wp of the free response in
         which (7) has exactly one stable solution, and this solution is smaller than the free
-        resonance branch. Beyond the fold of this branch there is no band. The dataset has the
-        frequency of each `edge` (lower, upper; NaN if not found), width, and reduction at Wp.
+        resonance branch. Beyond the fold of the free resonance branch there is no band. Variables
+        have the frequency of each `edge` (NaN if not found), the width, and the reduction at Wp.
 
     Raises
     ------
     ValueError
         If the damper is not elastic, or frequencies are not positive and increasing.
     ArithmeticError
-        If (7) could not be resolved at a frequency at which the band is searched.
+        If the solutions of (7) cannot be found at a frequency in the search for the band.
 
     Examples
     --------
@@ -108,7 +108,7 @@ def harmonic_balance(system, damper, frequencies):
 
 
 def _table(columns, rows, fill=np.nan):
-    """Return rows of unequal length as one array, each entry in the column of its branch."""
+    """Return rows of unequal length as one array; `columns` has the column of each value."""
     width = max((1 + row.max() for row in columns if len(row)), default=1)
     table = np.full((len(rows), width), fill)
     for target, place, row in zip(table, columns, rows, strict=True):
@@ -182,16 +182,16 @@ def _rigid_table(oscillator, damper, frequencies):
     }
 
 
-# Search for the edges of the band: range of W/Wp, step of W/Wp, and tolerance of W.
-SEARCHED = (0.2, 2.0)
-SEARCH_STEP = 0.005
-EDGE_TOLERANCE = 1e-10
+# Constants of the search for the edges of the band.
+SEARCHED = (0.2, 2.0)  # lowest and highest W/Wp
+SEARCH_STEP = 0.005  # step of W/Wp
+EDGE_TOLERANCE = 1e-10  # largest error of W at an edge
 EDGES = ["lower", "upper"]
 SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "reduction")
 
 
 def _band(oscillator, damper):
-    """Return the variables of the suppression band. The search misses gaps below SEARCH_STEP."""
+    """Return the variables of the band. Its interruptions shorter than SEARCH_STEP are missed."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,
@@ -222,7 +222,7 @@ def _band(oscillator, damper):
 
 
 def _look(oscillator, damper, frequency):
-    """Return the `band_status` at one frequency, and |a| of the stable solutions, ascending."""
+    """Return the `band_status` at one frequency, and the ascending |a| of all stable solutions."""
     stable = np.sort(np.abs(_stable_amplitudes(oscillator, damper, frequency)))
     free = resonance(oscillator, frequency)
     if len(stable) != 1:
@@ -232,7 +232,7 @@ def _look(oscillator, damper, frequency):
 
 
 def _edge(inside, peak, limit):
-    """Return the edge of the band between `peak` and `limit` times `peak`, NaN if not found."""
+    """Return the edge of the band from W = peak to W = limit * peak, or NaN if not found."""
     step = np.sign(limit - 1) * SEARCH_STEP * peak
     inner = peak
     for outer in np.arange(peak + step, limit * peak, step):
@@ -254,12 +254,12 @@ def _stable_amplitudes(oscillator, damper, frequency):
     return solutions.amplitude[stability(growth) == flag("stability", "stable")]
 
 
-# Largest |a| that is treated as a = 0, in units of the clearance.
+# Largest |a| that is treated as a = 0, divided by the clearance.
 ZERO_AMPLITUDE = 1e-6
 
 
 def _smallest(oscillator, damper, frequency):
-    """Return the smallest stable amplitude `a` of (7), or NaN, and the `analytical_status`."""
+    """Return the stable a of (7) with the least |a|, or NaN, and the `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     if beyond_closed_forms(oscillator, damper):
@@ -272,7 +272,7 @@ def _smallest(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return variables of (7): |a| for dampers of ascending clearance; the clearance with a = 0."""
+    """Return variables by (7): |a| of `dampers` (clearances ascend); the clearance with a = 0."""
     found = [_smallest(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best = np.nan
@@ -282,7 +282,7 @@ def analytical_table(oscillator, dampers, frequency):
 
     for k in np.flatnonzero(signed[1:] * signed[:-1] < 0):
         clearance = brentq(amplitude, dampers[k].clearance, dampers[k + 1].clearance)
-        # The sign also changes at a jump, where another solution becomes the smallest.
+        # The sign of a also changes at a jump, where another solution becomes the smallest.
         if abs(amplitude(clearance)) < ZERO_AMPLITUDE * clearance:
             best = clearance
     return {

@@ -1,8 +1,8 @@
 """Single-term harmonic balance with the damper: (6), (7), (13), (14), and stability by (17).
 
-Z1 = a cos(W T + t1) and Z2 = b cos(W T + t1) with b > 0; a < 0 means antiphase. Contact is elastic.
+Z1 = a cos(W T + t1) and Z2 = b cos(W T + t1) with b > 0; a < 0 means antiphase. Walls are elastic.
 The slow flow (17) is written here in A = a exp(i t1) and C = b exp(i t2) with the phase t2 of Z2.
-This form is regular at a = 0, the design point, where the polar equations of the paper are
+At a = 0 (the design point) this form is regular, but the paper's form in a, b, t1 and t2 is
 singular. Elsewhere both forms have the same eigenvalues.
 """
 
@@ -27,9 +27,9 @@ class Solutions(NamedTuple):
 
 
 def contact_amplitude(relative_amplitude, clearance) -> tuple:
-    """Return B(b) by (6e), the first harmonic of the contact force divided by r1, and dB/db.
+    """Return B(b) and dB/db. By (6e), the first harmonic of the contact force is r1 B(b).
 
-    B = b (2/pi)(p - sin p cos p) with the contact angle p, cos(p) = d0/b. B is 0 for b <= d0.
+    B = b (2/pi)(p - sin p cos p) with the contact angle p = arccos(d0/b). B is 0 for b <= d0.
     """
     amplitude = np.maximum(relative_amplitude, clearance)
     angle = np.arctan2(np.sqrt((amplitude - clearance) * (amplitude + clearance)), clearance)
@@ -38,7 +38,7 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 
 
 def rigid_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return the solutions of (13), with b = d0, in the order of the ascending real roots of (14).
+    """Return the solutions of (13), where b = d0, in the order of ascending real roots of (14).
 
     Solutions with a > d0 need walls that pull; (7) has no such solution. For a forcing amplitude f
     other than 1, the equations hold with d0/f, k3 f^2 and a/f in place of d0, k3 and a.
@@ -65,11 +65,11 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
     """Return all solutions of (7) with (6e), by ascending contact angle p, where cos(p) = d0/b.
 
     (7c) gives a(p) = (d0/cos p)(1 - k (p - sin p cos p)) with k = 2 r1/(pi rm W^2). Eliminating
-    t1 from (7a, b) leaves one equation for p:
+    t1 from (7a, b) leaves one equation for p, with g = (3/4) k3 and the forcing amplitude f:
 
         G(p) = (a wl^2 - a W^2 + g a^3 + rm W^2 (b - a))^2 + (h a W)^2 - f^2 = 0.
 
-    `smooth_roots` finds all roots of cos^6(p) G(p), which has no poles, up to rounding.
+    `smooth_roots` finds all roots of cos^6(p) G(p), a function without poles.
     """
     check_elastic(oscillator, damper)
     balance = _Balance(oscillator, damper, check_frequency(frequency))
@@ -82,7 +82,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 def resting_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return the free solutions with a < d0; the loose mass is at rest in them, so Z2 = Z1."""
+    """Return the free solutions with a < d0. Then the loose mass can be at rest, and Z2 = Z1."""
     check_closed_form(oscillator, damper)
     free = free_solutions(oscillator, frequency)
     inside = free.amplitude < damper.clearance
@@ -120,7 +120,7 @@ class _Balance:
         return inline**2 + quadrature**2 - self.force**2 * cosine**6
 
     def defect_size(self, angle):
-        """Return a bound on the rounding error of `defect`, in units of the machine epsilon."""
+        """Return a bound on the rounding error of `defect`, divided by the machine epsilon."""
         cosine, scaled, inline, quadrature = self.terms(angle)
         square = cosine**2
         error = 2 * self.clearance - scaled
@@ -137,7 +137,7 @@ class _Balance:
     def angle_range(self):
         """Return bounds on the contact angle p of all solutions; equal bounds mean no solution.
 
-        (7b) bounds |a| by f/(h W), and (7a) bounds |g| |a|^3 by the other terms.
+        By (7b), |a| is at most f/(h W). By (7a), |g a^3| is at most the sum of the other moduli.
         """
         reach = self.force / self.drag
         if reach == 0:
@@ -153,9 +153,9 @@ class _Balance:
     def _angles_within(self, reach):
         """Return the range of p that contains every solution with |a| <= reach.
 
-        The upper end is a bound by (7a) or, if smaller, the root of (a + reach) cos(p). If d0 <=
-        reach, the lower end is 0. Otherwise it is the root of (a - reach) cos(p), or the upper end
-        if there is no root.
+        The upper end is a bound by (7a) or, if smaller, the angle with a(p) = -reach. The lower end
+        is 0 if d0 <= reach. Otherwise the lower end is the angle with a(p) = reach, or the upper
+        end if there is no such angle.
         """
         reach *= 1 + 1e-6
         spring = reach * (abs(self.detuning) + abs(self.hardening) * reach**2)
@@ -175,8 +175,8 @@ class _Balance:
 def _excess(angle):
     """Return p - sin(p) cos(p) for 0 <= p <= pi/2 without cancellation.
 
-    With e(x) = x - sin(x), the result is e(2p)/2. The Taylor series of e is summed at 2p/9, and
-    e(3y) = 3 e(y) + 4 sin^3(y), applied twice, gives e(2p).
+    With e(x) = x - sin(x), the result is e(2p)/2. A Taylor series gives e(2p/9). The formula
+    e(3y) = 3 e(y) + 4 sin^3(y), used twice, then gives e(2p/3) and e(2p).
     """
     third = angle * (2 / 3)
     ninth = third / 3
@@ -187,7 +187,7 @@ def _excess(angle):
 
 
 def check_elastic(oscillator, damper):
-    """Raise as `check_closed_form` does, and ValueError if the contact is not elastic."""
+    """Raise the errors of `check_closed_form`, and ValueError if the contact is not elastic."""
     check_closed_form(oscillator, damper)
     if damper.restitution != 1:
         raise ValueError(
@@ -196,14 +196,14 @@ def check_elastic(oscillator, damper):
         )
 
 
-# Largest modulus of the growth rate of a marginally stable motion.
+# A motion is marginally stable if the modulus of its growth rate is at most MARGIN.
 MARGIN = 1e-9
 
 
 def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
-    """Return the Jacobian of the slow flow (appendix A) in A and C, shape (..., k, k).
+    """Return the Jacobian of the slow flow (the paper's appendix A), shape (..., k, k).
 
-    `state` (..., k) holds Re A, Im A, and with a damper Re C, Im C.
+    `state`, shape (..., k), holds Re A, Im A, and with a damper Re C, Im C: k is 2 or 4.
     """
     state = np.asarray(state, float)
     primary = state[..., 0] + 1j * state[..., 1]
@@ -228,18 +228,18 @@ def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def fixed_points(solutions) -> np.ndarray:
-    """Return the states of harmonic-balance solutions, which are fixed points of the slow flow."""
+    """Return solutions of the balance as states of `jacobian`: fixed points of the slow flow."""
     *sizes, phase = solutions
     return np.stack([size * np.exp(1j * phase) for size in sizes], axis=-1).view(float)
 
 
 def stability(growth) -> np.ndarray:
-    """Return the flag of growth rates: 1 (stable), -1 (unstable), 0 (marginal, within MARGIN)."""
+    """Return a flag for each growth rate: 1 (stable), -1 (unstable) or 0 (marginal, see MARGIN)."""
     return -np.sign(np.where(np.abs(growth) <= MARGIN, 0.0, growth)).astype(int)
 
 
 def _push_slopes(loose, damper):
-    """Return the derivatives of r1 (B/b) C, with b = |C|, with respect to C and conj(C)."""
+    """Return the derivatives of r1 B(b) C/b by C and by conj(C), where b = |C|."""
     size = np.abs(loose)
     contact, slope = contact_amplitude(size, damper.clearance)
     size = np.maximum(size, damper.clearance)
@@ -249,7 +249,7 @@ def _push_slopes(loose, damper):
 
 
 def _block(by_value, by_conjugate):
-    """Return the real 2 x 2 matrices of dz -> by_value dz + by_conjugate conj(dz)."""
+    """Return real 2 x 2 matrices: (Re dz, Im dz) -> by_value dz + by_conjugate conj(dz)."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     rows = [
         np.stack([total.real, -difference.imag], axis=-1),

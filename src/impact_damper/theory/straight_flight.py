@@ -1,6 +1,6 @@
 """Closed forms for the optimum clearance, for a loose mass that flies at constant velocity.
 
-Lengths are divided by f/W^2. In this module rm W^2 d0 therefore means the ratio rm W^2 d0/f.
+Lengths are divided by f/W^2 with the forcing amplitude f. Clearances are given as rm W^2 d0/f.
 """
 
 from functools import cache
@@ -16,7 +16,7 @@ from impact_damper.model.parameters import check_closed_form
 # Number of impulses q that are compared before the minimum of max |x| is refined.
 GRID = 65
 NEWTON_STEPS = 3
-# Shift of both characteristic roots if they coincide, so that their divided differences exist.
+# Shift of the two characteristic roots if they are equal, to avoid a division by 0.
 APART = 1e-20j
 
 
@@ -25,8 +25,8 @@ class Flight(NamedTuple):
 
     x = W^2 Z1/f responds to the forcing and to impulses 4 q/pi (see the derivation in
     docs/explanation/straight_flight.md). Without impulses -x has its maximum at phi = 0. An impact
-    takes place at phi = s, the lag. `contact` is the duration of an elastic contact, as a phase
-    divided by pi. `damping` is h/W. `stiffness` is wl/W, below 1.
+    takes place at phi = s, the lag. `contact` is W t/pi with the duration t of an elastic contact.
+    `damping` is h/W. `stiffness` is wl/W, below 1.
     """
 
     mass_ratio: float
@@ -47,7 +47,7 @@ class Flight(NamedTuple):
 
     @property
     def loss(self):
-        """Ratio L/A, where L is the loss. The lag s of an impact at rigid walls is asin(q L/A)."""
+        """L/A in the equation sin(s) = q L/A for the lag s of an impact at rigid walls."""
         impact = (1 + 1 / self.mass_ratio) * (1 - self.restitution) / (1 + self.restitution)
         damping = self._difference(lambda root: root * np.tanh(np.pi * root / 2))
         return 2 / np.pi * (impact - damping) / self.forced
@@ -59,18 +59,18 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Depth in the wall at which the flights around a contact meet, divided by (1 + 1/rm) q."""
+        """Depth in a wall at which the flights before and after meet, divided by (1 + 1/rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
     def setback(self):
-        """Reduction of the lag s by a contact of finite duration."""
+        """Amount by which a contact of finite duration reduces the lag s."""
         asymmetry = (1 - self.restitution) / (1 + self.restitution)
         return self.contact_phase * asymmetry - 2 * damping_ratio(self.restitution) * self.contact
 
     @property
     def largest_impulse(self):
-        """Largest impulse q for which a flight with a turning point exists."""
+        """Largest impulse q for which a lag s and a turning point of x between impacts exist."""
         bound = np.pi / 2 * self.forced
         return min(bound, 1 / self.loss) if self.loss > 0 else bound
 
@@ -79,7 +79,7 @@ class Flight(NamedTuple):
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
-        """Return a divided difference, at both roots of r^2 + damping r + stiffness^2 = 0."""
+        """Return (f(r) - f(s))/(r - s) at both roots r, s of x^2 + damping x + stiffness^2 = 0."""
         half = np.sqrt(complex(self.damping**2 / 4 - self.stiffness**2)) or APART
         roots = -self.damping / 2 + half, -self.damping / 2 - half
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real
@@ -100,7 +100,7 @@ class Flight(NamedTuple):
         return tuple(impulse * push - self.forced * each for push, each in pairs)
 
     def ratio(self, impulse):
-        """Return rm W^2 d0 for an impulse q."""
+        """Return rm W^2 d0/f for an impulse q."""
         tip = self.motion(self.lag(impulse), impulse)[0]
         return impulse + self.mass_ratio * tip - (1 + self.mass_ratio) * self.reach * impulse
 
@@ -139,7 +139,7 @@ def flight_of(oscillator, damper, frequency) -> Flight:
 
 @cache
 def least_displacement_ratio(flight) -> float:
-    """Return rm W^2 d0 at which max |Z1| is smallest."""
+    """Return the value of rm W^2 d0/f at which max |Z1| is smallest."""
     impulses = np.linspace(0, flight.largest_impulse, GRID + 2)[1:-1]
     best = int(np.argmin(flight.largest_displacement(impulses)))
     bounds = impulses[max(best - 1, 0)], impulses[min(best + 1, GRID - 1)]
