@@ -1,1 +1,1 @@
-"""The integrators and models compared with the library's Taylor series, and their errors."""
+"""Integrators and models that are compared with the Taylor series of the library."""

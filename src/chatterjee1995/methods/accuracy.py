@@ -1,4 +1,4 @@
-"""Errors and work of integrators and models on scenes. A scene is a motion that all compute."""
+"""Errors and work (operations) of integrators and models on test motions, called scenes."""
 
 from typing import NamedTuple
 
@@ -41,13 +41,13 @@ meets_accuracy | run | | | whether the run meets the accuracy required by the sc
     """
 )
 
-LONGER = 4  # cycles of the reference run in chaos, divided by the cycles of the scene
-# In chaos, contacts per cycle may err by the fraction CONTACTS_OFF plus SURE standard errors.
+LONGER = 4  # the reference run of a chaotic scene is LONGER times as long as the scene
+# Allowed error of contacts per cycle in chaos: CONTACTS_OFF * reference + SURE * standard error.
 CONTACTS_OFF, SURE = 0.1, 2
 
 
 class ComparisonScene(NamedTuple):
-    """A "steady", "transient" or "chaotic" motion that begins with `state` at W T = pi/2."""
+    """A motion from `state` at W T = pi/2. `motion` is "steady", "transient" or "chaotic"."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -64,7 +64,7 @@ class ComparisonScene(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """Results of a run in 80-bit arithmetic, taken as exact. Fields mean the same as in `Run`."""
+    """Results of a run in 80-bit arithmetic, which count as exact. `Run` explains the fields."""
 
     state: np.ndarray
     contact_times: np.ndarray
@@ -72,7 +72,7 @@ class Reference(NamedTuple):
 
 
 def reference_of(scene, stored):
-    """Return the reference of a scene from its entry in `workflow/resources/references.json`."""
+    """Return the `Reference` of a scene from `stored`, an entry of `resources/references.json`."""
     p, begin = scene.p, strobe_time(scene.p)
     end = begin + scene.periods * 2 * np.pi / p[FREQUENCY]
     values = stored["parameters"]
@@ -89,9 +89,9 @@ def reference_of(scene, stored):
 
 
 def accuracy(system, damper, *, name, settings, references, **given):
-    """Return a dataset with the errors and the work of each run of a method on a scene.
+    """Return a dataset: errors and work of the runs of all methods on the scene `name`.
 
-    `settings` is the section `comparison`. `given` are the other attributes of the scene.
+    `settings` is the section `comparison`. `given` are the other fields of `ComparisonScene`.
     """
     scene = ComparisonScene(oscillator=system, damper=damper, **given)
     if scene.motion == "chaotic":
@@ -105,7 +105,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield label, tolerance, `Run`, and number of cycles (`slow_periods` if slow) of each run."""
+    """Yield (label, tolerance, `Run`, cycles) of each run. Slow integrators run `slow_periods`."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:
@@ -132,7 +132,7 @@ def _integrations(scene, settings, slow_periods):
 
 
 def _errors(scene, settings, reference):
-    """Return the variables of the dataset for a scene that has a `Reference`."""
+    """Return the dataset's variables for a steady or transient scene, which has a `Reference`."""
     rows = [
         (label, setting, run, run.contact_times)
         for label, setting, run, _ in _integrations(scene, settings, scene.periods)
@@ -156,7 +156,7 @@ def _errors(scene, settings, reference):
 
 
 def _status(ended, wrong):
-    """Return the flag `run_status`, from the status of a `Run` and its excess of contacts."""
+    """Return the flag `run_status`. `wrong` > 0: contacts too many; `wrong` < 0: too few."""
     if ended != "ended":
         return flag("run_status", ended)
     if wrong == 0:
@@ -165,7 +165,7 @@ def _status(ended, wrong):
 
 
 def _named(scene, rows, status, errors):
-    """Return the variables of the dataset that all kinds of motions have."""
+    """Return the variables that the datasets of steady, transient and chaotic scenes share."""
     met = np.abs(errors[scene.accuracy["quantity"]]) <= scene.accuracy["within"]
     return {
         "method": np.array([row[0] for row in rows]),
@@ -177,7 +177,7 @@ def _named(scene, rows, status, errors):
 
 
 def _orbits(scene, settings):
-    """Yield the label, the setting and the `Model` of each model of a steady motion."""
+    """Yield (label, setting, `Model`) for each model of a steady motion."""
     parts = scene.oscillator, scene.damper, scene.frequency
     state = np.array(scene.state, float)
     yield "rigid_balance", 1, orbit_models.rigid_balance(*parts, state)
@@ -193,9 +193,9 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return the times at which contacts of a model begin, in the order of the reference.
+    """Return the times at which contacts of a model begin, paired with the reference's contacts.
 
-    All times are NaN if the contacts cannot be paired one to one with those of the reference.
+    If the contacts of a cycle cannot be paired one to one, all times are NaN.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods
@@ -213,7 +213,7 @@ def _times(scene, model, reference):
 
 
 def _averages(scene, settings):
-    """Return the variables of the dataset for a scene with a chaotic motion."""
+    """Return the dataset's variables for a chaotic scene."""
     p, start = scene.p, np.array(scene.state, float)
     batch, begin = settings["batch"], strobe_time(scene.p)
     rows, found = [], []
@@ -222,7 +222,7 @@ def _averages(scene, settings):
         measured = {}
         if run.status == "ended":
             measured = averages.of_run(p, run, begin, periods, batch)
-            if label in ("taylor", "rigid"):  # the methods with variational equations
+            if label in ("taylor", "rigid"):  # only these integrate the variational equations
                 restitution = scene.damper.restitution if label == "rigid" else None
                 given = p, start, setting, scene.periods, batch, restitution
                 measured["exponent"] = averages.exponents(*given)

@@ -1,4 +1,4 @@
-"""Averages and standard errors of a chaotic motion, from means over batches of forcing cycles."""
+"""Averages over a chaotic motion. Their standard errors follow from batches of cycles."""
 
 import math
 
@@ -13,7 +13,7 @@ from impact_damper.motions.strobe_map import strobe_time
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return a dict: contacts per cycle, and the mean of max |Z1| in a cycle, for each batch."""
+    """Return a dict of means over each `batch` cycles: contacts, and max |Z1| in a cycle."""
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
     contacts = np.histogram(run.contact_times, edges)[0]
@@ -28,7 +28,7 @@ def of_run(p, run, begin, periods, batch):
 
 
 def exponents(p, start, tolerance, periods, batch, restitution=None):
-    """Return the largest Lyapunov exponent in each batch. With a `restitution`, walls are rigid."""
+    """Return the largest Lyapunov exponent of each batch; for rigid walls, give `restitution`."""
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)
@@ -45,7 +45,7 @@ def exponents(p, start, tolerance, periods, batch, restitution=None):
 
 
 def estimates(batches):
-    """Return means and standard errors (rows) of STATISTICS (columns), NaN if not measured."""
+    """Return means (row 0) and standard errors (row 1) of STATISTICS; NaN if not in `batches`."""
     table = np.full((2, len(STATISTICS)), np.nan)
     for k, name in enumerate(STATISTICS):
         if name in batches:

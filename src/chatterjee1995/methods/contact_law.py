@@ -1,8 +1,8 @@
-"""One contact of the damper in closed form, under a constant load G, with two rules for its end.
+"""Closed form of one contact under a constant load G. Two rules say when the contact ends.
 
-Time t and penetration q are scaled by natural frequency wn and approach speed v0: s = wn t and
-u = wn q/v0. With the damping ratio z, u'' + 2 z u' + u = G. The wall force is F = u + 2 z u'. By
-the rule `zero_penetration` (appendix B) a contact ends at u = 0, by `no_tension` at F = 0.
+Time t and penetration q are scaled: s = wn t, u = wn q/v0. wn is the natural frequency of the
+contact, v0 the approach speed, z the damping ratio. Then u'' + 2 z u' + u = G, and the wall force
+is F = u + 2 z u'. A contact ends at u = 0 (`zero_penetration`, appendix B) or F = 0 (`no_tension`).
 """
 
 import math
@@ -14,7 +14,7 @@ from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
-    """End of a contact: outcome, time s (or infinity), and speed/v0 on return to q = 0 (or NaN)."""
+    """End of a contact: outcome, duration s (or infinity), departure speed/v0 at q = 0 (or NaN)."""
 
     outcome: str
     duration: float
@@ -22,7 +22,7 @@ class Exit(NamedTuple):
 
 
 class _Wave(NamedTuple):
-    """The function level + exp(-z s) (a cos(w s) + b sin(w s)), w = sqrt(1 - z^2)."""
+    """The function of s: level + exp(-z s) (a cos(w s) + b sin(w s)), with w = sqrt(1 - z^2)."""
 
     level: float
     a: float
@@ -40,7 +40,7 @@ class _Wave(NamedTuple):
         return _Wave(0.0, w * b - z * a, -z * b - w * a, z, w)
 
     def first_extrema(self):
-        """Return s at the first maximum (0 if the function falls at 0) and at the next minimum."""
+        """Return s at the first maximum (0 if the function falls at s = 0) and the next minimum."""
         slope = self.slope()
         turn = math.atan2(-slope.a, slope.b) % math.pi or math.pi
         rising = slope.a > 0 or (slope.a == 0 and slope.b > 0)
@@ -75,7 +75,7 @@ def contact(restitution, load, rule) -> Exit:
 
 
 def pull_time(restitution, load) -> float:
-    """Return the fraction of the contact in which the wall pulls, NaN if u stays above 0."""
+    """Return the share of a contact's duration with F < 0 (the wall pulls); NaN if u stays > 0."""
     penetration, force = _waves(restitution, load)
     end = penetration.first_fall()
     return math.nan if end == math.inf else (end - min(force.first_fall(), end)) / end

@@ -1,4 +1,4 @@
-"""The rate of the state (Z1, Z1', Z2, Z2') by equations (3), (4) and (20) to (24) of the paper."""
+"""The rate (derivative by T) of the state (Z1, Z1', Z2, Z2'), by (3), (4) and (20) to (24)."""
 
 from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import external_force, spring
@@ -26,13 +26,13 @@ def wall_at(p, z):
 
 @kernel
 def ahead(p, side, z):
-    """Return the distance to the nearest wall if `side` is 0 (flight), else the penetration."""
+    """Return the distance to the nearest wall in flight (`side` 0), the penetration in contact."""
     return p[CLEARANCE] - abs(z) if side == 0 else side * z - p[CLEARANCE]
 
 
 @kernel
 def rate(p, side, t, y):
-    """Return the rate at the time t; `side` is the wall in contact, -1 or 1, or 0 in flight."""
+    """Return the rate at the time t. `side` is the wall in contact (-1 or 1), or 0 in flight."""
     return rate_under(p, side, external_force(p, t), y)
 
 
@@ -47,7 +47,7 @@ def rate_under(p, side, drive, y):
 
 @kernel_only
 def rate_by_position(p, drive, y):
-    """Return the rate with contact wherever |Z2| exceeds the clearance."""
+    """Return the rate. The loose mass is in contact if |Z2| exceeds the clearance."""
     return rate_under(p, wall_at(p, y[2]), drive, y)
 
 
@@ -59,7 +59,7 @@ def moved(y, h, k):
 
 @kernel_only
 def largest_within(x, v, x_end, v_end, h):
-    """Return max |Z1| in a step h from (x, v) to (x_end, v_end), if Z1' is linear in time."""
+    """Return max |Z1| in a step h, for Z1' linear in time. (Z1, Z1'): (x, v) to (x_end, v_end)."""
     largest = max(abs(x), abs(x_end))
     if v * v_end < 0.0:
         largest = max(largest, abs(x + 0.5 * h * v * v / (v - v_end)))

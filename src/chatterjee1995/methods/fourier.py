@@ -1,31 +1,31 @@
 """Values and extrema of real Fourier series, and the intervals in which a series exceeds a level.
 
-A series z(s) is the sum of c_k exp(i k s) over all k and -k with k in `harmonics`, an ascending
-array of positive integers. `coefficients` are the c_k, and c_-k is the conjugate of c_k.
+`harmonics` is an ascending array of positive integers k, and `coefficients` holds a number c_k for
+each k. The series is z(s) = sum over k of c_k exp(i k s) + conj(c_k) exp(-i k s).
 """
 
 import numpy as np
 from scipy.fft import next_fast_len
 from scipy.optimize import brentq
 
-SHORTEST = 1e-9  # the search for crossings halves no interval narrower than this (in radian)
+SHORTEST = 1e-9  # smallest width of an interval that the search for crossings halves, in radian
 
 
 def samples(coefficients, harmonics, count) -> np.ndarray:
-    """Return values of a series at 2 pi j/count, j = 0 ... count - 1; count > 2 max(harmonics)."""
+    """Return a series at 2 pi j/count, j = 0 ... count - 1. `count` must exceed 2 harmonics[-1]."""
     spectrum = np.zeros(count // 2 + 1, complex)
     spectrum[harmonics] = coefficients
     return np.fft.irfft(spectrum, count) * count
 
 
 def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
-    """Return a derivative of a series at given angles. Order 0 is the series itself."""
+    """Return a series (`order` 0) or its derivative of the given order, at each angle."""
     weights = 2 * (1j * harmonics) ** order * coefficients
     return (np.exp(1j * np.multiply.outer(angle, harmonics)) @ weights).real
 
 
 def product_samples(harmonics, degree) -> int:
-    """Return a number of samples that suffices for `harmonics` of a product of `degree` series."""
+    """Return a number of samples that gives exact `harmonics` of a product of `degree` series."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 
@@ -44,8 +44,8 @@ def largest(coefficients, harmonics) -> float:
 def intervals(coefficients, harmonics, level) -> np.ndarray:
     """Return rows (wall, begin, end): intervals with z > level (wall 1) or z < -level (wall -1).
 
-    A cell lies between two samples. It is halved unless a bound on the second derivative shows that
-    z crosses the level once in the cell, or never. No interval wider than SHORTEST is missed.
+    The search divides a period into cells. It halves a cell until a bound on z'' proves that z
+    crosses the level in the cell once or never. No interval wider than SHORTEST is missed.
     """
     return np.concatenate([_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)])
 
@@ -71,7 +71,7 @@ def _beyond(coefficients, harmonics, level, wall):
 
 
 def _cells(function, coefficients, harmonics, ends, values):
-    """Return the cells in which `function` changes sign, ascending, shape (count, 2)."""
+    """Return rows (begin, end): the cells in which `function` changes sign, in ascending order."""
     bound = 2 * np.sum(harmonics**2 * np.abs(coefficients))
     lower, upper, first, last = ends[:-1], ends[1:], values[:-1], values[1:]
     crossed = []

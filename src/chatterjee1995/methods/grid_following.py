@@ -1,4 +1,4 @@
-"""Orbits in the cells (points) of a grid of parameters, each followed from a neighbouring cell."""
+"""Orbits at the points ("cells") of a grid of parameters, followed from cell to cell."""
 
 from collections import deque
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from impact_damper.motions.following import Followed, follow
 
-SHORTEST = 1 / 32  # shortest step along the line between two cells, divided by their distance
+SHORTEST = 1 / 32  # shortest step along a line between two points, divided by the line's length
 
 
 def follow_line(
@@ -23,14 +23,14 @@ def follow_line(
         1.0,
         orbit,
         shortest=shortest,
-        growth=2.0 if extrapolating else 1.0,  # powers of 2 add up to exactly 1
+        growth=2.0 if extrapolating else 1.0,  # steps that are powers of 2 add up to exactly 1
         extrapolating=extrapolating,
         behind=behind,
     )
 
 
 class Grid:
-    """Orbits in the cells of a grid `points` of parameters, followed along `axes` in this order."""
+    """Orbits in the cells of `points`, a grid of parameters. `axes` is the order of directions."""
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
         self.points, self.correct = points, correct
@@ -56,7 +56,7 @@ class Grid:
                     queue.append(target)
 
     def beside(self, cell, direction):
-        """Return the neighbour of a cell in a direction, or None if it is beyond the grid."""
+        """Return the neighbour of a cell in a direction, or None beyond the grid."""
         target = tuple(int(i) for i in np.add(cell, direction))
         inside = all(0 <= i < size for i, size in zip(target, self.shape, strict=True))
         return target if inside else None

@@ -6,15 +6,15 @@ import numpy as np
 from scipy.linalg import eigvals, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
-# If there are more than DENSE unknowns, only the 4 * COPIES eigenvalues nearest 0 are computed.
+# For more than DENSE unknowns, `eigs` computes only the 4 * COPIES eigenvalues nearest 0.
 DENSE, COPIES = 100, 3
-# If the multiplier of half a cycle is real and negative, the exponent has copies with imaginary
-# parts W and -W. A part within EDGE * W of W is set to W. The copy near -W is left out.
+# Of the copies of an exponent, the copy with -W < Im <= W is kept. Against rounding, Im is set to W
+# if |Im - W| < EDGE * W, and copies with |Im + W| < EDGE * W are left out.
 EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
-    """Floquet exponents per unit of T, by ascending real part; NaN unless the status is "found".
+    """Floquet exponents per unit of T, ascending in Re. If the status is not "found", all are NaN.
 
     Status "not_separated": the number of eigenvalues with -W < Im <= W is not 2 (4 with damper).
     """
@@ -37,7 +37,7 @@ def exponents(solution) -> Exponents:
         copies = _near_zero(*(balance.operator(orbit, contacts, power) for power in range(3)))
     except ArpackNoConvergence:
         return Exponents(unknown, "not_converged")
-    # Copies of an exponent are 2 W apart, as the linearised equations repeat after half a cycle.
+    # Copies of an exponent differ by 2 i W: the linearised equations repeat after half a cycle.
     height = copies.imag / balance.frequency
     inside = np.where(height > 1 - EDGE, copies.real + 1j * balance.frequency, copies)
     inside = inside[(height > -1 + EDGE) & (height < 1 + EDGE)]
@@ -47,7 +47,7 @@ def exponents(solution) -> Exponents:
 
 
 def _near_zero(stiffness, damping, inertia):
-    """Return eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0, see DENSE."""
+    """Return eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0 (see DENSE)."""
     size = len(stiffness)
     factors = lu_factor(stiffness, check_finite=False)
 

@@ -1,4 +1,4 @@
-"""The interface of integrators; contacts and peaks of a run, found from the ends of its steps."""
+"""The interface of integrators. Contact times and peaks are computed from the ends of steps."""
 
 from typing import ClassVar, NamedTuple
 
@@ -8,14 +8,14 @@ from numpy.polynomial.polynomial import polyder, polyval
 from chatterjee1995.methods.equations import rate, wall_at
 from impact_damper.model.packed import CLEARANCE
 
-HALVINGS = 54  # bisections that locate a root to the accuracy of floating-point numbers
+HALVINGS = 54  # number of bisections that locate a root to the accuracy of floating-point numbers
 
 
 class Run(NamedTuple):
-    """A motion by an integrator; `status` is "ended", "failed", or "capped" after too much work.
+    """A computed motion. `status` is "ended", "failed", or "capped" (too many evaluations).
 
-    `operations` is the number of floating-point operations. Contacts begin at `contact_times`.
-    `peaks` are values of |Z1| at or near `peak_times`. The largest of them is `displacement`.
+    `operations` counts floating-point operations. `state` is the last state. Contacts begin at
+    `contact_times`. `peaks` are |Z1| at or near `peak_times`. `displacement` is the largest peak.
     """
 
     status: str
@@ -28,23 +28,23 @@ class Run(NamedTuple):
 
 
 def stopped(status, work):
-    """Return a `Run` that did not reach its end, with NaN in place of its results."""
+    """Return the `Run` of a motion that did not reach its end. Its results are NaN or empty."""
     none = np.empty(0)
     return Run(status, work, np.full(4, np.nan), none, none, none, np.nan)
 
 
 class Integrator:
-    """The interface of an integrator. An argument has the same meaning in all methods.
+    """The interface of an integrator. An argument has the same meaning in all functions.
 
     `p` are packed parameters, `start` is the state at the time `begin`, and `periods` the number of
     forcing cycles. If `locate` is true, steps end where contacts begin and end. `resolution` is the
     number of steps in a cycle if steps are `fixed`, and otherwise a tolerance.
 
-    Figures show integrators in the order of `place`. For each stage in `compared`, an integrator
-    defines one of the methods in REQUIRED. Three attributes are for the stage `accuracy`: `located`
-    holds the values of `locate`. `tolerances` is one of `labels.TOLERANCE_KEYS`. `slow` is true if
-    the runs are limited. The attribute `stability_limit` is for the stage `stable_steps`. It is the
-    largest stable step times undamped frequency.
+    Figures show integrators in the order of `place`. `compared` names the stages that use the
+    integrator. For each stage it defines a function in REQUIRED. Stage `accuracy`: `located` holds
+    the values of `locate` to run. `tolerances` is one of `labels.TOLERANCE_KEYS`. `slow` is true if
+    cycles and evaluations are limited. Stage `stable_steps`: `stability_limit` is the largest
+    h omega for which steps h of x'' = -omega^2 x stay bounded.
     """
 
     REQUIRED: ClassVar = {
@@ -61,41 +61,41 @@ class Integrator:
     stability_limit = 0.0
 
     def label(self, locate):
-        """Return the label of runs, "NAME_located" if contacts are located, else "NAME_kink"."""
+        """Return the label of runs: "NAME_located" if steps end at contacts, else "NAME_kink"."""
         return f"{self.name}_{'located' if locate else 'kink'}"
 
     def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations):
-        """Return status, operations, and times (n,) and states (n, 4) at start and step ends."""
+        """Return status, operations, times (n,) and states (n, 4); row 0: start, then step ends."""
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
-        """Return the `Run` with the arguments of `steps`."""
+        """Return the `Run` that `steps` computes; `given` are the other arguments of `steps`."""
         status, work, times, ends = self.steps(p, *given)
         if status != "ended" or not np.isfinite(ends).all():
             return stopped("failed" if status == "ended" else status, work)
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Return |Z2| at step ends (if `touches` is None) and |Z2| at `time`; or None."""
+        """Run without walls from T = 0 to `end`; return |Z2| at step ends and at `time, or None."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return for each of `levels` whether a wall there is touched; None if `flight` decides."""
+        """Return a mask: is a wall at |Z2| = level touched? None: |Z2| from `flight` decides."""
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
-        """Return max |Z1| in each cycle of `steps` equal steps, NaN once the run has diverged."""
+        """Return max |Z1| in each cycle of `steps` equal steps; NaN after the run has diverged."""
         raise NotImplementedError
 
 
 def read_off(p, work, times, ends):
-    """Return the `Run` through the states `ends` at `times`, joined by quintic polynomials."""
+    """Return the `Run` with states `ends` at `times`. Quintic polynomials join these states."""
     at, peaks = _turning_points(p, times, ends)
     began = _beginnings(p, times, ends)
     return Run("ended", work, ends[-1], began, at, peaks, float(np.max(peaks)))
 
 
 def _beginnings(p, times, ends):
-    """Return the time at which |Z2| = d0 in each step that begins in the gap and leaves it."""
+    """Return the times of |Z2| = d0 in steps that begin within the gap and end beyond a wall."""
     place, distance = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
     inside = (distance > 0) | ((distance == 0) & (place * ends[:, 3] < 0))
     steps = np.flatnonzero(inside[:-1] & ~inside[1:])
@@ -119,7 +119,7 @@ def _turning_points(p, times, ends):
 
 
 def _quintics(p, times, ends, index, steps):
-    """Return coefficients (6, m) of Hermite polynomials on [0, 1] for one component in m steps."""
+    """Return Hermite polynomials (6, m) of component `index` in m steps, each scaled to [0, 1]."""
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
         for at in (steps, steps + 1)
@@ -135,7 +135,7 @@ def _quintics(p, times, ends, index, steps):
 
 
 def root(coefficients, low, high):
-    """Return a root of each polynomial (column), whose signs at `low` and `high` are opposite."""
+    """Return a root of each polynomial (column) between `low` and `high`, where signs differ."""
     sign = np.sign(polyval(low, coefficients, tensor=False))
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)

@@ -1,4 +1,4 @@
-"""Names of the compared methods and errors in datasets, and titles of the methods."""
+"""Names of methods and of errors in datasets, and titles of the methods."""
 
 from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
 
@@ -15,14 +15,14 @@ MODELS = {
     "many_harmonics": "many harmonics",
     "shooting": "shooting",
 }
-START_HARMONICS = 15  # highest harmonic of the first guess for shooting and for rigid impacts
+START_HARMONICS = 15  # shooting and rigid impacts start from the balance with this highest harmonic
 
 # Keys of the lists of tolerances in the section `comparison`. `Integrator.tolerances` is a key.
 TOLERANCE_KEYS = ("taylor", "merson", "scipy")
 
 
 def method_in_words(label) -> str:
-    """Return the title of the model, integrator or run with a label, or the label if unknown."""
+    """Return the title of the model, integrator or run `label`; the label itself if unknown."""
     if label in MODELS:
         return MODELS[label]
     if label in integrators():
@@ -37,5 +37,5 @@ def method_in_words(label) -> str:
 
 
 def colour_of(name) -> str:
-    """Return the colour of matplotlib's cycle for an integrator of the stage `accuracy`."""
+    """Return matplotlib's colour C0, C1, ... of an integrator of the stage `accuracy`."""
     return f"C{list(integrators('accuracy')).index(name)}"

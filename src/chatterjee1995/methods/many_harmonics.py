@@ -18,7 +18,7 @@ from impact_damper.theory.free_oscillator import main_solutions
 
 @dataclass(frozen=True)
 class Balance:
-    """The equations of a motion with Z(T + pi/W) = -Z(T), which has only odd harmonics."""
+    """The equations of a motion with Z(T + pi/W) = -Z(T). Such a motion has only odd harmonics."""
 
     oscillator: object
     damper: object
@@ -36,7 +36,7 @@ class Balance:
 
     @property
     def harmonics(self) -> np.ndarray:
-        """Retained harmonics k, shape (m,)."""
+        """Harmonics k in the balance: 1, 3, ... `highest`; shape (m,)."""
         return np.arange(1, self.highest + 1, 2)
 
     @cached_property
@@ -55,7 +55,7 @@ class Balance:
         return len(self.harmonics) * (2 if self.damper is None else 4)
 
     def to_real(self, coefficients) -> np.ndarray:
-        """Return the real unknowns Re Z1, Im Z1, Re Z2, Im Z2 of coefficients (1 or 2, m)."""
+        """Return coefficients (1 or 2, m) as real unknowns: Re Z1, Im Z1, then any Re Z2, Im Z2."""
         return np.hstack([coefficients.real, coefficients.imag]).ravel()
 
     def to_complex(self, unknowns) -> np.ndarray:
@@ -64,13 +64,13 @@ class Balance:
         return parts[:, 0] + 1j * parts[:, 1]
 
     def contacts(self, coefficients) -> np.ndarray:
-        """Return the contacts in a period as rows of `fourier.intervals`, in the angle W T."""
+        """Return a row (wall, begin, end) for each contact in a cycle; begin and end are W T."""
         if self.damper is None:
             return np.empty((0, 3))
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)
 
     def residual(self, coefficients, rows) -> np.ndarray:
-        """Return left sides minus right sides of (3), (4), (20) and (21) in each harmonic."""
+        """Return left minus right sides of (3), (4), (20), (21) by harmonic; `rows`: contacts."""
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
         count = fourier.product_samples(k, SPRING_POWER)
@@ -96,10 +96,10 @@ class Balance:
         return self.damper.contact_stiffness + self.rates * self.damper.dashpot
 
     def operator(self, coefficients, rows, power=0) -> np.ndarray:
-        """Return the real matrix Q0, Q1 or Q2 of the linearised equations, chosen by `power`.
+        """Return the real matrix Q0, Q1 or Q2 of the linearised equations, for `power` 0, 1 or 2.
 
         A disturbance exp(lambda T) p with periodic p obeys (Q0 + lambda Q1 + lambda^2 Q2) p = 0.
-        `to_real` gives the order of the unknowns of p. Q0 is the Jacobian of `residual`.
+        The unknowns of p have the order of `to_real`. Q0 is the Jacobian of `residual`.
         """
         k, rate, own = self.harmonics, self.rates, self.oscillator
         unit = np.eye(len(k))
@@ -126,7 +126,7 @@ class Balance:
 
 
 def _convolution(coefficients, harmonics):
-    """Return A and B for which A z + B conj(z) is the product of z and the given series."""
+    """Return matrices A, B: the product of series z and `coefficients` is A z + B conj(z)."""
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
     column = harmonics[:, None]
@@ -134,20 +134,20 @@ def _convolution(coefficients, harmonics):
 
 
 def _real(by_value, by_conjugate):
-    """Return the matrix that maps (Re dz, Im dz) like dz -> by_value dz + by_conjugate conj(dz)."""
+    """Return the real matrix of dz -> by_value dz + by_conjugate conj(dz), for (Re dz, Im dz)."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
 
 
-# Newton's method has converged if no coefficient changes by more than TOLERANCE times the largest.
-# It takes at most ITERATIONS steps, each multiplied by a factor of at least LEAST_DAMPING.
+# TOLERANCE: Newton's method has converged if max |change| <= TOLERANCE * max |coefficient|.
+# ITERATIONS: largest number of steps. LEAST_DAMPING: smallest factor that shortens a step.
 TOLERANCE, ITERATIONS, LEAST_DAMPING = 1e-11, 40, 1e-4
 
 
 class Solution(NamedTuple):
-    """Last iterate of Newton's method: coefficients c_k of Z1, and of Z2 with a damper.
+    """Result of Newton's method: coefficients c_k of Z1 and, with a damper, of Z2; (1 or 2, m).
 
-    The status is "converged", "iteration_limit", or "stalled" if even the shortest step fails.
+    The status is "converged", "iteration_limit", or "stalled" if the shortest step fails too.
     """
 
     balance: Balance
@@ -157,10 +157,10 @@ class Solution(NamedTuple):
 
 
 def solve(balance, start) -> Solution:
-    """Solve the equations of a balance by the damped Newton's method.
+    """Solve the equations of a balance by damped Newton's method, from coefficients `start`.
 
     The natural monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
-    3.3) decides whether a step is halved. The residual cannot decide: stiff contact dominates it.
+    3.3) decides whether a step is halved, not the residual, which stiff contacts dominate.
     """
     count = len(balance.harmonics)
     now = np.zeros((len(start), count), complex)
@@ -190,7 +190,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return coefficients of the smallest solution of (7) or, without a damper, of the largest."""
+    """Return coefficients of a solution of (7): the smallest or, without a damper, the largest."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2
@@ -204,7 +204,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
 
 
 def refine(balances, start) -> list:
-    """Return the `Solution` of each balance. The last converged one is the next first guess."""
+    """Return the `Solution` of each balance. A search starts from the last converged solution."""
     solutions = []
     for balance in balances:
         solutions.append(solve(balance, start))

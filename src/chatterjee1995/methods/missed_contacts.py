@@ -1,4 +1,4 @@
-"""Numbers of contacts near grazing that integrators find and miss."""
+"""Numbers of contacts near grazing that each integrator finds and misses."""
 
 import math
 
@@ -35,8 +35,8 @@ expected_unseen | method_tolerance depth | | | expected share of contacts at ran
     """
 )
 
-# `unseen`: the computed motion passes the wall and returns within one step. `not_reached`: due to
-# its error, the computed motion does not pass the wall. `failed`: the run breaks off.
+# `unseen`: the computed motion passes the wall and returns within one step. `not_reached`: the
+# computed motion is inaccurate and does not pass the wall. `failed`: the run breaks off.
 OUTCOMES = ("found", "unseen", "not_reached", "failed")
 
 
@@ -45,7 +45,7 @@ def missed_contacts(
 ):
     """Return a dataset with the numbers of contacts near grazing that integrators find and miss.
 
-    `tolerances` increase. `steps` are numbers of steps per cycle, for integrators with equal steps.
+    `tolerances` increase. `steps`, as many, are steps per cycle of integrators with equal steps.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
@@ -68,7 +68,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return counts of passages (depth, outcome), counts of spurious contacts, and median error."""
+    """Return counts of passages (depth, outcome) and of spurious contacts (depth), median error."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
@@ -111,9 +111,9 @@ def _count_table(p, passages, depths, tolerances, steps):
 
 
 def _expected(passages, depths, steps, period):
-    """Return expected shares of unseen contacts (steps, depth): the means of max(0, 1 - b/h).
+    """Return expected shares (steps, depth) of unseen contacts: means of max(0, 1 - b/h).
 
-    Steps of length h begin at random times. A contact has the length b = 2 sqrt(2 depth/|Z2''|).
+    Steps of duration h begin at random times. A contact lasts b = 2 sqrt(2 depth/|Z2''|).
     """
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])

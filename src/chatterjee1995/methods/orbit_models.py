@@ -1,4 +1,4 @@
-"""Models by rigid walls, harmonic balance or shooting, and their work (see `docs/explanation`)."""
+"""Models of motions: rigid walls, harmonic balance, shooting. `work` counts operations."""
 
 import math
 from dataclasses import replace
@@ -33,13 +33,13 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory import single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
 
-# FULL_WORK: operations that find all solutions of (7). RIGID_WORK: the same for (14).
+# Operations to find all solutions: FULL_WORK for (7), RIGID_WORK for (14).
 FULL_WORK, RIGID_WORK = 100 * 130 + 10 * 32**3, 10 * (6**3 + 5**3) + 6 * 10 * 12
-REACH = 10.0  # largest distance of a rigid orbit's state from the first guess, in each component
+REACH = 10.0  # largest difference of a rigid orbit's state from the first guess, in each component
 
 
 class Model(NamedTuple):
-    """A steady motion: its state at W T = pi/2, phases W T at which contacts begin, max |Z1|."""
+    """A steady motion: state at W T = pi/2, values of W T at which contacts begin, max |Z1|."""
 
     status: str
     operations: float
@@ -49,7 +49,7 @@ class Model(NamedTuple):
 
 
 def rigid(p, restitution, start, t, periods, tolerance):
-    """Return the `Run` with rigid walls from `start` at t. `peaks` is max |Z1| in each cycle."""
+    """Return the `Run` from `start` at t with rigid walls. `peaks` holds max |Z1| of each cycle."""
     p = without_dashpot(p)
     y, none, work = start.copy(), np.empty((0, 4)), workspace()
     period, counts = 2 * math.pi / p[FREQUENCY], [0, 0, 0]
@@ -88,7 +88,7 @@ def of_coefficients(balance, coefficients, work):
 
 
 def rigid_balance(oscillator, damper, frequency, state):
-    """Return the `Model` by (13) and (14) whose Z1, Z1' are nearest to `state`; e must be 1."""
+    """Return the `Model` by (13), (14) with (Z1, Z1') nearest to `state`. Only for e = 1."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
     roots = single_harmonic.rigid_solutions(oscillator, damper, frequency)
@@ -104,7 +104,7 @@ def rigid_balance(oscillator, damper, frequency, state):
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """Return the `Model` by (7) whose Z1, Z1' are nearest to `state`; a damper must have e = 1."""
+    """Return the `Model` by (7) with (Z1, Z1') nearest to `state`. A damper must have e = 1."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
@@ -114,7 +114,7 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return two: coefficients (or None) of the solution of (7) nearest to `state`, and work."""
+    """Return a pair: coefficients of the solution of (7) nearest to `state` (or None), and work."""
     if damper is None:
         work = 2 * 10 * 3**3
         solutions = free_solutions(oscillator, frequency)
@@ -157,7 +157,7 @@ def many_harmonics(oscillator, damper, frequency, state, highest):
 
 
 def newton_work(balance):
-    """Return the number of operations of one step of Newton's method with many harmonics."""
+    """Return the number of operations of one step of Newton's method for a balance."""
     n, top = balance.unknowns, balance.highest
     samples = np.repeat([16 * top, (SPRING_POWER + 1) * top], [2, 3])
     return 2 / 3 * n**3 + 12 * n**2 + float(np.sum(5 * samples * np.log2(samples)))
@@ -177,7 +177,7 @@ def rigid_impacts(oscillator, damper, frequency, start):
             continue
         given = found.p, found.restitution, found.state, strobe_time(found.p)
         run = rigid(*given, 1, POLISH_TOLERANCE)
-        # A call of the map integrates one cycle together with the variational equations.
+        # Operations of one call of `rigid_map`, which also integrates variational equations.
         each = each or run.operations / step_work(FLIGHT) * step_work(FLIGHT, tangents=True)
         work += found.maps * each
         phases = frequency * run.contact_times % (2 * math.pi)
@@ -186,7 +186,7 @@ def rigid_impacts(oscillator, damper, frequency, start):
 
 
 def shooting(oscillator, damper, frequency, start):
-    """Return the `Model` by shooting with the Taylor series, with the first guess `start`."""
+    """Return the `Model` by shooting with the Taylor series, from the first guess `start`."""
     p = pack(oscillator, damper, frequency)
     orbit = find_orbit(p, start.state)
     steps, _ = all_steps(p, start.state, strobe_time(p), 1, POLISH_TOLERANCE)

@@ -1,7 +1,7 @@
-"""The quiet orbit, stable or unstable, on a grid of parameters, and rules for its best clearance.
+"""The quiet orbit, stable or not, on a grid of parameters, and rules for the optimum clearance.
 
-The orbit is a fixed point of a map: integrate half a cycle, and change the sign of the state. The
-derivative of this map is called the root, because its square is the derivative over a cycle.
+The orbit is a fixed point of a map that integrates half a cycle and changes the state's sign. The
+derivative of this map is called the root: root^2 is the derivative of the state after a cycle.
 """
 
 from typing import NamedTuple
@@ -14,11 +14,11 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, polish
 from impact_damper.orbits.shooting import newton, shoot
 from impact_damper.theory.straight_flight import Flight, flight_of, least_displacement_ratio
 
-CONTACTS = 2  # number of contacts of the orbits in a forcing cycle
+CONTACTS = 2  # number of contacts of a quiet orbit in a cycle
 
 
 class CompliantOrbit(NamedTuple):
-    """A symmetric orbit with two contacts in a cycle: state at W T = pi/2, multiplier, max |Z1|."""
+    """A symmetric orbit, 2 contacts a cycle: state at W T = pi/2, largest multiplier, max |Z1|."""
 
     parameters: np.ndarray
     state: np.ndarray
@@ -27,7 +27,7 @@ class CompliantOrbit(NamedTuple):
 
 
 def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
-    """Find the `CompliantOrbit` near a guess by Newton's method; return orbit (or None), status."""
+    """Return the `CompliantOrbit` within `reach` of the state `guess` (or None), and a status."""
     state = np.array(guess, float)
     converged, _, multiplier = polish(p, state, 1, reach, tolerance)
     if not converged:
@@ -38,21 +38,21 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
 
 
-# Phase W T of the states. No contact occurs then: contacts lie at -0.2 to pi/2, and pi later.
+# W T of the states of orbits. Contacts occur at other W T: from -0.2 to pi/2, and pi later.
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
-SHORTEST = 2.0**-12  # shortest step between cells, divided by their distance
-# A row ends at a fold if extrapolation predicts a fold within NEAR * SHORTEST of its last orbit.
+SHORTEST = 2.0**-12  # shortest step between two cells, divided by the distance of the cells
+# A row ends at a fold that extrapolation predicts within NEAR * SHORTEST columns of the last orbit.
 NEAR = 4
 
 
 class QuietOrbits(NamedTuple):
     """Quiet orbits on a grid, NaN in cells without one; shape (rows, columns).
 
-    multiplier: Eigenvalue of the root with the largest modulus and an imaginary part >= 0.
+    multiplier: Eigenvalue of the root with the largest modulus; of a complex pair, with Im > 0.
     displacement, harmonic: max |Z1|, and amplitude of the first harmonic of Z1.
-    end: Fractional columns at which the orbits of each row end; shape (rows, 2).
-    end_event: Events at these ends: map_ends, no_orbit, fold, contacts_change or not_converged.
+    end: Lower and upper end of the orbits of each row, in columns (not integer); (rows, 2).
+    end_event: Event at each end: map_ends, no_orbit, fold, contacts_change or not_converged.
     """
 
     multiplier: np.ndarray
@@ -63,9 +63,9 @@ class QuietOrbits(NamedTuple):
 
 
 def straight_flight_end(oscillator, clearance, restitution) -> float:
-    """Return W at the fold of quiet orbits with straight flights, or infinity without a fold.
+    """Return W at the fold of quiet orbits by the theory of straight flight (inf without a fold).
 
-    At the fold W^2 d0/f is sqrt(1 + k^2) with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2.
+    At the fold W^2 d0/f = sqrt(1 + k^2), with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2.
     """
     if restitution == 1:
         return np.inf
@@ -77,7 +77,7 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Return the quiet orbits of a grid, followed from those cells whose `states` are not NaN."""
+    """Return the quiet orbits on a grid, followed from the cells in which `states` is not NaN."""
     grid = Grid(parameters, find_quiet_orbit, shortest=SHORTEST, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
         at_strobe = shoot(parameters[cell], states[cell], 1, STROBE)
@@ -97,7 +97,7 @@ def follow_quiet_orbits(parameters, states) -> QuietOrbits:
 
 
 def find_quiet_orbit(p, guess):
-    """Find the quiet orbit near a guess of its state at PHASE; return orbit (or None), status."""
+    """Return the quiet orbit (or None) near `guess`, a state at W T = PHASE, and a status."""
     orbit = newton(shoot(p, guess, 1, PHASE, symmetric=True), REACH)
     if not orbit.converged:
         return None, "not_converged"
@@ -105,14 +105,14 @@ def find_quiet_orbit(p, guess):
 
 
 def _dominant_root(orbit):
-    """Return the eigenvalue of the root with the largest modulus and an imaginary part >= 0."""
+    """Return the eigenvalue of the root with the largest modulus; of a complex pair: Im > 0."""
     values = np.linalg.eigvals(orbit.matrix)
     value = values[np.argmax(np.abs(values))]
     return complex(value.real, abs(value.imag))
 
 
 def _row_ends(grid, row):
-    """Return the fractional columns at which the orbits of a row end, and the events there."""
+    """Return columns (not integer) at which the orbits of a row end, and the events there."""
     columns = [column for first, column in grid.orbits if first == row]
     if not columns:
         return [np.nan] * 2, ["no_orbit"] * 2
@@ -127,11 +127,11 @@ def _row_ends(grid, row):
 
 
 def _end(followed):
-    """Return the fraction of the way to the next cell at which an orbit ends, and the event.
+    """Return where the orbits end, as a fraction of the way to the next cell, and the event.
 
     Near a fold, det(1 - root) is proportional to the square root of the distance to the fold.
     """
-    # This step failed in `spread`, but can succeed now: the orbit behind this cell is known.
+    # `spread` failed here, but now the step can succeed: the orbit behind this cell is known.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
@@ -143,20 +143,20 @@ def _end(followed):
     return fraction, followed.status
 
 
-# Ratio rm W^2 d0/f by (18) with 8 d0/pi^2 in place of d0: 8 d0/pi^2 is the first harmonic of Z2 if
-# the loose mass flies straight between rigid walls, and the primary mass is at rest.
+# Ratio rm W^2 d0/f by (18) with the first harmonic of Z2 in place of d0. This first harmonic is
+# 8 d0/pi^2 if the primary mass rests and the loose mass flies between walls at constant speed.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# Impulse q with which |x| is equal at impact and turning point, and phase phi of the turning point,
-# if e = 1 without damping and stiffness: q - 1 = cos(phi) - q + 2 q phi/pi, sin(phi) = 2 q/pi.
+# Impulse q for which |x| is equal at impact and turning point, and phase phi of the turning point.
+# If e = 1 and h = 0 without a spring, q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
-# CRITERIA: quantities of Z1, each with an optimum clearance that minimises it.
+# CRITERIA: quantities of Z1. An optimum clearance minimises one of these quantities.
 # RULES: rules for the optimum clearance, see `rule_ratios`.
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return the optimum rm W^2 d0/f of both CRITERIA, to first order in `contact`, `damping`."""
+    """Return the optimum rm W^2 d0/f for both CRITERIA, to first order in contact and damping."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
@@ -170,9 +170,9 @@ def elastic_ratios(flight) -> tuple[float, float]:
 def least_harmonic_ratio(flight) -> float:
     """Return rm W^2 d0/f at which the first harmonic of Z1 is smallest.
 
-    Forcing and impulses together have the first harmonic 1 - c q exp(-i p). Here c = 8/pi^2, and p
-    is the lag of the impact behind the maximum of the forcing. Let sin(u) = q L/A (see `Flight`)
-    and n = u - p. The modulus is smallest where tan(2 u) = 2 cos(n)/(c A/L - 2 sin(n)).
+    Forcing and impulses have the first harmonic 1 - c q exp(-i p), with c = 8/pi^2. p is the lag of
+    the impact behind the maximum of the forcing. Let sin(u) = q l with l = `flight.loss`, and let
+    n = u - p. |1 - c q exp(-i p)| is smallest where tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
     """
     factor = 8 / np.pi**2
     loss = flight.loss
@@ -187,8 +187,8 @@ def rule_ratios(oscillator, damper, frequency):
     """Return the optimum rm W^2 d0/f for each of CRITERIA (rows) by each of RULES (columns).
 
     `balance` is rule (18), and `gap_harmonic` is FIRST_HARMONIC_RATIO. `straight_flight` is the
-    optimum of a straight flight between rigid walls. `elastic` adds the duration of contacts and
-    damping to first order, and is NaN if e < 1. `flight` adds duration, damping and stiffness.
+    optimum of a straight flight between rigid walls. `elastic` also considers, to first order, the
+    duration of contacts and damping (NaN if e < 1). `flight` adds duration, damping and stiffness.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

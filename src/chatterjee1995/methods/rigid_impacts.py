@@ -1,6 +1,6 @@
-"""The rigid-impact model, the limit of (20) to (25) for infinite r1, and its orbits.
+"""Rigid impacts, which are the limit of (20) to (25) for infinite r1, and orbits with them.
 
-Corrected ("mended") walls imitate compliant walls (`docs/explanation/methods.md`).
+Corrected ("mended") rigid walls imitate compliant walls (`docs/explanation/methods.md`).
 """
 
 import math
@@ -26,7 +26,7 @@ from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE, strobe
 
 # A run stops after this number of impacts in a cycle. If e < 1, infinitely many can follow.
 MOST_IMPACTS = 200
-ITERATIONS = 12  # most steps of Newton's method
+ITERATIONS = 12  # largest number of steps of Newton's method
 SAME_SPEED = 1e-6  # largest relative difference of the two approach speeds in a symmetric orbit
 
 
@@ -34,8 +34,8 @@ SAME_SPEED = 1e-6  # largest relative difference of the two approach speeds in a
 def rebound(p, restitution, y, tangents, t):
     """Apply an instantaneous impact to a state y and to small changes of the state, in place.
 
-    Each row of `tangents` is a small change d of the state before the impact. With
-    k = (1 + e)/(1 + 1/rm), the damping h and the acceleration a of Z1 before the impact,
+    Each row of `tangents` is a small change d of the state before the impact. Let a be the
+    acceleration of Z1 before the impact, h the damping and k = (1 + e)/(1 + 1/rm). Then
 
         Z1' -> Z1' - k Z2',   Z2' -> -e Z2',
         d(Z1, Z1', Z2, Z2') -> S d,   S = [1 0 -k 0; 0 1 k (a/Z2' + h) -k;
@@ -62,7 +62,7 @@ def rigid_map(p, restitution, y, tolerance):
     The dashpot in p must be 0. Return the final state, its derivative by y, the number of impacts,
     the smallest |Z2'| before an impact (or infinity), a pair for the first impact, and max |Z1|.
     The pair is |Z2'| and the acceleration of Z1 towards the wall, both before the impact (or NaN).
-    After MOST_IMPACTS impacts, only their number is valid.
+    After MOST_IMPACTS impacts, only the number of impacts is valid.
     """
     state = y.copy()
     tangents = np.eye(4)
@@ -93,7 +93,7 @@ def without_dashpot(p):
 
 
 class RigidOrbit(NamedTuple):
-    """A symmetric orbit, two impacts a cycle. `speed`, `acceleration`: values before an impact."""
+    """A symmetric orbit, two impacts a cycle. `speed` |Z2'|, `acceleration` Z1'': before impact."""
 
     state: np.ndarray
     multiplier: complex
@@ -109,13 +109,13 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
     """Return the `RigidOrbit` within `reach` of the state `guess`, or None, and a status.
 
     Status: "found"; "not_followed" if Newton's method fails or meets no impact; "other_contacts" if
-    impacts are not two and symmetric; "chatter" after MOST_IMPACTS impacts in a cycle.
+    there are not two symmetric impacts; "chatter" after MOST_IMPACTS impacts in a cycle.
     """
     return _solve(pack(oscillator, damper, frequency), damper.restitution, guess, reach)
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """Return orbit and status as `rigid_orbit` does, for walls that imitate compliant walls."""
+    """Return what `rigid_orbit` returns, but for rigid walls that imitate compliant walls."""
     e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
     reduced = damper.mass_ratio / (1 + damper.mass_ratio)
     z, natural = damping_ratio(e), damper.contact_frequency
@@ -132,7 +132,7 @@ def mended_orbit(oscillator, damper, frequency, orbit, reach):
 
 
 def _solve(p, restitution, guess, reach):
-    """Return orbit and status as `rigid_orbit` does, for packed parameters and any restitution."""
+    """Return what `rigid_orbit` returns, but for packed parameters and any restitution."""
     p = without_dashpot(p)
     restitution = float(restitution)  # numba would compile the map a second time for an int
     y = np.array(guess, float)

@@ -1,4 +1,4 @@
-"""The largest equal steps with which methods keep max |Z1| of quiet motions, as functions of r1."""
+"""Largest steps with which methods of equal steps keep max |Z1| of quiet motions, for each r1."""
 
 import itertools
 import math
@@ -39,17 +39,17 @@ contact_frequency | contact_stiffness | | omega_c | natural frequency of an unda
 )
 
 ACCURACIES = (0.01, 0.1)  # allowed relative error of max |Z1| in each cycle
-# FACTOR: largest ratio of successive r1. REACH: largest distance of an orbit from its first guess.
+# FACTOR: largest ratio of successive r1. REACH: largest distance of an orbit from the first guess.
 FACTOR, REACH = 10.0**0.0625, 0.2
-EXACT = 1e-13  # local error allowed in the exact orbits, the reference of the runs
-CONFIRMED = 4  # at least this number of the smallest tested steps must keep the motion
-STIFF = 1e3  # least r1 in the fit of the exponent of the stable step; contacts are short there
+EXACT = 1e-13  # tolerance of the exact orbits, with which runs are compared
+CONFIRMED = 4  # the motion must be kept by at least this number of the smallest tested steps
+STIFF = 1e3  # least r1 in the fit of `step_slope`; for larger r1 contacts are short
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
     """Return a quiet `CompliantOrbit` or None at each r1, followed from the damper's own r1.
 
-    ArithmeticError is raised if a start with the primary mass at rest leads to no quiet motion.
+    Raise ArithmeticError if a start with the primary mass at rest leads to no quiet motion.
     """
     p = pack(oscillator, damper, frequency)
     start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
@@ -78,7 +78,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
 
 
 def _in_steps(own, targets):
-    """Return `own` and all targets in order; values between them limit the ratios to FACTOR."""
+    """Return `own` and all targets in order, with values between that keep all ratios <= FACTOR."""
     cells = [np.array([own])]
     for before, target in itertools.pairwise([own, *targets]):
         count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)
@@ -87,7 +87,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step up to which all tested are held, NaN if fewer than CONFIRMED are."""
+    """Return the largest step up to which all tested steps are held; NaN if less than CONFIRMED."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -95,7 +95,7 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Fit log(1/step) over log r1 for r1 >= STIFF; return slope and error, NaN if < 3 steps."""
+    """Return slope and error of a fit of log(1/step) over log r1, r1 >= STIFF; NaN if < 3 steps."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan
@@ -104,7 +104,7 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """Return a dataset of the largest stable steps. `scaled_steps` are increasing h omega_c."""
+    """Return a dataset of the largest stable steps. `scaled_steps`: h omega_c, increasing."""
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
     scaled = scaled[::-1]
@@ -127,7 +127,7 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
 
 
 def _deviations(method, orbits, counts, tested, periods):
-    """Return the largest relative deviation of max |Z1| per orbit and step; NaN if not tested."""
+    """Return the largest relative deviation of max |Z1|, by (orbit, step); NaN if not tested."""
     deviations = np.full(counts.shape, np.nan)
     for i, orbit in enumerate(orbits):
         if orbit is None:
@@ -141,7 +141,7 @@ def _deviations(method, orbits, counts, tested, periods):
 
 
 def _step_data(deviations, tested, sizes, stiffnesses):
-    """Return a dict: largest steps that keep each accuracy, slopes of log(1/step) over log r1."""
+    """Return a dict: largest step for each accuracy, and slopes of log(1/step) over log r1."""
     shape = len(deviations), len(stiffnesses), len(ACCURACIES)
     stable = np.empty(shape)
     for m, i, k in np.ndindex(shape):

@@ -1,4 +1,4 @@
-"""Map of the errors of single-term harmonic balance, for quiet and for high (violent) motions."""
+"""Map of errors of harmonic balance with one harmonic, for quiet and high (violent) motions."""
 
 from dataclasses import replace
 from functools import lru_cache, partial
@@ -65,15 +65,15 @@ high_verdict | map_value frequency_ratio | | | high motion: result of harmonic b
 )
 
 NEAR = 0.2  # a motion is near if max |Z1| differs from the prediction by at most this fraction
-HIGH = 0.5  # motions below this fraction of the free resonance amplitude are low, others high
+HIGH = 0.5  # a motion is low if max |Z1| is below this fraction of `Cells.resonance`, else high
 
 
 class Cells(NamedTuple):
     """Solutions of harmonic balance in all cells of a map, and start states of runs at T = 0.
 
     `resonance` is the amplitude on the free resonance branch or, beyond the branch, at its end.
-    If a solution is absent, its amplitude and its start are NaN. But `high_start` is then the state
-    on the free resonance branch with the loose mass at rest, and NaN only beyond this branch.
+    Amplitude and start of an absent solution are NaN, with one exception: without a high solution,
+    `high_start` is on the free resonance branch (NaN beyond it), with the loose mass at rest.
     """
 
     resonance: np.ndarray
@@ -88,8 +88,8 @@ class Cells(NamedTuple):
 def balance_cells(rows) -> Cells:
     """Solve the harmonic balance (7) in all cells of a map.
 
-    The limit is HIGH times `Cells.resonance`. The solution with the smallest |a| is the quiet one
-    if |a| is below it. The stable solution with the largest |a| is the high one if |a| is not.
+    The limit of |a| is HIGH times `Cells.resonance`. The quiet solution has the smallest |a|, below
+    the limit. The high solution is stable and has the largest |a|, not below the limit.
     """
     cells = [
         [_cell(oscillator, damper, frequency) for frequency in frequencies]
@@ -136,7 +136,7 @@ def _cell(oscillator, damper, frequency):
 
 @lru_cache(4096)
 def _solutions(oscillator, damper, frequency):
-    """Return the solutions of (7), and their growth rates."""
+    """Return the solutions of (7), and the growth rates of small disturbances."""
     solutions = impacting_solutions(oscillator, damper, frequency)
     return solutions, growth_rate(fixed_points(solutions), oscillator, damper, frequency)
 
@@ -159,9 +159,9 @@ class _Row(NamedTuple):
 
 
 def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers=1, progress=None):
-    """Compare harmonic balance with exact motions over W/Wp (columns) and a parameter (rows).
+    """Return a dataset: harmonic balance and exact motions over W/Wp (columns), a parameter (rows).
 
-    `fixed` holds the other parameters. If no clearance is given, rule (19) sets that of each row.
+    `fixed` holds the other parameters. If no clearance is given, rule (19) sets one for each row.
     """
     rows = _rows(parameter, values, frequency_ratios, fixed)
     parameters = np.array(
@@ -219,7 +219,7 @@ def _rows(parameter, values, ratios, fixed):
 
 
 def _run(parameters, starts, settling, workers, progress):
-    """Return the record `MOTION` of the run in each cell, "absent" as outcome if a start is NaN."""
+    """Return the `MOTION` record of the run in each cell; outcome "absent" if a start is NaN."""
     asked = np.isfinite(starts[..., 0])
     records = np.zeros(asked.shape, MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -232,7 +232,7 @@ def _run(parameters, starts, settling, workers, progress):
 
 
 def _kinds(records, resonance):
-    """Return the flag `quiet_run_motion` of each run; `resonance` is that of `Cells`."""
+    """Return the flag `quiet_run_motion` of each run; `resonance` is from `Cells`."""
     low = records["maximum_displacement"] < HIGH * resonance
     quiet = low & is_symmetric_pair(records)
     outcome = records["outcome"]

@@ -1,4 +1,4 @@
-"""Share of random starts, in the ball of the paper (section 3, iii), that lead to a collision."""
+"""Share of starts that lead to a collision, for the paper's ball of starts (section 3, iii)."""
 
 import math
 
@@ -25,7 +25,7 @@ longest_wait | ball | | | longest time to the first collision, cycles
 def collisions(
     oscillator, damper, frequency, *, starts=2000, radius, seed=1995, periods=2000, tolerance=1e-9
 ):
-    """Return a dataset for random starts in the whole ball, and in its part within the gap."""
+    """Return a dataset of first collisions: starts in the whole ball, and starts within the gap."""
     p = pack(oscillator, damper, frequency)
     shares = np.empty((2, 3))
     for row, within_gap in enumerate((False, True)):
@@ -41,7 +41,7 @@ def collisions(
 
 @kernel
 def first_collision(p, state, limit, tolerance):
-    """Return the cycles until the first contact, or infinity if `limit` cycles have none."""
+    """Return the number of cycles to the first contact; infinity if `limit` cycles have none."""
     work, y, t, side = workspace(), state.copy(), 0.0, side_of(p, state)
     end = limit * 2.0 * math.pi / p[FREQUENCY]
     while side == 0 and t < end:

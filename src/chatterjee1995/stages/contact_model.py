@@ -1,7 +1,7 @@
 """Map of the contact model over restitution and load, and the loads of simulated motions.
 
-The load is G = g/(wn v0). All forces except the contact force cause the acceleration g towards the
-wall. The natural frequency of the contact is wn, and the approach speed is v0.
+The load is G = g/(wn v0). g is the acceleration towards the wall by all forces except the contact
+force, wn is the natural frequency of the contact, and v0 is the approach speed.
 """
 
 from dataclasses import replace
@@ -58,7 +58,7 @@ def contact_model(
 ):
     """Return a dataset: contacts by restitution and load, and the loads of simulated motions.
 
-    At each restitution in `used` and each frequency, random starts lead to the simulated motions.
+    Random starts at each frequency lead to the simulated motions, for each restitution in `used`.
     """
     used, frequencies = np.array(used, float), np.array(frequencies, float)
     data = contact_map(restitutions, loads) | unloaded_table(used)
@@ -82,7 +82,7 @@ def contact_model(
 
 
 def spread_loads(largest, count):
-    """Return loads from -largest to largest, spaced evenly near 0, logarithmically above LINEAR."""
+    """Return loads from -largest to largest: even spacing to |G| = LINEAR, logarithmic beyond."""
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 
@@ -116,7 +116,7 @@ def unloaded_table(restitutions):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Return two motions with contacts: the smallest settled one, and the largest (or None)."""
+    """Return two motions with contacts (or None): the smallest settled one, and the largest one."""
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
     motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)

@@ -26,12 +26,12 @@ design_run_displacement | design_start | displacement | max |Z1| | largest displ
     """
 )
 
-# Heavy damping: the largest of HEAVY, HEAVY_SHARE Wp and twice the oscillator's h, but at most 10.
+# Heavy damping is min(10, max(HEAVY, HEAVY_SHARE Wp, 2 h)), with the damping h of the oscillator.
 HEAVY, HEAVY_SHARE = 2.0, 0.5
 
 
 def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settling):
-    """Return a dataset: the quiet orbit at Wp, followed from heavy damping, and runs at Wp."""
+    """Return a dataset: the quiet orbit at Wp, followed from heavy damping, and runs of starts."""
     peak = peak_frequency(oscillator)
     damping = max(HEAVY, 2 * oscillator.damping, HEAVY_SHARE * peak)
     heavy = replace(oscillator, damping=min(damping, 10.0))

@@ -1,7 +1,7 @@
-"""Accuracy of design rules: the clearance that each predicts, compared with the exact optimum.
+"""Accuracy of design rules: the clearance by each rule, compared with the exact optimum.
 
 The optimum is the clearance at which the quiet orbit is smallest. A clearance is given as the ratio
-rm W^2 d0/f, which is 1 by rule (18), and a displacement as W^2 Z1/f. The forcing amplitude is f.
+rm W^2 d0/f, and a displacement as W^2 Z1/f. f is the forcing amplitude. Rule (18) has the ratio 1.
 """
 
 import itertools
@@ -40,13 +40,13 @@ rule_excess | mass_ratio restitution contact_stiffness frequency rule | | | rela
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
 SAMPLES = 1024  # number of values of Z1 in a cycle from which the first harmonic is computed
 SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
-# The search goes downhill with the relative step STEP, at most MOST_STEPS times. Then it locates
-# the ratio at the minimum with the error PRECISION.
+# The search for a minimum changes the ratio by the fraction STEP, at most MOST_STEPS times. Then it
+# locates the minimum; PRECISION is the error allowed in the ratio.
 STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
-# A minimum is smooth or a kink. If the distance from it is halved from CLOSE, the rise of the
-# displacement falls to 1/4 at a smooth minimum, and to 1/2 at a kink. KINK lies between the two.
+# r(h) is the rise of the displacement at the distance h from a minimum: r ~ h^2 if the minimum is
+# smooth, r ~ h if it is a kink. It counts as a kink if r(CLOSE/2) > KINK r(CLOSE).
 CLOSE, KINK = 1e-3, 0.36
-ABSENT = 1e3  # displacement that the search uses where no orbit exists
+ABSENT = 1e3  # displacement that the search assumes where no orbit exists
 IMPULSES = 400  # number of impulses for which the theory of straight flight is evaluated
 
 
@@ -130,7 +130,7 @@ class QuietMotion:
         return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """Return the ratio at a local minimum of the criterion near `guess`, and its kind."""
+        """Return the ratio and the kind of a local minimum of the criterion near `guess`."""
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
         def size(ratio):

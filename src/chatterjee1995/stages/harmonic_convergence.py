@@ -40,17 +40,17 @@ decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmon
     """
 )
 
-# MEASURES: names of errors. The other constants are their predicted decrease.
-# ELASTIC, INELASTIC: powers of 1/N for contacts with e = 1, and for contacts with e < 1.
-# ANALYTIC: rates of exponential decrease without a damper, in units of W `singularity_distance`.
+# MEASURES: names of the errors. The other constants predict how each error decreases with N.
+# ELASTIC, INELASTIC: exponents n of errors ~ N^-n, for contacts with e = 1 and with e < 1.
+# ANALYTIC: numbers n of errors ~ exp(-n W D N) without a damper, where D is `singularity_distance`.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
 ANALYTIC = (1.0, 1.0, 1.0, 2.0)
-# Search for a singularity, with the forcing amplitude f and x = (f/|k3|)^(1/3):
+# Search for a singularity. The unit of length is x = (f/|k3|)^(1/3), with the forcing amplitude f.
 # STARTS: number of start times in half a forcing cycle.
 # LARGE: |Z1| at which an integration towards the singularity stops, in units of x.
-# LAST_CHANGE: a smaller change of the last time ends the search, in units of 1/(x sqrt|k3|).
+# LAST_CHANGE: change of the time reached that ends the search, in units of 1/(x sqrt|k3|).
 # CLOSE: fraction of the estimated distance from real time that the next integration covers.
 STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 
@@ -58,9 +58,9 @@ STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 def asymptotic_harmonic(damper, frequency) -> float:
     """Return the harmonic number N above which the predicted powers can hold; 1 without a damper.
 
-    A contact (appendix B) lasts at least as long as a period of harmonic N. With a dashpot, N is
-    also at least r1/(c W). Above this number, the jump c Z2' of the force contributes more to a
-    harmonic than the jump r1 Z2' of the slope of the force.
+    Above this N, a contact (appendix B) lasts longer than a period of harmonic N. With a dashpot
+    also N > r1/(c W). Then the jump c Z2' of the contact force contributes more to harmonic N than
+    the jump r1 Z2' of the slope of this force.
     """
     if damper is None:
         return 1.0
@@ -72,17 +72,17 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Return the kind of the predicted decrease of MEASURES, and its powers of 1/N or its rates."""
+    """Return the predicted decrease of MEASURES: the kind, and powers of 1/N or rates."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
 
 
 def singularity_distance(p, state) -> float:
-    """Return the distance of a free motion's nearest singularity from real time, inf if linear.
+    """Return the distance from real time to a free motion's nearest singularity; inf if k3 = 0.
 
-    The motion is integrated along imaginary time. Near a singularity T* the motion is
-    Z1 = sqrt(-2/k3)/(T - T*), so T + Z1/Z1' estimates T*. Integrating towards T* improves this.
+    The motion is integrated along imaginary time. Near a singularity T*, Z1 = sqrt(-2/k3)/(T - T*).
+    Therefore T + Z1/Z1' estimates T*. Integration towards T* improves the estimate.
     """
     frequency, (stiffness, cubic) = p[FREQUENCY], cubic_spring(p)
     if cubic == 0:
@@ -133,8 +133,8 @@ def singularity_distance(p, state) -> float:
 
 
 SAMPLES = 2**14  # number of values of Z1 in a cycle, for Fourier coefficients of the exact orbit
-SAME = 1e-6  # solutions are the same if coefficients differ by at most this fraction of the largest
-ROUNDING = 1e-12  # only larger errors are used to fit how errors decrease
+SAME = 1e-6  # largest difference of coefficients of equal solutions, over the largest coefficient
+ROUNDING = 1e-12  # errors below this value are left out of the fit of the decrease
 FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 
@@ -146,10 +146,10 @@ def ladder(highest) -> np.ndarray:
 
 
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
-    """Return a dataset of the errors of harmonic balance for a symmetric motion, by N.
+    """Return a dataset: errors of harmonic balance over highest harmonic, for a symmetric motion.
 
-    Newton's method starts from the last converged solution. For N in `cold` it is also tried from
-    the solution with one harmonic.
+    Newton's method starts from the last converged solution. For each number in `cold`, a second
+    search starts from the solution with one harmonic.
     """
     harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
@@ -186,7 +186,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Solve the balance of the solution `warm` again from `first`; return `cold_status`."""
+    """Solve the balance of `warm` again, from the coefficients `first`; return a `cold_status`."""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)
@@ -206,7 +206,7 @@ def errors(solutions, multipliers, exact):
         **{"periods": 1, "samples": SAMPLES, "tolerance": FINEST},
         start=np.pi / (2 * balance.frequency),
     )
-    # The samples begin at W T = pi/2, so they are shifted by a quarter of a forcing cycle.
+    # The samples begin at W T = pi/2. `np.roll` shifts their beginning to W T = 0.
     coefficients = np.fft.rfft(np.roll(orbit["displacement"].values[:-1], SAMPLES // 4)) / SAMPLES
     for k, solution in enumerate(solutions):
         if solution.status == "converged":
@@ -230,7 +230,7 @@ def _farthest(values, references):
 
 
 def decay_table(harmonics, data, damper, p, exact):
-    """Return variables: the errors' decrease, predicted and fitted above `asymptotic_harmonic`."""
+    """Return a dict: predicted decrease of errors, and fitted one from `asymptotic_harmonic` on."""
     lowest = asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = decay(damper, p, exact.strobe_states[0])
     scale = np.log(harmonics) if kind == "algebraic" else harmonics

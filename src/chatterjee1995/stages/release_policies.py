@@ -1,4 +1,4 @@
-"""Policies of when to switch the damper off, compared by trials of migration to a small motion."""
+"""Policies that say when to switch the damper off, compared by trials of migration."""
 
 import math
 from typing import NamedTuple
@@ -43,10 +43,10 @@ policy_phase | case frequency policy | angle | | phase Omega T of the release th
 )
 
 POLICIES = ["settled", "hold", "phase", "state"]
-# Numbers of cycles with the damper on that are tried, each about 1.6 times the one before.
+# Numbers of cycles with the damper on, from which a policy chooses. Steps of about 1.6 times.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
-# Results of a hold, a time with the damper on. `state` is at the next strobe, `ahead` cycles later.
+# Results of a time with the damper on. `state` is Z1, Z1' at the next strobe, `ahead` cycles later.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
@@ -55,7 +55,7 @@ RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
 class Outcome(NamedTuple):
-    """Results of n trials. `cycles` is the number until the goal is reached, infinite if never."""
+    """Results of n trials. `cycles` is the number of cycles to the goal, infinite if missed."""
 
     reached: np.ndarray
     cycles: np.ndarray
@@ -108,7 +108,7 @@ class Trials(NamedTuple):
     workers: int = 1
 
     def rules(self, trials, seed):
-        """Return a list with a RULE for each policy. Separate trials choose cycles and phase."""
+        """Return a list: the best RULE of each policy, with the fewest mean cycles in trials."""
 
         def costs(rules):
             cycles = [outcome.cycles for outcome in self.run(rules, trials, seed)]
@@ -124,7 +124,7 @@ class Trials(NamedTuple):
         return [(SETTLED, 0.0, 0), best, *chosen]
 
     def run(self, rules, trials, seed):
-        """Return a list with the `Outcome` of each rule. Trials run together, to save time."""
+        """Return a list with the `Outcome` of each rule. All trials run together to save time."""
         generator, limit = np.random.default_rng(seed), float(PAPER_CYCLES)
         owner = self.releases.attractors.owner
         resonance, count = owner[-1], len(rules) * trials
@@ -133,7 +133,7 @@ class Trials(NamedTuple):
         reached, running = np.zeros(count, bool), np.arange(count)
         rules = np.repeat(np.array(rules, RULE), trials)
         while len(running):
-            # Columns: phase and place at switching on, phase of the release, choice of the start.
+            # Columns: phase and place of the loose mass at switching on, phase of release, start.
             draws = generator.random((trials, 4))[running % trials]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first
@@ -204,7 +204,7 @@ def hold_many(on, off, starts, draws, limits, rules, depth, half, tolerance, hel
 
 
 def summary(outcome):
-    """Return the dataset variables of the trials of one policy, a dict."""
+    """Return a dict: the variables of the dataset, for the trials of one policy."""
     return {
         "policy_success": wilson(np.sum(outcome.reached), len(outcome.reached)),
         "policy_cycles": [quantile(outcome.cycles, share) for share in QUANTILES],
@@ -215,7 +215,7 @@ def summary(outcome):
 
 
 def quantile(values, share):
-    """Return a quantile and the ends of its approximate 95 % interval, by the binomial law."""
+    """Return a quantile and both ends of an approximate 95 % interval by the binomial law."""
     ordered, count = np.sort(np.asarray(values, float)), len(values)
     spread = QUANTILE * math.sqrt(count * share * (1 - share))
     places = count * share + np.array([0.0, -spread, spread])

@@ -1,4 +1,4 @@
-"""Runs of migration control, and releases (switching the damper off), section 5 of the paper."""
+"""Runs of migration control, and releases of the damper (section 5 of the paper)."""
 
 from dataclasses import replace
 from itertools import count
@@ -56,14 +56,14 @@ release_share | damped free_motion bound | | | share of releases that lead to ea
     """
 )
 
-LEAD = 20  # number of first cycles without a release, because the start of a run still matters
+LEAD = 20  # number of cycles before the first release; then the start of a run matters no longer
 PAPER_CYCLES = 350  # cycles within which the paper's controller reaches the non-resonance branch
-CAPTURE = 0.1  # an orbit has captured a run while their Z1 and Z1' differ by at most this
+CAPTURE = 0.1  # an orbit has captured a run once both differ by at most this, in Z1 and in Z1'
 # A release: phase in cycles after a strobe (W T = pi/2), Z1 and Z1', and the resulting free motion.
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
 )
-# Names of motions with the damper (KINDS) and without (DESTINATIONS), except the first, "none".
+# Names of motions with the damper (KINDS) and without it (DESTINATIONS). "none" is left out.
 KINDS = list(DAMPED_MOTION)[1:]
 DESTINATIONS = list(FREE_MOTION)[1:]
 
@@ -116,7 +116,7 @@ def migration(
 
 
 def _example(totals):
-    """Return the index of an arriving run with the median number of switchings (0 if none)."""
+    """Return the index of a run that arrives after the median number of switchings (0 if none)."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
         return 0
@@ -125,7 +125,7 @@ def _example(totals):
 
 
 def _summary(switchings, totals):
-    """Return shares of runs that arrive, and counts of releases by motions before and after."""
+    """Return a dict: shares of runs that arrive, counts of releases by damped and free motion."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     within = reached & (totals["total_time"] <= PAPER_CYCLES)
     before, after = switchings["released_from"], switchings["destination"]
@@ -147,12 +147,12 @@ def _release(case, state, wait, settling, stop=NEVER):
 
 
 def watch_runs(case, seeds, lifetime, settling, workers, progress):
-    """Switch the damper on at the resonance branch; return the runs, and a release from each.
+    """Switch the damper on at the resonance branch; return the runs, and a release from each run.
 
-    A release takes place after LEAD cycles, and before an orbit captures the run or `lifetime`
-    cycles have passed. If there is no such time, the release is NaN.
+    A release takes place at a random time after LEAD cycles, before an orbit captures the run and
+    before `lifetime` cycles have passed. If there is no such time, the release is NaN.
     """
-    # Random phase and place of switching on, strobe of the release, and phase after this strobe.
+    # Columns: phase of switching on, place of the loose mass, strobe before release, wait after it.
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     motions = np.zeros(len(draws), MOTION)
     entries = np.full(len(draws), np.array((np.nan,) * 3 + (FREE_MOTION["none"],), RELEASE))
@@ -187,7 +187,7 @@ def _life(p, path, record, tolerance):
 
 
 def release_data(case, motions, entries, settling):
-    """Return the variables of the releases `entries`, and of evenly spaced ones from `motions`."""
+    """Return variables of the releases `entries`, and of evenly spaced releases from `motions`."""
     number = len(entries)
     rows = [entries]
     for record in motions:
@@ -216,7 +216,7 @@ def release_data(case, motions, entries, settling):
 
 
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
-    """Return settled motions, sorted by max |Z1|: those in `known`, and those that runs reach."""
+    """Return settled motions, sorted by max |Z1|: from `known`, and from runs of many starts."""
     on = pack(oscillator, damper, frequency)
     # The solutions for elastic contact are good starts for an inelastic damper too.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
@@ -276,7 +276,7 @@ def release_scan(
 
 
 def _scan_records(response):
-    """Return the settled motions of a response at one W, the smallest first, as records."""
+    """Return records of the settled motions of a response at one W, the smallest motion first."""
     keep = response["outcome"].values == flag("outcome", "settled")
     found = np.zeros(np.sum(keep), MOTION)
     for name in ("period", "maximum_displacement", "contacts", "state"):

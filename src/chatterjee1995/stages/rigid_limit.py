@@ -37,14 +37,14 @@ own_mended_error | | | | relative error of own_displacement with corrected rigid
 )
 
 THRESHOLDS = (0.01, 0.1)  # relative errors of max |Z1| for which the needed stiffness is stored
-REACH = 0.1  # largest distance of an orbit's state from the state predicted for it
-STIFF = 1e4  # least r1 in the fit of the order of the error, which holds for short contacts
+REACH = 0.1  # largest distance of an orbit's state from the first guess
+STIFF = 1e4  # least r1 in the fit of the exponent n, which describes short contacts
 
 
 def rigid_limit(
     oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling
 ):
-    """Return a dataset of errors of rigid walls; ArithmeticError if no quiet motion is found."""
+    """Return a dataset of errors of rigid walls; raise ArithmeticError without a quiet motion."""
     frequencies, stiffnesses = np.array(frequencies, float), np.array(stiffnesses, float)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
     compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)
@@ -90,14 +90,14 @@ def _spread(correct, points, cell, own_point, orbit):
 
 
 def _reached(followed, key):
-    """Return the orbit at the end of a line, or raise ArithmeticError about the argument `key`."""
+    """Return the orbit at the end of a line, or raise an ArithmeticError that names `key`."""
     if not followed.arrived:
         raise ArithmeticError(f"{key}: the quiet motion cannot be followed into this grid")
     return followed.orbit
 
 
 def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
-    """Return a grid of compliant and one of rigid orbits, and the rigid orbit at `frequency`."""
+    """Return three: grid of compliant orbits, grid of rigid orbits, rigid orbit at `frequency`."""
 
     def compliant_at(point, guess):
         each = replace(damper, contact_stiffness=float(np.exp(point[1])))
@@ -121,7 +121,7 @@ def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
 
 
 def _errors(oscillator, damper, frequencies, stiffnesses, compliant, rigid):
-    """Return a dict: errors of max |Z1| by rigid and by corrected walls, and verdicts, by cell."""
+    """Return a dict, by cell: errors of max |Z1| with rigid and corrected walls, and verdicts."""
     shape = len(frequencies), len(stiffnesses)
     plain, mended = np.full(shape, np.nan), np.full(shape, np.nan)
     verdict = np.full(shape, flag("rigid_verdict", "neither"))

@@ -1,7 +1,7 @@
 """Studies: motions from random starts in each cell of a grid of dampers and frequencies.
 
-Cells are numbered in the order of `AXES`, the last axis fastest, and a chunk is a range of numbers.
-Seed and number of a cell determine its starts, so results do not depend on the chunks.
+Cells are numbered in the order of `AXES`, the last axis fastest. A chunk is a range of numbers.
+The seed and the number of a cell determine its starts, so results do not depend on the chunks.
 """
 
 import math
@@ -60,7 +60,7 @@ def study_chunk(
 ):
     """Return a dataset of the motions to which random starts lead in a chunk of cells.
 
-    `cells` is a pair: the number of the first cell, and the number after that of the last cell.
+    `cells` is a pair: the number of the first cell, and the number of the last cell plus 1.
     """
     axes = {name: np.asarray(axes[name], float) for name in AXES}
     shape, (first, last) = [len(values) for values in axes.values()], cells

@@ -50,8 +50,8 @@ def subharmonic_suppression(
 ):
     """Return a dataset of motions with the damper in the range of W of the free subharmonic.
 
-    If the free subharmonic is found, its range with margins replaces the ends of `frequencies`.
-    Within the range, half of the starts lie on the free subharmonic.
+    If the free subharmonic is found, `frequencies` is replaced by as many values, over its range
+    and margins. Within the range, half of the starts lie on the free subharmonic.
     """
     if not any(getattr(oscillator, name) for name in NONLINEAR):
         raise ValueError(
@@ -79,7 +79,7 @@ def subharmonic_suppression(
 
 
 def _switch_half(oscillator, parameters, free, states, seed):
-    """Put half of `states` (n, m, 4) on the free subharmonic; return max |Z1| of it, or NaN."""
+    """Put half of `states` (n, m, 4) on the free subharmonic; return its max |Z1|, or NaN."""
     size = np.full(len(parameters), np.nan)
     half = states.shape[1] // 2
     for i, p in enumerate(parameters):
@@ -96,7 +96,7 @@ def _switch_half(oscillator, parameters, free, states, seed):
 def switched_on(oscillator, p, state, loose, generator):
     """Switch the damper on at random times; return states when W T is next a multiple of 2 pi.
 
-    The last columns of `loose` (m, 4) give Z2 and Z2'. In every second row Z2' is set to 0.
+    The last two columns of `loose` (m, 4) give Z2 and Z2'. In every second row Z2' is set to 0.
     """
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_map.strobe_time(p)
@@ -105,7 +105,7 @@ def switched_on(oscillator, p, state, loose, generator):
     states = traces.states_at(free, state, begin, times, tolerance)
     states[:, 2:] = loose[:, 2:]
     states[::2, 3] = 0.0
-    # The kernel writes a row for each contact. A step has at most one.
+    # `trace_steps` writes a row of `log` for each contact. A step has at most one contact.
     sample, log = np.empty((1, 4)), np.empty((traces.STEPS_AT_ONCE, 5))
     for time, y in zip(times, states, strict=True):
         end = np.array([np.ceil(time / period) * period])
@@ -130,7 +130,7 @@ def is_subharmonic(data):
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return both ends of a branch of a `sweep`. An end not located is its last frequency."""
+    """Return both ends of a branch of a `sweep`. An end not located is the last frequency."""
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):

@@ -1,4 +1,4 @@
-"""The integrators that are compared; each module declares some in its constant INTEGRATORS."""
+"""The compared integrators. Each module here lists its integrators in a tuple INTEGRATORS."""
 
 import pkgutil
 from functools import cache
@@ -7,7 +7,7 @@ from importlib import import_module
 
 @cache
 def integrators(stage=None) -> dict:
-    """Return a dict of integrators by name, in the order of `place`: those of a stage, or all."""
+    """Return a dict, name -> integrator, in the order of `place`; of one stage, or of all."""
     modules = [import_module(f"{__name__}.{each.name}") for each in pkgutil.iter_modules(__path__)]
     declared = [each for module in modules for each in module.INTEGRATORS]
     declared.sort(key=lambda each: each.place)

@@ -11,12 +11,12 @@ from impact_damper.kernel.equation import external_force
 from impact_damper.model.packed import FREQUENCY
 
 VERLET, RUNGE_KUTTA_4, MERSON = NUMBERS = range(3)
-BEYOND = 1e3  # a run has diverged if |Z1| + |Z1'| + |Z2'|, or a component in a flight, reaches this
+BEYOND = 1e3  # a run has diverged if |Z1| + |Z1'| + |Z2'| (in a flight: a component) reaches this
 
 
 @kernel
 def forcing(p, t, h):
-    """Return the external force at t, t + h/3, t + h/2 and t + h, a tuple of four numbers."""
+    """Return a tuple: the external force at t, t + h/3, t + h/2 and t + h."""
     return (
         external_force(p, t),
         external_force(p, t + h / 3.0),
@@ -70,7 +70,7 @@ def one_step(method, p, drives, h, y):
 
 @kernel
 def run_fixed(method, p, start, t, steps, largest):
-    """Run from `start` at t. Fill `largest` with max |Z1| in each cycle, NaN once diverged."""
+    """Run from `start` at t. Fill `largest` with max |Z1| in each cycle; NaN after divergence."""
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
     largest[:] = np.nan
@@ -130,7 +130,7 @@ class FixedStep(Integrator):
         return np.abs(ends[:, 3]), abs(there[0, 3])
 
 
-# Last number of a method: largest h omega for which steps h of x'' = -omega^2 x stay bounded.
+# Last argument of FixedStep: largest h omega for which steps h keep x'' = -omega^2 x bounded.
 BOTH = "stable_steps", "missed_contacts"
 INTEGRATORS = (
     FixedStep(VERLET, "verlet", "velocity Verlet", 1, BOTH[:1], 2.0),

@@ -1,4 +1,4 @@
-"""Runge-Kutta-Merson, the paper's method: a step's estimated error is <= tolerance (1 + |y|)."""
+"""Runge-Kutta-Merson, the paper's method. Estimated error of a step: <= tolerance (1 + |y|)."""
 
 import math
 
@@ -12,16 +12,16 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
 # Floating-point operations of a step: five evaluations of the rate, and their combinations.
 STEP_OPERATIONS = 366
-# A run fails if it diverges, needs a step below SHORTEST, or takes too many steps: MOST_STEPS in a
-# call of `advance_merson`, MOST_ENDS in a forcing cycle, or MOST_FLIGHT_ENDS in a flight.
+# A run fails if it diverges or needs a step below SHORTEST. Largest numbers of steps: MOST_STEPS in
+# a call of `advance_merson`, MOST_ENDS in a forcing cycle, MOST_FLIGHT_ENDS in a flight.
 SHORTEST = 1e-12
 MOST_STEPS, MOST_ENDS, MOST_FLIGHT_ENDS = 10**6, 400_000, 10**5
-FIRST = 1e-3  # length of the first step, divided by the forcing period or the time of a flight
+FIRST = 1e-3  # length of the first step, divided by the forcing period or, in `flight`, by `end`
 
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return the state after a step, and error/limit. If `by_position`, Z2 determines the wall."""
+    """Return state after a step, error/allowed error. If `by_position`, Z2 determines the wall."""
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
     k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
@@ -41,7 +41,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Return the length (<= h) and final state of a step to |Z2| = d0, and the number of tries."""
+    """Return length (<= h) and final state of the step that ends at |Z2| = d0; number of tries."""
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])
@@ -75,10 +75,10 @@ def located(p, side, t, h, y, tolerance):
 
 @kernel
 def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
-    """Integrate y in place from t to end, first with a step h. Rows of `ends` get time and state.
+    """Integrate y in place from t to end; h: first step. Write time and state of steps to `ends`.
 
     Return four numbers: the wall in contact (always `side` without `locate`), the length of the
-    next step, the number of accepted steps (-1 if the run failed), and that of computed steps.
+    next step, the number of accepted steps (-1 if the run failed), the number of computed steps.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, tries = 0, 0
@@ -122,7 +122,7 @@ class Merson(FixedStep):
         times, states, status, work = [np.array([begin])], [start[None]], "ended", 0
         ends, period = np.empty((MOST_ENDS, 5)), 2 * math.pi / p[FREQUENCY]
         y, side, h = start.copy(), side_of(p, start), FIRST * period
-        # Time is set back to `begin` in each cycle, so its rounding errors do not grow.
+        # Each cycle begins at the time `begin` again, so rounding errors of time do not grow.
         for k in range(periods):
             side, h, steps, tries = advance_merson(
                 p, y, side, begin, begin + period, h, tolerance, locate, ends

@@ -1,4 +1,4 @@
-"""SciPy's integrators with a compiled rate; they step over contacts or locate them as events."""
+"""SciPy's integrators with a compiled rate. Steps pass over contacts, or events locate contacts."""
 
 import math
 
@@ -12,12 +12,12 @@ from impact_damper.kernel.single import side_of
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
 BY_POSITION = 2  # value of `side` for which the position Z2 determines the wall in contact
-UNLIMITED = 2**62  # number of evaluations of the rate that no run reaches
+UNLIMITED = 2**62  # limit of evaluations of the rate, which no run reaches
 
 
 @kernel
 def derivative(t, y, p, side, left):
-    """Return the rate. `left` counts the evaluations left; below 0 OverflowError is raised."""
+    """Return the rate; raise OverflowError after the number of evaluations allowed by `left`."""
     left[0] -= 1
     if left[0] < 0:
         raise OverflowError("too many evaluations")
@@ -41,7 +41,7 @@ def solved(method, p, y, span, side, tolerance, left, **options):
 
 
 def parts(method, p, start, t, end, tolerance, locate, left):
-    """Yield results of `solve_ivp`. If `locate`, a run is divided where contacts begin and end."""
+    """Yield results of `solve_ivp`: one or, if `locate`, one for each flight and contact."""
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
     while status == 1:
@@ -57,7 +57,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods, with numbers of operations (see the comment at INTEGRATORS)."""
+    """One of SciPy's methods. The comment at INTEGRATORS explains the numbers of operations."""
 
     tolerances = "scipy"
     slow = True
@@ -93,10 +93,10 @@ class SciPy(Integrator):
         return (np.abs(result.y[2]), abs(result.sol(time)[2])) if result.success else None
 
 
-# Operations of an evaluation besides the rate, for 4 components. A product with its sum is two.
-# DOP853: in each component about 6 products for the next state, and 4 for result and error.
-# LSODA: in each component 21 products for about 6 derivatives. A system of four equations takes
-#     2 * 4^2 operations to solve. The factorisation (LU) of its matrix takes 2/3 * 4^3.
+# `operations` of an evaluation besides the rate: 2 (multiply, add) for each term and 4 components.
+# DOP853: about 6 terms for the next state, and 4 terms for result and error.
+# LSODA: 21 terms for about 6 derivatives, and 2 * 4^2 operations that solve four linear equations.
+# `factorising`: 2/3 * 4^3 operations of an LU factorisation, in LSODA only.
 INTEGRATORS = (
     SciPy("DOP853", 4, operations=4 * 2 * (6 + 4)),
     SciPy("LSODA", 5, operations=4 * 2 * 21 + 2 * 4**2, factorising=2 * 4**3 // 3),

@@ -1,4 +1,4 @@
-"""The event-driven Taylor series of the library, with any orders of the series."""
+"""The event-driven Taylor series of the library, for any orders of the series."""
 
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
@@ -24,16 +24,16 @@ from impact_damper.motions import traces
 FLIGHT, MEETING, CONTACT = range(3)
 # Orders of the library's series: in flight, and in contact.
 ORDERS = FLIGHT_ORDER, CONTACT_ORDER
-# Columns of the row of a step: time at the beginning, length, wall in contact before the step, wall
-# after the step (-1, 1, or 0 for none), and from SERIES on the coefficients of the series of Z1.
+# Columns of a step's row: time at the beginning, length, wall in contact before the step, wall in
+# contact after it (-1, 1, or 0 for none). From column SERIES on: Taylor coefficients of Z1.
 # ROWS is the largest number of steps in one call of `take_steps`.
 ROWS, SERIES = 4096, 4
-PARTS = 8  # number of parts of a step; a velocity is assumed to vanish at most once in a part
+PARTS = 8  # number of parts of a step; `turning_points` finds at most one zero of Z1' in a part
 
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Fill `rows` with steps from t towards `end`, update y; return row count, last time, wall."""
+    """Write steps from t towards `end` to `rows`, update y; return row count, last time, wall."""
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
@@ -56,14 +56,14 @@ def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order
 
 
 def steps_of(orders):
-    """Return addresses of both step kernels and of `constant_series`, and the workspace size."""
+    """Return addresses of flight step, contact step and `constant_series`, and workspace size."""
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.constant_series
     return np.array([*(compiled(each).address for each in called), module.SIZE])
 
 
 def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
-    """Return the rows of steps of a run from `start` at t, and the final state (NaN on failure)."""
+    """Return a row for each step of a run from `start` at t; and the last state, NaN on failure."""
     y, side = start.copy(), side_of(p, start)
     end, parts = t + periods * 2 * np.pi / p[FREQUENCY], []
     while t < end:
@@ -93,7 +93,7 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def turning_points(rows, series):
-    """Return the step, and the time within the step, of each turning point of `series`."""
+    """Return for each turning point of Z1 its step, and the time since the step began."""
     slopes = polyder(series)
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
     speeds = np.array([polyval(t, slopes, tensor=False) for t in edges])
@@ -116,7 +116,7 @@ def work_of_steps(counts, orders=ORDERS, tangents=False):
 
 
 def step_work(kind, orders=ORDERS, tangents=False):
-    """Return the operations of a step, within 1 % of their count in the generated source."""
+    """Return the number of operations of a step, within 1 % of a count in the generated source."""
     n = orders[kind == CONTACT]
     if kind == CONTACT:
         return 1.5 * n**2 + 40 * n + 405 + tangents * (4.5 * n**2 + 73 * n)
