@@ -1,9 +1,9 @@
-"""Tuned absorbers: their tuning to a machine, and the machine's response in closed form.
+"""Tuned absorbers: the tuning of an absorber to a machine, and the response in closed form.
 
-A machine of mass m1 has the dynamic stiffness K = k + i c w - m1 w^2 at the angular frequency w.
-An absorber is a mass m on a spring and a dashpot with the complex stiffness L = ka + i ca w. The
-acceleration of m is q = L/(L - m w^2) times that of the machine. A force F moves the machine by
-F/|K - m w^2 q|. A moving base also accelerates the absorber, which multiplies F by |1 + q m/m1|.
+The machine has mass m1, stiffness k, damping c. The absorber has mass m, stiffness ka, damping ca.
+With the angular frequency w, let K = k + i c w - m1 w^2, L = ka + i ca w and q = L/(L - m w^2).
+The absorber's acceleration is q times the machine's acceleration. A force of amplitude F moves the
+machine by F/|K - m w^2 q|. A moving base accelerates m too. This multiplies F by |1 + q m/m1|.
 """
 
 import math
@@ -18,10 +18,10 @@ from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 
-# POINTS frequencies surround the resonance, up to REACH times its width away. Over a given band
-# there are POINTS further frequencies.
+# POINTS: number of frequencies near the resonance, and number of frequencies over a given band.
+# REACH: largest distance of a frequency from the resonance, in widths of the resonance.
 POINTS, REACH = 1001, 8.0
-# TUNINGS, DAMPINGS: bounds of the logarithms of the absorber's frequency ratio and damping ratio.
+# TUNINGS bounds log(absorber frequency/machine frequency). DAMPINGS bounds log(damping ratio).
 TUNINGS, DAMPINGS, TOLERANCE, SEED = (-1.5, 1.0), (-7.0, 0.7), 1e-7, 1995
 COMPETITORS = ("bare", "tuned", "own")
 # Factors of the machine's excitation, from 1/4 to 4.
@@ -32,11 +32,11 @@ DETUNINGS = (-0.1, 0.0, 0.1)
 def absorber_responses(
     machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None, own=None
 ):
-    """Return a dataset of displacements (mm) without absorber, with a tuned one, and with `own`.
+    """Return a dataset of displacements (mm): no absorber, a tuned absorber, the absorber `own`.
 
     The tuned absorber has the mass `mass` (kg). It is tuned over the range `band` (Hz).
-    `force_shares` multiply the excitation. `detunings` are relative changes of the absorbers'
-    stiffness. A machine without linear stiffness has no tuned absorber.
+    `force_shares` are factors of the excitation. `detunings` are relative changes of the absorbers'
+    stiffness. If the machine has no linear stiffness, values with a tuned absorber are NaN.
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)
@@ -67,7 +67,7 @@ def absorber_responses(
 
 @cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the absorber that minimises the linear machine's largest displacement over `band`."""
+    """Minimise the largest displacement over `band` without cubic spring. Return the absorber."""
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
 
@@ -80,13 +80,13 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
         stiffness, force = _dynamics(linear, absorber(*logs), frequencies)
         return np.max(force / np.abs(stiffness))
 
-    # The largest displacement has a kink at the optimum. Methods that use slopes stop too early.
+    # The largest displacement has a kink at the optimum, so methods that use slopes stop too early.
     given = {"rng": SEED, "tol": TOLERANCE, "atol": 0, "polish": False}
     return absorber(*differential_evolution(highest, (TUNINGS, DAMPINGS), **given).x)
 
 
 def _frequencies(machine, ratio, band):
-    """Return the frequencies (Hz) of the search: over the band or, if None, near the resonance."""
+    """Return frequencies (Hz) for the tuning: over `band`, or near the resonance if None."""
     critical = 2 * math.sqrt(machine.linear_stiffness * machine.mass)
     width = min(math.sqrt(ratio) + machine.viscous_damping / critical, 1.0)
     ends = 1 + REACH * width * np.array([-1.0, 1.0])
@@ -100,9 +100,9 @@ def _frequencies(machine, ratio, band):
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     """Return largest amplitudes (m) at frequencies (Hz), shape (frequencies, force shares).
 
-    Amplitudes of a linear machine are exact. With a cubic spring they follow from harmonic balance.
-    Solutions between two folds are left out, and also those above the barrier of a softening
-    spring. If none is left, the amplitude is infinite. Other instabilities are not found.
+    Amplitudes of a linear machine are exact. Harmonic balance gives amplitudes with a cubic spring.
+    Left out are solutions between two folds, and solutions above the amplitude at which a softening
+    spring has no force. If no solution is left, the amplitude is infinite.
     """
     oscillator = machine.oscillator()
     pairs = zip(*_dynamics(machine, absorber, np.asarray(frequencies)), strict=True)
@@ -114,7 +114,7 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
 
 
 def _dynamics(machine, absorber, frequencies):
-    """Return two dimensionless arrays over frequencies (Hz): linear dynamic stiffness, force."""
+    """Return two dimensionless arrays over frequencies (Hz): stiffness K - m w^2 q, force."""
     scales, oscillator = machine.scales, machine.oscillator()
     w = scales.from_si(frequencies, "frequency")
     force = oscillator.force + oscillator.unbalance * w**2

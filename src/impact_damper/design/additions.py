@@ -1,4 +1,4 @@
-"""Additions to the decision of a design. Each takes the task and the dataset of the decision."""
+"""Additions to the decision of a design: functions of the task and of the decision's dataset."""
 
 from dataclasses import replace
 
@@ -19,16 +19,16 @@ from impact_damper.design.task import NOMINAL, VARIED, labelled
 from impact_damper.design.transients import transients
 from impact_damper.motions.strobe_map import strobe_time
 
-# Argument `count` of `Task.few` in `force_map`.
+# Number of evenly spaced frequencies of `force_map`, besides resonances and the critical frequency.
 FREQUENCIES = 5
 # Loose mass of the heavier damper, divided by the loose mass of the task.
 HEAVIER = 2.0
-# Number of cycles over which the contact force of a motion that is not periodic is measured.
+# Number of cycles in which the contact force is measured if the motion is not periodic.
 WATCHED = 100
 
 
 def force_map(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of promised displacements over frequency and force, else nominal values."""
+    """Return promised displacements over frequency and excitation, for nominal values."""
     critical = float(decision["promised_frequency"])
     frequencies, shares = task.few(FREQUENCIES, critical), np.array(SHARES)
     sets = np.tile(NOMINAL, (len(shares), 1))
@@ -42,10 +42,10 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 
 
 def other_masses(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset that compares the damper with a heavier one, whose gap is searched briefly.
+    """Return a dataset that compares the damper of the task with a heavier damper.
 
-    The dataset is empty if the damper is to be built and misses no limit, or if the loose mass of
-    the heavier damper would exceed the mass of the machine.
+    One round of the search finds the gap of the heavier damper. The dataset is empty if the damper
+    of the task is good enough, or if the heavier loose mass exceeds the mass of the machine.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"
@@ -67,7 +67,7 @@ def other_masses(task, decision, progress=None) -> xr.Dataset:
 
 
 def _force(task, gap, frequency):
-    """Return the contact force (N) of the largest motion at a gap (mm); NaN after an escape."""
+    """Return the largest motion's contact force (N) at a gap (mm), NaN if the motion escapes."""
     cell = Cell(1e-3 * gap, frequency)
     motions = run(task, [cell], task.effort.starts, ("masses",))
     k, p = int(np.argmax(motions.peaks[0])), task.packed(*cell)
@@ -79,7 +79,7 @@ def _force(task, gap, frequency):
 
 
 def competitors(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of responses: machine alone, with a tuned and with the task's absorber."""
+    """Return a dataset of responses: no absorber, a tuned absorber, the absorber of the task."""
     band = task.absorber_band
     found = absorber_responses(task.machine, task.mass, task.grid, band=band, own=task.absorber)
     return found.assign_coords(labelled({}, frequency=task.grid).coords)

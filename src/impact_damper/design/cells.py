@@ -1,9 +1,9 @@
-"""Motions from random starts at cells, and the displacement that bounds a share of all starts.
+"""Motions from random starts, and the displacement below which a share of all motions stays.
 
-A cell is a gap, a forcing frequency and a set of factors. A factor multiplies a value that may
-deviate. A start is a random initial state. A record is the largest displacement of a motion so far.
-A regime is a set of motions of one cell that have not settled and have similar records.
-docs/explanation/promise.md says how the displacement of a regime is extrapolated.
+A cell is a gap, a forcing frequency, and a factor for each value that may deviate from its nominal
+value. The record of a motion is the largest displacement that the motion has reached so far.
+A regime is a group of motions of one cell that have not settled. The records in a regime are
+similar. docs/explanation/promise.md says how the displacement of a regime is extrapolated.
 """
 
 from dataclasses import dataclass, fields
@@ -21,35 +21,35 @@ from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETT
 from impact_damper.motions.start_states import random_starts
 from impact_damper.motions.steady import run_chunks
 
-# Outcomes with a known largest displacement: LASTING of the first run, KEPT of further runs.
+# Outcomes after which the largest displacement is known: LASTING (first run), KEPT (later runs).
 LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)
 KEPT = (SETTLED, NON_COLLIDING, AT_REST)
-# Purposes for which starts are drawn. The index of a purpose is part of the seed. A choice and its
-# confirmation therefore have different starts.
+# Purposes for which starts are drawn. The seed of the starts depends on the purpose. The search for
+# a gap and the confirmation of the gap therefore use different starts.
 STREAMS = "search compared confirmed orbit forces masses repeated shocks searched_again".split()
-# A thread draws the starts of at most DRAWN cells at once, and runs at most FOLLOWED motions at
-# once. At most TOGETHER regimes are run further before bounds are compared again.
+# Largest numbers in one step. DRAWN: cells whose starts a thread draws. FOLLOWED: motions that a
+# thread runs. TOGETHER: regimes that are run before the bounds of all cells are compared again.
 DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
-# Largest ratio of a record in a regime to the next smaller record.
+# Largest ratio of a record in a regime to the next smaller record in this regime.
 APART = 1.3
-# A peak is the largest displacement of a motion in BLOCK cycles. The displacement that a regime
-# exceeds once in HORIZON cycles is extrapolated from its TAIL largest peaks.
+# A peak is the largest displacement of a motion in BLOCK cycles. `return_level` extrapolates the
+# TAIL largest peaks of a regime to the displacement that is exceeded once in HORIZON cycles.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
-# The cycles of all motions of a regime are added. From POOLED cycles on, the displacement is
-# extrapolated. From MOST_POOLED cycles on, the regime is not run further.
+# Numbers of cycles, summed over the motions of a regime. POOLED: least number for extrapolation.
+# MOST_POOLED: number after which the regime is not run further.
 POOLED, MOST_POOLED = 25_000, 200_000
-# Relative growth of a record that is assumed for each doubling of the cycles up to POOLED.
+# Fraction by which a record is assumed to grow when the cycles double, until they reach POOLED.
 MISSING = 0.03
-# A regime is a torus if its largest displacements in QUARTERS parts of the run differ by at most
-# the fraction STEADY, or ROUGH if gaps are only compared. SLACK: largest fraction by which a
-# settled motion exceeds its orbit.
+# QUARTERS: number of parts of a run. A regime is a torus if the largest displacements of the parts
+# differ by at most a fraction of the record: ROUGH in a comparison of gaps, otherwise STEADY.
+# SLACK: largest fraction by which a settled motion exceeds the displacement of its orbit.
 QUARTERS, STEADY, ROUGH, SLACK = 4, 0.002, 0.01, 0.001
-# Number of cycles in which a motion may still settle before it is run further.
+# Before a regime is run further, its motions get CHECKED cycles in which they may settle.
 CHECKED = 100
 
 
 class Cell(NamedTuple):
-    """A gap (m), a forcing frequency (Hz), and the factors of the values that may deviate."""
+    """A gap (m), a forcing frequency (Hz), and a factor for each value that may deviate."""
 
     gap: float
     frequency: float
@@ -59,7 +59,7 @@ class Cell(NamedTuple):
 def draw_starts(task, cells, count, stream) -> np.ndarray:
     """Return `count` random starts for each cell, shape (cells, count, 4).
 
-    The tuple `stream` is a name in STREAMS, followed by numbers if the name is used several times.
+    The tuple `stream` begins with a name in STREAMS. If a name is used repeatedly, numbers follow.
     """
     states, stop = np.empty((len(cells), count, 4)), np.zeros(1, bool)
     name, *turn = stream
@@ -83,18 +83,18 @@ class Motions:
     ----------
     parameters : array, shape (m, packed.COUNT)
     records : array of records.MOTION, shape (m, n)
-        Results of the first run, in which each motion settles or is stopped.
+        Results of the first run, which ends when the motion settles or is stopped.
     states : array, shape (m, n, 4)
         States of the motions at their last strobe. The strobe is a fixed phase of the forcing.
     settled : array of bool, shape (m, n)
         Whether the largest displacement of the motion is known.
     peaks : array, shape (m, n)
-        Largest displacement of a motion that has settled, record of any other motion.
+        Largest displacement of a settled motion, or record of any other motion.
     early : array, shape (m, n, QUARTERS)
-        Largest displacement in each quarter of the `Settling.watched` cycles after the first run, 0
-        for a motion that has settled.
+        Largest displacement in each quarter of the `Settling.watched` cycles after the first run.
+        The entries of a settled motion are 0.
     blocks : array of arrays, shape (m,)
-        Largest displacement in each block of BLOCK cycles, shape (n, blocks), NaN if not run.
+        Largest displacement in each block of BLOCK cycles, shape (n, blocks); NaN without a run.
     """
 
     task: object
@@ -107,7 +107,7 @@ class Motions:
     blocks: np.ndarray
 
     def regimes(self, k) -> list:
-        """Return the regimes of cell k, each as an array of the indices of its motions."""
+        """Return the regimes of cell k. A regime is an array of the indices of its motions."""
         places = np.flatnonzero(~self.settled[k])
         order = places[np.argsort(self.peaks[k, places], kind="stable")]
         sizes = self.peaks[k, order]
@@ -115,10 +115,10 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime, rough=False) -> tuple:
-        """Return a regime's displacement, whether it is known, and whether it passed a test.
+        """Return a regime's displacement, whether the displacement is known, whether a test passed.
 
-        With `rough` the displacement depends less on the number of motions in the regime. Then it
-        serves to compare gaps, and is no bound.
+        The test is described below. `rough` is for comparing gaps: then the displacement depends
+        less on the number of motions in the regime, and is no bound.
         """
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
@@ -142,14 +142,14 @@ class Motions:
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
     def numbers(self, k, rough=False) -> tuple:
-        """Return two arrays over the starts of cell k: displacement, and whether it is known."""
+        """Return two arrays over the starts of cell k: displacements, masks of known ones."""
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
             sizes[regime], known[regime], _ = self.measured(k, regime, rough)
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return three arrays over cells: `rank`-th largest displacement, its start, 1 if known."""
+        """Return for all cells: `rank`-th largest displacement, index of its start, 1 if known."""
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)
@@ -158,14 +158,14 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether a regime of cell k fails the test in `measured` at MOST_POOLED cycles."""
+        """Return whether a regime of cell k still fails the test of `measured` at MOST_POOLED."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 
     def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
-        """Run motions further until the largest bound is known or at most `least`; return bounds.
+        """Run motions until the largest bound is known or at most `least`. Return all bounds.
 
-        The bound of a cell is its `rank`-th largest displacement. Cells in `left_out` are skipped.
+        The bound of a cell is its `rank`-th largest displacement. Cells in `left_out` are not run.
         """
         while True:
             bounds, places, known = self.bounds(rank)
@@ -179,9 +179,9 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Run a regime of cell k for as many cycles as before; at first at least POOLED/2 cycles.
+        """Double the cycles of a regime of cell k; the first time run at least POOLED/2 in total.
 
-        Records of the first run are dropped, because they may include transients.
+        The first time, earlier records are dropped, because they may include transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):
@@ -198,7 +198,7 @@ class Motions:
         self.peaks[k, loud] = np.maximum(before, peaks[loud].max(axis=1))
 
     def _settle(self, k, places):
-        """Run motions of cell k for up to CHECKED cycles. Return the mask of those that settle."""
+        """Run motions of cell k for at most CHECKED cycles. Return the mask of settled motions."""
         effort = self.task.effort
         found = ensemble.settle(
             np.repeat(self.parameters[k : k + 1], len(places), axis=0),
@@ -214,7 +214,7 @@ class Motions:
         return on
 
     def join(self, other) -> "Motions":
-        """Return one object with the cells of this object, followed by the cells of `other`."""
+        """Return a new object with the cells of this object, followed by the cells of `other`."""
         pairs = {
             each.name: np.concatenate([getattr(self, each.name), getattr(other, each.name)])
             for each in fields(self)
@@ -224,7 +224,7 @@ class Motions:
 
 
 def run(task, cells, count, stream, progress=None) -> Motions:
-    """Return the motions from `count` random starts at each cell, after a first run."""
+    """Run motions from `count` random starts at each cell (first run). Return the motions."""
     starts = draw_starts(task, cells, count, stream)
     parameters = np.array([task.packed(*cell) for cell in cells])
     rows, effort = np.repeat(parameters, count, axis=0), task.effort
@@ -255,10 +255,10 @@ def run(task, cells, count, stream, progress=None) -> Motions:
 
 
 def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
-    """Run motions in blocks; return the largest displacements in them, shape (motions, number).
+    """Run motions. Return the largest displacement in each block, shape (motions, number).
 
-    Each of the `number` blocks has `cycles` forcing cycles and begins at a strobe. `states` change
-    in place. Displacements are infinite from an escape on.
+    There are `number` blocks of `cycles` forcing cycles. Each block begins at a strobe. The final
+    states replace `states`. After an escape, displacements are infinite.
     """
     peaks = np.zeros((number, len(states)))
     sides = np.array([side_of(*each) for each in zip(parameters, states, strict=True)], np.int64)
@@ -276,11 +276,11 @@ def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
 
 
 def return_level(peaks) -> float:
-    """Return the displacement exceeded once in HORIZON cycles, but at least the largest peak.
+    """Return the displacement exceeded once in HORIZON cycles, or the largest peak if larger.
 
-    The excesses over a high level are assumed to be distributed exponentially (S. Coles, An
-    Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). The tail of a bounded
-    motion is shorter. The displacement returned is therefore too large rather than too small.
+    Excesses of peaks over a high level are assumed to be distributed exponentially (S. Coles, An
+    Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). A bounded motion has
+    fewer large peaks than this distribution, so the result tends to be too large, not too small.
     """
     peaks = np.sort(peaks[np.isfinite(peaks)])
     tops = peaks[-TAIL - 1 :]

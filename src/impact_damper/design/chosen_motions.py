@@ -1,4 +1,4 @@
-"""Largest motions with the chosen gap over the band, and their costs (impacts, forces, losses)."""
+"""Largest motion with the chosen gap at each frequency, and its costs (impacts, forces, losses)."""
 
 from dataclasses import replace
 
@@ -16,13 +16,13 @@ from impact_damper.motions import traces
 from impact_damper.motions.response import frequency_response
 from impact_damper.motions.strobe_map import strobe_time
 
-# SAMPLES: number of states in a forcing cycle from which the largest displacement is found.
-# WATCHED: number of cycles over which a motion that has not settled is measured.
+# SAMPLES: number of states in a forcing cycle that are searched for the largest displacement.
+# WATCHED: number of cycles in which a motion is measured if it has not settled.
 SAMPLES, WATCHED = 64, 200
 # STARTS: largest number of random starts at each frequency of the response.
-# FURTHER: largest number of further cycles in which a motion that has not settled is classified.
+# FURTHER: largest number of cycles that are added to classify a motion that has not settled.
 STARTS, FURTHER = 32, 1500
-# Variable of the dataset: (key of the cost in `costs.measured_costs`, physical quantity).
+# Variable of the dataset -> (key in the result of `measured_costs`, physical quantity).
 COSTS = {
     "impact_rate_by_frequency": ("impact_rate", "rate"),
     "contact_force_by_frequency": ("contact_force", "force"),
@@ -35,14 +35,14 @@ COSTS = {
 
 
 def response_and_costs(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of all motions with the chosen damper, and the costs of the largest ones."""
+    """Return a dataset: motions with the chosen damper, and costs of the largest motions."""
     effort = task.effort
     settling = replace(effort.settling, further=FURTHER)
     searched = {"starts": min(STARTS, effort.starts), "seed": effort.seed, "settling": settling}
     searched |= {"workers": effort.workers, "progress": progress}
     damper = task.damper(1e-3 * float(decision["design_gap"]))
     motions = frequency_response(task.machine, damper, task.grid, **searched)
-    # The coordinate must be exactly that of the other steps, whose datasets are merged.
+    # All steps must have exactly equal frequencies, because their datasets are merged.
     motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
     return motions.merge(reached_motions(task, decision, motions))
 
@@ -50,9 +50,9 @@ def response_and_costs(task, decision, progress=None) -> xr.Dataset:
 def reached_motions(task, choice, response) -> xr.Dataset:
     """Return a dataset of the largest motion reached at each frequency, with its costs.
 
-    A motion is reached if random starts lead to it. A motion with contacts is also reached if only
-    starts placed by the program lead to it. `untouched_displacement` is the displacement of the
-    largest motion without contacts to which only placed starts lead.
+    A motion is reached if a random start leads to it. A motion with contacts is also reached if
+    only a start placed by the program leads to it. `untouched_displacement` is the displacement of
+    the largest motion that has no contacts and to which only placed starts lead.
     """
     sizes = response["maximum_displacement"].values
     placed = response["origin"].values == flag("origin", "placed_start")
@@ -74,10 +74,10 @@ def reached_motions(task, choice, response) -> xr.Dataset:
 
 
 def _measured(task, case, size, state, periods):
-    """Return the values of the dataset's variables for one motion, keyed by variable.
+    """Return a dictionary of the dataset's variables, with the values of one motion.
 
-    `size` (mm) is the largest displacement in earlier runs, infinite after an escape. `state` is
-    the state of the motion at a strobe (a fixed phase of the forcing).
+    `size` (mm) is the largest displacement in earlier runs, infinite if the motion escaped. `state`
+    is the state of the motion at a strobe (a fixed phase of the forcing).
     """
     if not np.isfinite(size):
         return dict.fromkeys(("pressure_by_frequency", *COSTS), np.nan) | {

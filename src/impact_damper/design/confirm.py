@@ -13,22 +13,22 @@ from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import Curve, score, search, search_around
 from impact_damper.design.task import NOMINAL, SIDES, VARIED, Task, labelled
 
-# A result is confirmed if the search chooses a tried gap again, or if the least promise is at most
-# CONFIRMED times the displacement that the search has found. At most ROUNDS gaps are tried.
+# ROUNDS: largest number of gaps that are tried. The search is confirmed if it chooses a gap twice,
+# or if the least promise is at most CONFIRMED times the displacement at the gap that it chooses.
 CONFIRMED, ROUNDS = 1.05, 4
-# Nearby gaps are run again if a promise exceeds SURPRISE times the displacement of the search.
+# If a promise exceeds SURPRISE times the displacement of the search, nearby gaps are run again.
 SURPRISE = 1.1
 
 
 class Tried(NamedTuple):
-    """A gap (mm) that was tried, with its `Promise` (bounds of the displacement)."""
+    """A gap (mm) that was tried, and the `Promise` of this gap (bounds of the displacement)."""
 
     gap: float
     promise: Promise
 
     @property
     def harmful(self) -> np.ndarray:
-        """Two sets of factors: the nominal set, and the worst set with the nominal gap."""
+        """Nominal set of factors, and worst set with the factor of the gap changed to 1."""
         worst = self.promise.sets[self.promise.worst[0]].copy()
         worst[0] = 1
         return np.unique([NOMINAL, worst], axis=0)
@@ -41,7 +41,7 @@ class Tried(NamedTuple):
 
 
 def find_gap(task: Task, progress=None) -> xr.Dataset:
-    """Search for the best gap, try it with new starts, and return the dataset of the decision."""
+    """Search for the best gap, confirm the gap with new starts, and return the decision."""
     curve, tried, status = search(task, progress), [], "rounds_ended"
     for turn in range(ROUNDS):
         choice = curve.choose()
@@ -56,7 +56,7 @@ def find_gap(task: Task, progress=None) -> xr.Dataset:
             status = "confirmed"
             break
     best = min(tried, key=lambda each: each.promise.size)
-    if len(tried) > 1:  # the smallest of several numbers is too small on average
+    if len(tried) > 1:  # the smallest of several promises is too small on average
         best = confirm(task, best.gap, len(tried), best.promise.sets, progress)
     return conclude(task, best, curve, status)
 
@@ -70,7 +70,7 @@ def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
 
 
 def confirm(task, gap, turn, sets, progress=None) -> Tried:
-    """Return a gap (mm) with its promise from new starts."""
+    """Return a gap (mm) and its promise, computed from new starts."""
     stream = "confirmed", turn
     return Tried(gap, Promise(task, 1e-3 * gap, sets, stream, progress=progress).refined())
 
@@ -96,7 +96,7 @@ def learn(task, tried, turn, curve, progress=None) -> None:
 
 
 def conclude(task, found, curve, status) -> xr.Dataset:
-    """Return the dataset of the decision and of all numbers behind the decision."""
+    """Return the dataset of the decision and of all numbers that led to the decision."""
     promise = found.promise
     frequencies = np.unique([f for _, f in promise.cells])
     table = np.full((len(promise.sets), len(frequencies)), np.nan)
@@ -105,7 +105,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
     worst_set, worst_frequency = promise.worst
     bare = task.bare_at(frequencies)
     most = float(task.bare.max())
-    ratio = np.where(np.isfinite(bare), table[0] / bare, 0.0)  # 0 at escapes without damper
+    ratio = np.where(np.isfinite(bare), table[0] / bare, 0.0)  # 0 where bare is infinite
     k = int(np.nanargmax(ratio))
     limit = np.nan if task.displacement_limit is None else 1e3 * task.displacement_limit
     ends, beyond = curve.keeping(found.gap, KEEPS * promise.size)
@@ -169,7 +169,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return a dataset of largest displacements with a tuned, a detuned and the task's absorber."""
+    """Return largest displacements with three absorbers: tuned, detuned, and given in the task."""
     band = task.absorber_band
     found = absorber_responses(
         task.machine, task.mass, task.grid, [1.0], band=band, own=task.absorber
@@ -187,9 +187,9 @@ def rivals(task) -> xr.Dataset:
 
 
 def _end(beyond, size):
-    """Return the name of the flag `keeping_end`: what ends the gaps that keep the promise.
+    """Return a name of the flag `keeping_end`: what ends the range of gaps that keep the promise.
 
-    `beyond` is the displacement (mm) at the next gap outside, NaN if the search ended there.
+    `beyond` is the displacement (mm) at the first gap beyond the range, NaN if no gap was searched.
     """
     if np.isnan(beyond):
         return "search_ends"
@@ -197,5 +197,5 @@ def _end(beyond, size):
 
 
 def _tolerated(task, curve: Curve):
-    """Return the largest displacement (mm) within the tolerance of each searched gap."""
+    """Return for each searched gap the largest displacement (mm) at gaps within its tolerance."""
     return curve.within(*task.gap_ends(curve.gaps))

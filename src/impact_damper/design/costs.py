@@ -16,11 +16,11 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
 
 def measured_costs(p, y, begin, periods) -> dict:
-    """Return the dimensionless costs of a motion over a number of forcing cycles.
+    """Return a dictionary of the dimensionless costs of a motion over `periods` forcing cycles.
 
-    `impact_rate` and `impact_speed` are of contacts that begin in these cycles. Forces and powers
-    are divided by the primary mass. Rates, forces, accelerations and powers are NaN if the motion
-    escapes. Accelerations are absolute. The absolute displacement is NaN without a moving base.
+    `impact_rate` and `impact_speed` include only contacts that begin in these cycles. Forces and
+    powers are divided by the primary mass. Accelerations are absolute. After an escape, rates,
+    forces, accelerations and powers are NaN. `absolute_displacement` needs a moving base.
     """
     time = periods * 2 * np.pi / p[FREQUENCY]
     panels = sampled(p, y, begin, begin + time, POLISH_TOLERANCE)
@@ -29,7 +29,7 @@ def measured_costs(p, y, begin, periods) -> dict:
     wall, (x, v) = panels.wall[:, None], np.moveaxis(panels.states, -1, 0)[:2]
     depth, rate = penetration(p, panels.states, wall)
     contact = wall_force(p, depth, rate)
-    # Only kernels can call these compiled functions. `py_func` is the function before compilation.
+    # Python cannot call the compiled `forcing_amplitude` and `spring`, only their `py_func`.
     external = forcing_amplitude.py_func(p) * np.cos(p[FREQUENCY] * panels.times)
     free = (1 - p[BASE]) * external - p[DAMPING] * v - spring.py_func(p, x)
     absolute = largest(x + base_displacement(p, panels.times)) if p[BASE] else np.nan

@@ -1,4 +1,4 @@
-"""A damper for a machine and a band of frequencies: its gap, and what the machine then does."""
+"""Design or evaluation of a damper for a machine and a band of frequencies."""
 
 import hashlib
 import json
@@ -37,10 +37,10 @@ def design_damper(
     folder=None,
     progress=False,
 ):
-    """Find the gap with which a machine moves least, and say how far it moves.
+    """Find the gap with which a machine moves least, and say how far the machine moves.
 
-    A start is a random initial state. The promised displacement of a gap is a bound. At least the
-    fraction `share` of all starts leads to motions below this bound, with 95 % confidence. The
+    A start is a random initial state. The promised displacement of a gap is a bound: the motions
+    from at least the fraction `share` of all starts stay below the bound, with 95 % confidence. The
     bound holds at each frequency of the band and for the worst values within the tolerances. The
     chosen gap is confirmed with starts that the search has not used.
 
@@ -48,34 +48,34 @@ def design_damper(
     ----------
     machine : Machine
     mass : float or str
-        Loose mass, kg, at most the mass of the machine. All physical values are numbers in the SI
-        unit, texts with units such as "0.6 kg", or quantities of pint.
+        Loose mass, kg, at most the mass of the machine. Each physical value is a number in SI
+        units, a text with a unit such as "0.6 kg", or a quantity of pint.
     band : sequence of 2 floats or str
         Least and greatest forcing frequency, Hz. The band must reach into the resonance.
     restitution : float
         Coefficient of restitution, 0.05 to 1.
     contact : float, str or HertzContact
         Stiffness of the contact, N/m, or the contact of curved bodies. The stiffness of curved
-        bodies depends on the speed of impact. This speed is taken as that of a loose mass which
-        crosses the gap of the paper's rule (18) in half a cycle at mid-band.
+        bodies depends on the speed of impact. The speed is assumed to be 2 f g: f is the middle
+        frequency of the band, g the gap by the paper's rule (18) at f.
     mount : dict, optional
         Arguments of `impact_damper.model.machine.mounting`, such as {"inclination": "90 deg"} or
         {"friction_coefficient": 0.1}. By default the gap is horizontal and without friction.
     tolerances : dict, optional
         Largest deviations of gap, contact_stiffness, stiffness, damping, force, restitution,
         gravity and friction. A deviation is relative, such as {"gap": "10 %"}. The first five may
-        have a unit, such as {"gap": "0.2 mm"}. By default only the gap deviates, by 20 %.
+        have a unit instead, such as {"gap": "0.2 mm"}. The default is {"gap": "20 %"}.
     displacement_limit : float or str, optional
-        Largest displacement that is allowed, m. The promised displacement is compared with it.
+        Largest allowed displacement, m. The promised displacement is compared with this limit.
     share : float
         Fraction of all starts for which the promised displacement holds, 0.5 to 0.999.
     absorber : dict, optional
-        A second tuned absorber for the comparison, besides the optimum one: its `mass` (kg),
-        `stiffness` (N/m) and `damping` (N s/m).
+        `mass` (kg), `stiffness` (N/m) and `damping` (N s/m) of an absorber, which is compared in
+        addition to the optimum absorber.
     effort : Effort, optional
         How many frequencies, gaps and starts are computed, and with how many threads.
     folder : str or pathlib.Path, optional
-        Folder for the results of finished steps. An interrupted design continues from them.
+        Folder for results of finished steps. An interrupted design continues from these results.
     progress : bool
         Whether progress bars are shown.
 
@@ -83,17 +83,17 @@ def design_damper(
     -------
     xarray.Dataset
         The attribute `units` of a variable is its unit, such as mm, Hz or N. `design_gap` is the
-        gap. `promised_displacement` is the bound. `decision` is a number that `decode` translates.
+        gap, `promised_displacement` the bound. `decision` is a number that `decode` translates.
         `plot.conclusion` gives the result in sentences, and `plot.design` draws the result.
 
     Raises
     ------
     TypeError, ValueError
-        If an argument has a wrong type or is out of range. The message has its name and value.
+        If an argument has a wrong type or is out of range. The message names argument and value.
 
     Examples
     --------
-    A share of 95 % at 95 % confidence needs 59 starts:
+    A share of 95 % at 95 % confidence needs at least 59 starts:
 
     >>> import impact_damper as idm
     >>> machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.005, force=40)
@@ -134,7 +134,7 @@ def evaluate_damper(
     folder=None,
     progress=False,
 ):
-    """Say how far a machine moves with an existing damper: its promised displacement.
+    """Find the promised displacement of a machine with an existing damper.
 
     Parameters
     ----------
@@ -142,17 +142,17 @@ def evaluate_damper(
     damper : MachineDamper
         A result of `Machine.damper`.
     band, tolerances, displacement_limit, share, absorber, effort, folder, progress
-        As for `design_damper`.
+        See `design_damper`.
 
     Returns
     -------
     xarray.Dataset
-        As from `design_damper`.
+        See `design_damper`.
 
     Raises
     ------
     TypeError, ValueError
-        If an argument has a wrong type or is out of range. The message has its name and value.
+        If an argument has a wrong type or is out of range. The message names argument and value.
 
     Examples
     --------
@@ -216,9 +216,9 @@ def answer(task, decide, title, folder, progress) -> xr.Dataset:
 
 
 class Steps:
-    """Runs the steps of a design. With a folder, the dataset of each step is kept in a file.
+    """Runs the steps of a design. If a folder is given, each step keeps its dataset in a file.
 
-    A file is used again if `inputs` and the source files are unchanged.
+    Later runs read this file if `inputs` and the source files of the package are unchanged.
     """
 
     def __init__(self, folder, progress, inputs):
@@ -226,7 +226,7 @@ class Steps:
         self.made = json.dumps(inputs | {"sources": _sources()}, sort_keys=True)
 
     def step(self, name, compute, *given):
-        """Return the dataset of `compute`, read from a file that is made from the same inputs."""
+        """Return the dataset of `compute`, from a file if one was made with equal inputs."""
         title = name.capitalize() if self.progress else None
         if self.folder is None:
             return compute(*given, progress=title)
@@ -236,7 +236,7 @@ class Steps:
             if kept.attrs.get("made") == self.made:
                 return kept
         except (FileNotFoundError, BrokenFileError):
-            pass  # computed below
+            pass  # the dataset is computed below
         self.folder.mkdir(parents=True, exist_ok=True)
         found = compute(*given, progress=title)
         save(found.assign_attrs(made=self.made, source="impact-damper"), path)

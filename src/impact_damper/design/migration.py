@@ -1,8 +1,8 @@
 """Design for migration: gaps and frequencies at which a release of the damper is sure to succeed.
 
 A free motion is a forced motion without the damper. A machine with a cubic spring can have a large
-and a small one. During the large motion the damper is switched on and, at the release, off again.
-A release succeeds if it leads to the small motion (`motions.migration`).
+and a small free motion. During the large motion the damper is switched on. At the release the
+damper is switched off. The release succeeds if the small motion follows (`motions.migration`).
 """
 
 import json
@@ -36,20 +36,19 @@ def migration(
     effort=None,
     progress=None,
 ):
-    """Find gaps and frequencies at which releasing a damper leads to the small free motion.
+    """Find gaps and frequencies at which a release of the damper leads to the small free motion.
 
     During the large free motion the damper is switched on at a random phase, with the loose mass at
     a random place. The damper is switched off at a random phase after the motion has settled, or
-    after `longest_hold` cycles. `gaps` are in m, by default from the range of `design_damper`.
-    `effort.candidates` is the default number of gaps, `effort.starts` the number of releases at
-    each gap and frequency. `progress` is the title of a progress bar. Other arguments are as for
-    `design_damper`.
+    after `longest_hold` cycles. `gaps` are in m. By default they are `effort.candidates` gaps in
+    the range that `design_damper` searches. At each gap and frequency there are `effort.starts`
+    releases. `progress` is the title of a progress bar. For other arguments see `design_damper`.
 
     The dataset has for each gap and frequency: share of releases that succeed, median time of all
-    releases, `migration_bound`. The fraction `share` of all releases succeeds within this bound,
-    with 95 % confidence. The bound is finite at all frequencies with two free motions from the
-    `sure_frequency` of the gap on. `migration_gap` is the gap with the lowest `sure_frequency`.
-    A ValueError is raised if the machine has only one free motion at each frequency.
+    releases, `migration_bound` (a time). The fraction `share` of all releases succeeds within this
+    time, with 95 % confidence. Each gap has a `sure_frequency`. From this frequency on, the bound
+    is finite wherever there are two free motions. `migration_gap` is the gap with the lowest
+    `sure_frequency`. If there are two free motions at no frequency, ValueError is raised.
     """
     effort = Effort() if effort is None else effort
     task = Task(
@@ -90,7 +89,7 @@ def migration(
 
 
 def _case(task, gap, frequency):
-    """Return the `ReleaseCase` at a frequency, Hz, or None if there is only one free motion."""
+    """Return the `ReleaseCase` at a frequency (Hz), or None if there is only one free motion."""
     oscillator, damper, turning = task.system(gap, frequency)
     try:
         return release_case(oscillator, damper, turning, task.effort.settling)
@@ -99,7 +98,7 @@ def _case(task, gap, frequency):
 
 
 def release_time(case, seed, longest_hold, settling, stop) -> float:
-    """Return the cycles from switching on until the small motion is reached, or infinity."""
+    """Return how many cycles after switching on the small motion is reached; infinity if never."""
     draws = np.random.default_rng(seed).random((1, 3))
     _, log = control(case, draws, longest_hold, settling, 0, None, stop)
     reached = log["destination"][0] == FREE_MOTION["non_resonance"]
@@ -112,7 +111,7 @@ def _table(task, gaps, times, longest_hold) -> xr.Dataset:
     bounds = -np.sort(-times, axis=-1)[..., rank - 1]
     one = np.isnan(times[..., 0])
     sure = np.isfinite(bounds)
-    # Above the last frequency with two motions there is nothing to migrate.
+    # Frequencies above the last frequency with two free motions are left out.
     last = int(np.flatnonzero(~one.all(axis=0))[-1])
     lowest = np.full(len(gaps), np.nan)
     for i, row in enumerate(sure[:, : last + 1]):

@@ -9,38 +9,38 @@ from impact_damper.data.shares import DOUBT, bounding_rank
 from impact_damper.design.cells import STREAMS, Cell, run
 from impact_damper.design.task import VARIED
 
-# Largest number of corners, which are sets of factors with each value at an end of its tolerance.
+# Largest number of corners. In a corner each value is at one end of its tolerance.
 CORNERS = 8
-# The peak of a set of factors is its largest bound over the frequency. In at most SPLITS rounds,
-# frequencies are added beside the peaks that are at least NEAR times the largest one, until they
-# are known. An infinite peak is known. Any other peak is known if the last frequencies raised it by
-# at most the fraction PEAK, and if a parabola through it and two neighbours adds at most as much.
+# The peak of a set of factors is its largest bound over the frequency.
+# NEAR, SPLITS: at most SPLITS rounds add frequencies beside peaks of at least NEAR x largest peak.
+# PEAK: a finite peak is known if the last round raised the peak by at most this fraction, and if a
+# parabola through the peak and its two neighbours rises above the peak by at most this fraction.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-# Sets that deviate are run first at half of the grid's frequencies, or at FEWEST if that is more.
+# Sets other than the nominal set are first run at half of the frequencies, but at least FEWEST.
 FEWEST = 9
-# The usual displacement of a cell is the one that twice the allowed share of its starts exceeds. A
-# cell has rare motions if its bound exceeds RARE times the largest usual displacement. Such cells
-# are run again with MORE times as many starts, in groups of SOME, the largest bounds first. Runs
-# stop after a group in which a new bound exceeds KEPT times the least old bound of the group.
+# The fraction 2 (1 - share) of the motions of a cell exceeds the cell's usual displacement.
+# RARE: a cell has rare motions if its bound exceeds RARE times the largest usual displacement.
+# MORE, SOME: cells with rare motions are run again: MORE x as many starts, SOME cells at a time.
+# KEPT: no more cells are run if a new bound exceeds KEPT times the least old bound of these cells.
 RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
 class Promise:
-    """Motions at a gap (m) for sets of factors, over frequencies that are denser at peaks.
+    """Motions at one gap (m) for several sets of factors, and bounds of their displacement.
 
     Attributes
     ----------
     sets : array, shape (s, len(VARIED))
     cells : list of tuple
-        A cell is a tuple: index of the set, frequency (Hz). The order is that of `motions`.
+        A cell is a tuple: index of the set, frequency (Hz). `motions` has the same order.
     bounds : array, shape (cells,)
-        Bound (mm) of each cell: at least the fraction `task.share` of all starts stays below it.
+        Displacement (mm) below which at least the fraction `task.share` of all motions stays.
     peak_known : bool
-        Whether the peak over the frequency is known within PEAK.
+        Whether the peaks near the largest peak are known (see PEAK).
     grows : bool
-        Whether motions at the largest bound exceeded their extrapolation until their run ended.
+        Whether the cell with the largest bound has a regime that still grows (`Motions.grows`).
 
-    docs/explanation/promise.md shows why the number of cells needs no correction.
+    docs/explanation/promise.md shows why bounds need no correction for the number of cells.
     """
 
     def __init__(self, task, gap, sets, stream, count=None, frequencies=None, progress=None):
@@ -49,7 +49,7 @@ class Promise:
         self.progress, self.grows = progress, False
         self.rank = bounding_rank(task.share, self.count)
         self.cells, self.motions, self.peak_known = [], None, True
-        self.again = {}  # dimensionless bounds of cells that were run again
+        self.again = {}  # index of a cell that was run again -> dimensionless bound
         few = task.few(max(FEWEST, (len(task.grid) + 1) // 2))
         full, half = (task.grid, few) if frequencies is None else (frequencies, frequencies)
         deviating = [(k, f) for k in range(1, len(self.sets)) for f in half]
@@ -75,7 +75,7 @@ class Promise:
     def _repeat_rare(self) -> None:
         """Run cells with rare motions again, with more starts.
 
-        The probability that at least one of the two bounds of a cell is wrong is at most DOUBT.
+        With a probability of at most DOUBT, the first or the second bound of a cell is wrong.
         """
         allowed = int(2 * (1 - self.task.share) * self.count) + 1
         usual, bounds = (self.motions.bounds(rank)[0] for rank in (allowed, self.rank))
@@ -98,7 +98,7 @@ class Promise:
                 return
 
     def refined(self) -> "Promise":
-        """Add frequencies until the peak is known, at most SPLITS times. Return the object."""
+        """Add frequencies until the peaks are known, at most SPLITS times. Return the object."""
         before = {}
         for _ in range(SPLITS):
             cells = []
@@ -114,12 +114,12 @@ class Promise:
         return self
 
     def by_set(self) -> np.ndarray:
-        """Return for each set the largest displacement over the frequency, mm."""
+        """Return for each set of factors the largest bound over the frequency, mm."""
         owners = np.array([k for k, _ in self.cells])
         return np.array([self.bounds[owners == k].max() for k in range(len(self.sets))])
 
     def over_frequency(self, k) -> tuple:
-        """Return two arrays for set k: ascending frequencies (Hz), and displacements (mm)."""
+        """Return two arrays for set k: ascending frequencies (Hz), and bounds (mm)."""
         places = [place for place, cell in enumerate(self.cells) if cell[0] == k]
         frequencies = np.array([self.cells[place][1] for place in places])
         order = np.argsort(frequencies)
@@ -132,14 +132,14 @@ class Promise:
 
     @property
     def worst(self) -> tuple:
-        """Cell with the largest displacement: index of the set of factors, and frequency (Hz)."""
+        """Cell with the largest bound: index of the set of factors, and frequency (Hz)."""
         return self.cells[int(np.argmax(self.bounds))]
 
 
 def is_peak_known(frequencies, bounds, before) -> bool:
-    """Return whether the largest of `bounds` is the peak over the frequency within PEAK.
+    """Return whether the peak, the largest of `bounds`, is known (see PEAK).
 
-    `before` is the largest bound before the last frequencies were added, 0 if none were added.
+    `before` is the peak before the last round that added frequencies, or 0 before the first round.
     """
     k = int(np.argmax(bounds))
     if np.isinf(bounds[k]):
@@ -154,14 +154,14 @@ def is_peak_known(frequencies, bounds, before) -> bool:
 
 
 def beside_peak(frequencies, bounds) -> list:
-    """Return the middles of the frequency intervals on both sides of the largest of `bounds`."""
+    """Return the middles of the two frequency intervals beside the largest of `bounds`."""
     k = int(np.argmax(bounds))
     ends = frequencies[max(k - 1, 0) : k + 2]
     return [float(middle) for middle in (ends[1:] + ends[:-1]) / 2]
 
 
 def factor_sets(task, gap) -> np.ndarray:
-    """Return factor sets for a gap (mm): nominal, both ends of the gap's tolerance, and corners."""
+    """Return sets of factors for a gap (mm): nominal, two ends of the gap's tolerance, corners."""
     widths = task.deviations(gap)
     signs = [(-1, 1) if width else (0,) for width in widths]
     corners = np.array(list(itertools.product(*signs)), float)
@@ -177,7 +177,7 @@ def factor_sets(task, gap) -> np.ndarray:
 
 
 def other_sets(task, gap) -> np.ndarray:
-    """Return the `factor_sets` with the nominal gap in each. Sets that become equal occur once."""
+    """Return the different rows of `factor_sets` after the gap's factor is set to 1."""
     rows = factor_sets(task, gap)
     rows[:, 0] = 1
     return np.unique(rows, axis=0)

@@ -18,14 +18,14 @@ GAP_SPAN = (0.4, 2.0)
 
 
 def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
-    """Return a dataset of the quiet orbit over the gap, at the `branch_frequency` of the choice."""
+    """Return a dataset of the quiet orbit over the gap, at the frequency `branch_frequency`."""
     gap, frequency = float(choice["design_gap"]), float(choice["branch_frequency"])
     orbit = quiet_orbit(task, gap, frequency)
     return over_gap(task, gap, frequency, orbit, choice["keeping_gap"].values)
 
 
 def quiet_orbit(task, gap, frequency) -> Orbit | None:
-    """Return the smallest quiet orbit reached at a gap (mm) and a frequency (Hz), or None."""
+    """Return the smallest quiet orbit from random starts at a gap (mm), frequency (Hz), or None."""
     cell = Cell(1e-3 * gap, frequency)
     records = run(task, [cell], task.effort.starts, ("orbit",)).records[0]
     pairs = records[is_symmetric_pair(records)]
@@ -37,7 +37,7 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, keeping) -> xr.Dataset:
-    """Return a dataset of a quiet orbit over the gap, and of the smallest stable orbit found."""
+    """Follow a quiet orbit over the gap. Return a dataset, with the smallest stable orbit."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)

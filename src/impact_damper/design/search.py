@@ -1,7 +1,7 @@
-"""The search for the gap: a curve of displacements over the gap, refined where it is small.
+"""The search for the gap: a curve of displacements over the gap, finer at small displacements.
 
-The first curve follows from few starts at few frequencies. Later runs near the best gaps also vary
-other values. The value of a nominal gap is the largest displacement within the gap's tolerance.
+The first curve uses few starts and few frequencies. Later runs near the best gaps also vary other
+values. The value of a nominal gap is the largest displacement at all gaps within its tolerance.
 """
 
 from typing import NamedTuple
@@ -13,24 +13,24 @@ from impact_damper.design.cells import STREAMS, Cell, run
 from impact_damper.design.promise import MORE, other_sets
 from impact_damper.design.task import NOMINAL, Task
 
-# The first search runs STARTS starts at each of at most GAPS gaps and `Task.few(FREQUENCIES)`.
+# First search: at most GAPS gaps, frequencies `Task.few(FREQUENCIES)`, STARTS starts in each cell.
 GAPS, FREQUENCIES, STARTS = 80, 5, 10
-# Near the best gaps at most ROUNDS rounds follow, each with CLOSE_STARTS starts at
-# `Task.few(CLOSE_FREQUENCIES)` and at the worst frequencies so far.
+# Later search near the best gaps: at most ROUNDS rounds, CLOSE_STARTS starts in each cell,
+# frequencies `Task.few(CLOSE_FREQUENCIES)` and the worst frequencies of earlier rounds.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
-# A cell is run again if its displacement exceeds DOUBTED times the largest usual displacement.
+# A cell is run again if its displacement exceeds DOUBTED x usual displacement (see `_ranks`).
 DOUBTED = 1.1
-# Two neighbouring displacements whose ratio exceeds JUMP form a jump. An interval between two gaps
-# is split if the logarithm of their ratio exceeds SMOOTH or, at a jump, FINE.
+# JUMP: at a jump, displacements at two neighbouring gaps have a ratio above JUMP.
+# SMOOTH, FINE: two gaps get a gap between them if log(ratio) > SMOOTH, or at a jump > FINE.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
-# Nominal gaps whose value is at most CANDIDATE times the least value form ranges. Each range is cut
-# where the value exceeds LEVEL times the least value of the range. Ranges whose least value is at
-# most ALIKE times the least value of all gaps are equally good. The widest of these is chosen.
+# CANDIDATE: nominal gaps whose values are at most CANDIDATE x least value of all form ranges.
+# LEVEL: a range is cut where a value exceeds LEVEL x least value of the range.
+# ALIKE: a range is good if its least value is at most ALIKE x least value of all gaps.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
-# A gap keeps at least DIGITS and fewer than MOST_DIGITS significant digits, or is not rounded.
+# A chosen gap is rounded to DIGITS significant digits if possible, else to up to MOST_DIGITS - 1.
 DIGITS, MOST_DIGITS = 3, 9
-# Displacement in place of infinity, mm.
+# Displacement (mm) that stands for an infinite displacement.
 HUGE = 1e9
 
 
@@ -44,7 +44,7 @@ class Range(NamedTuple):
 
 
 class Curve:
-    """Displacements (mm) at ascending gaps (mm), and the frequencies (Hz) at which they occur."""
+    """Largest displacements (mm) and their frequencies (Hz) at ascending gaps (mm)."""
 
     def __init__(self, task: Task):
         self.task = task
@@ -53,7 +53,7 @@ class Curve:
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements. At a known gap keep the larger one or, with `replace`, the new one."""
+        """Add displacements. At a known gap keep the larger one, or the new one if `replace`."""
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
             if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
@@ -67,9 +67,9 @@ class Curve:
                 self.close = np.insert(self.close, k, close)
 
     def within(self, lows, highs) -> np.ndarray:
-        """Return the largest displacement between each gap in `lows` and its partner in `highs`.
+        """Return the largest displacement between the gaps lows[i] and highs[i], for each i.
 
-        At the two gaps the curve is interpolated. Inside a jump the larger of both sides counts.
+        At lows[i] and highs[i] the curve is interpolated; inside a jump the larger value counts.
         """
         logs, values = np.log(self.gaps), np.log(self.sizes)
         found = np.full(len(lows), -np.inf)
@@ -93,7 +93,7 @@ class Curve:
         return gaps, self.within(*self.task.gap_ends(gaps))
 
     def ranges(self) -> list:
-        """Return the candidates: ranges of nominal gaps whose values are near the least value."""
+        """Return the ranges of nominal gaps whose values are near the least value of all gaps."""
         gaps, values = self.nominal()
         found = []
         for first, after in runs_of_true(values <= CANDIDATE * values.min()):
@@ -105,17 +105,17 @@ class Curve:
         return found
 
     def choose(self) -> Range:
-        """Return the widest of the ranges whose least value is close to the least of all."""
+        """Return the widest of the good ranges (see ALIKE)."""
         ranges = self.ranges()
         best = min(each.size for each in ranges)
         good = [each for each in ranges if each.size <= ALIKE * best]
         return max(good, key=lambda each: each.high / each.low)
 
     def keeping(self, gap, size) -> tuple:
-        """Return two lists: the ends of a range of gaps, and the displacements just beyond them.
+        """Return two lists: both ends of a range of gaps, displacement just beyond each end.
 
         The range is the tolerance of `gap` and all adjoining gaps with displacements up to `size`.
-        The displacement beyond an end is NaN if the curve ends there.
+        The displacement beyond an end is NaN if the curve has no gap there.
         """
         ends, beyond = [], []
         for end, step in zip(self.task.gap_ends(gap), (-1, 1), strict=True):
@@ -127,9 +127,9 @@ class Curve:
         return ends, beyond
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return `sets` at the worst gap within the tolerance of `gap`.
+        """Return `sets` with the factor of the worst gap within the tolerance of `gap`.
 
-        No set is returned if `gap` or an end of its tolerance is at least as bad.
+        The result is empty if the displacement at `gap` or at an end of the tolerance is as large.
         """
         low, high = self.task.gap_ends(gap)
         inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
@@ -141,7 +141,7 @@ class Curve:
         return rows
 
     def critical(self) -> np.ndarray:
-        """Return the worst frequencies (Hz) of all gaps with displacements near the least value."""
+        """Return the worst frequencies (Hz) at all gaps with displacements near the least value."""
         return np.unique(self.worst[self.sizes <= CANDIDATE * self.nominal()[1].min()])
 
     def unclear(self) -> np.ndarray:
@@ -157,7 +157,7 @@ class Curve:
                 for begin, after in zip(self.gaps[:-1], self.gaps[1:], strict=True)
             ]
         )
-        # Beside a gap with a small motion there may be a narrow range of better gaps.
+        # A narrow range of better gaps may lie beside a gap with a small displacement.
         small = self.sizes <= CANDIDATE * values.min()
         matters |= small[:-1] | small[1:]
         middles = np.sqrt(self.gaps[:-1] * self.gaps[1:])
@@ -168,7 +168,7 @@ class Curve:
 
 
 def middle_gap(first, last) -> float:
-    """Return a gap near the middle of a range, with as few digits as possible, at least DIGITS."""
+    """Return the middle of a range, rounded to few digits inside the range (see DIGITS)."""
     middle = float(np.sqrt(first * last))
     for digits in range(DIGITS, MOST_DIGITS):
         gap = float(f"{middle:.{digits}g}")
@@ -178,11 +178,11 @@ def middle_gap(first, last) -> float:
 
 
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
-    """Return three sequences over gaps (mm): displacement (mm), its frequency, its set of factors.
+    """Return three sequences over gaps (mm): displacement (mm), frequency (Hz), set of factors.
 
-    The displacement is the largest over frequencies and sets. In each cell the largest motions are
-    left out, about the fraction (1 - share)/2. Few starts hardly distinguish rare motions from
-    others. If rare motions decide on a gap, their cell is run again with more starts.
+    Each gap has the values of its cell with the largest displacement. About (1 - share)/2 of the
+    motions of a cell exceed the cell's displacement. Few starts hardly show how rare large motions
+    are. If rare motions may decide on a gap, their cell is run again with more starts.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
@@ -203,20 +203,20 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
 
 
 def _ranks(task, starts):
-    """Return how many motions exceed a cell's displacement, and how many its usual displacement."""
+    """Return two numbers of motions: above a cell's displacement, above its usual displacement."""
     allowed = starts * (1 - task.share)
     return round(allowed / 2), int(2 * allowed)
 
 
 def _exceeded_by(task, motions, ranks):
-    """Return displacements (mm) that `ranks` motions of each cell exceed, shape (ranks, cells)."""
+    """Return the displacement (mm) that ranks[i] motions of cell k exceed, shape (ranks, cells)."""
     count = len(motions.peaks)
     sizes = np.array([np.sort(motions.numbers(k, rough=True)[0]) for k in range(count)])
     return task.millimetres(np.stack([sizes[:, -1 - rank] for rank in ranks]))
 
 
 def search(task, progress=None, rounds=ROUNDS) -> Curve:
-    """Return the curve over all gaps, refined where displacements are small, most at jumps."""
+    """Return the curve over all gaps, finer at small displacements, and finest at jumps."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = np.geomspace(*task.gap_span, min(GAPS, 6 * task.effort.candidates + 8))
     first = score(task, gaps, few, STARTS, ("search",), progress)
@@ -235,7 +235,7 @@ def search(task, progress=None, rounds=ROUNDS) -> Curve:
 
 
 def search_around(task, gap, sets, progress=None) -> Curve:
-    """Return a curve from half to twice a given gap (mm): largest displacements over `sets`."""
+    """Return the curve from half a gap (mm) to twice this gap, for the worst of `sets`."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = gap * np.geomspace(0.5, 2, 2 * task.effort.candidates + 1)
     curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress, sets)[:2])

@@ -1,8 +1,8 @@
-"""Robustness of a design: impulses on the machine, and how soon motions stay below the promise.
+"""Robustness of a design: impulses on the machine, and times after which motions have returned.
 
 The names *minimal critical shock*, *convergence time* and *finite-time basin stability* come from
 Attractors.jl, version 2. In this module a motion has returned once it stays below the promised
-displacement. A chaotic motion can return although it never settles.
+displacement. A chaotic motion can therefore return, although it never settles.
 """
 
 import numpy as np
@@ -12,21 +12,21 @@ from impact_damper.design.cells import Cell, draw_starts, peaks_of_blocks, run
 from impact_damper.design.task import labelled
 from impact_damper.model.packed import FREQUENCY
 
-# SHOCKS: number of impulses of each sign. The largest impulse changes the velocity of the machine
-# by WIDEST W x, with the forcing frequency W. x is the largest displacement without damper or, if
-# this is infinite, the promised displacement.
+# SHOCKS: number of positive impulses, and number of negative impulses. WIDEST: the largest impulse
+# changes the velocity of the machine by WIDEST W x. W is the forcing frequency. x is the largest
+# displacement without damper or, if this is infinite, the promised displacement.
 SHOCKS, WIDEST = 32, 2.0
-# A motion is run for LONGEST cycles. Its largest displacement is taken in blocks of BLOCK cycles.
+# A run has LONGEST cycles. The largest displacement is found in each block of BLOCK cycles.
 LONGEST, BLOCK = 1000, 10
-# Numbers of cycles after which the share of starts that have returned is stored.
+# `returned_share` is the share of starts that return within each of these numbers of cycles.
 LIMITS = (10, 30, 100, 300, 1000 - BLOCK)
 
 
 def shocks(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset of convergence times after impulses, and of shares of starts that return.
 
-    The machine has its nominal values and is excited at the promised frequency. An impulse acts on
-    the smallest motion that random starts lead to, at a strobe (a fixed phase of the forcing).
+    All values are nominal, and the frequency is `promised_frequency`. An impulse acts on the
+    smallest motion that random starts lead to, at a strobe (a fixed phase of the forcing).
     """
     frequency = float(decision["promised_frequency"])
     cell = Cell(1e-3 * float(decision["design_gap"]), frequency)
@@ -53,7 +53,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
 
 
 def convergence_times(task, p, states, promised) -> np.ndarray:
-    """Return for each motion the cycles after which it stays below `promised`, or infinity."""
+    """Return the number of cycles after which each motion stays below `promised`, or infinity."""
     rows = np.tile(p, (len(states), 1))
     peaks = peaks_of_blocks(task, rows, states.copy(), LONGEST // BLOCK, BLOCK)
     loud = peaks > promised

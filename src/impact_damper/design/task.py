@@ -1,7 +1,7 @@
 """The task of a design: machine, loose mass, contact, band of frequencies, tolerances, effort.
 
-Values are in SI units unless mm are named. By rule (18) of the paper the gap satisfies
-m2 w^2 gap/2 = F. Here m2 is the loose mass, w the angular frequency, F the amplitude of the force.
+Values are in SI units, or in mm where this is said. Rule (18) of the paper gives the gap
+2 F/(m2 w^2): F is the amplitude of the force, m2 the loose mass, w the angular frequency.
 """
 
 import math
@@ -31,14 +31,14 @@ from impact_damper.model.text import with_unit
 from impact_damper.model.units import absolute_value, check_si
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 
-# VARIED: values that may deviate. The last three belong to the machine. NOMINAL: the factors (all
-# 1) if no value deviates. TOLERANCES: largest relative deviations by default.
+# VARIED: values that may deviate from nominal values; the last three are values of the machine.
+# NOMINAL: factors of nominal values. TOLERANCES: largest relative deviations by default.
 VARIED = tuple("gap restitution contact_stiffness gravity friction stiffness damping force".split())
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 SIDES = ["lower", "upper"]
-# MOST_DEVIATION: largest relative deviation that is allowed. ABSOLUTE: physical quantities of the
-# deviations that may have a unit. That of `force` depends on the excitation of the machine.
+# MOST_DEVIATION: largest relative deviation that is allowed. ABSOLUTE: value whose deviation may
+# have a unit -> physical quantity. The quantity of `force` depends on the machine's excitation.
 MOST_DEVIATION = 0.9
 ABSOLUTE = {
     "gap": "displacement",
@@ -46,25 +46,25 @@ ABSOLUTE = {
     "stiffness": "stiffness",
     "damping": "damping",
 }
-# Least gap, divided by the smaller of two gaps: least gap of rule (18), greatest gap considered.
+# The least gap of a design is LEAST_GAP x min(least gap of rule (18), greatest gap of the design).
 LEAST_GAP = 0.15
-# Greatest gap, divided by the greatest gap of rule (18), if the machine without damper escapes at
-# all frequencies.
+# If the machine without damper escapes at all frequencies, the greatest gap of a design is
+# ESCAPING x greatest gap of rule (18).
 ESCAPING = 4.0
-# An absorber is tuned from ABSORBED[0] times the lowest frequency of band and resonance to
-# ABSORBED[1] times the highest one.
+# An absorber is tuned over the frequencies from ABSORBED[0] x least to ABSORBED[1] x greatest
+# frequency of band and resonance.
 ABSORBED = 0.5, 2.0
-# The first run of a motion (`cells.run`) stops after LONG x PATIENT decay times of the machine, but
-# not before LEAST_LIMIT cycles. A chaotic motion stops after PATIENT decay times, but not before
-# LEAST_PATIENCE cycles. `Effort.settling` may stop both sooner.
+# Length of the first run of a motion (`cells.run`), unless `Effort.settling` is shorter:
+# chaotic motion: max(PATIENT x decay time of the machine in cycles, LEAST_PATIENCE) cycles,
+# other motion: max(LONG x PATIENT x decay time of the machine in cycles, LEAST_LIMIT) cycles.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
-# Least number of cycles over which a motion that has not settled is measured.
+# Least number of cycles in which a motion is measured if it has not settled.
 WATCHED = 100
 
 
 def labelled(values, **coordinates) -> xr.Dataset:
-    """Return a dataset of registered variables. Displacements are in mm, others in SI units."""
+    """Return a dataset of registered variables: displacements in mm, other values in SI units."""
     made = {name: shown_variable(name, value) for name, value in values.items()}
     known = {name: shown_variable(name, value) for name, value in coordinates.items()}
     return xr.Dataset(made, known, {"source": SOURCE})
@@ -78,9 +78,9 @@ class Effort:
     Attributes
     ----------
     frequencies : int
-        Number of frequencies over the band. Resonances replace the frequencies nearest to them.
+        Number of frequencies over the band. Each resonance replaces the nearest frequency.
     candidates : int
-        Largest number of gaps in each comparison after the first search over all gaps.
+        Largest number of gaps in each round after the first search over all gaps.
     starts : int
         Number of random starts (initial states) with which a gap is confirmed at each frequency.
     seed : int
@@ -126,7 +126,7 @@ class Task:
 
     `gap` (m) is the gap of an existing damper, or None if a gap is to be found. `contact_stiffness`
     (N/m) follows from `contact`. `gravity` along the gap (m/s^2) and `friction` (N) follow from
-    `mount`, the arguments of `impact_damper.model.machine.mounting`.
+    `mount` (see `impact_damper.model.machine.mounting`).
     """
 
     machine: Machine
@@ -186,7 +186,7 @@ class Task:
         object.__setattr__(self, name, value)
 
     def _check_length(self, name, most, why):
-        """Check that a length (m) is above 0 and at most `most`, and convert it to a number."""
+        """Check that a length (m) is above 0 and at most `most`, and store it as a number."""
         limits = {"most": most, "why": why} if math.isfinite(most) else {}
         length = check_si(name, getattr(self, name), "displacement", above=0, **limits)
         self._set(name, length)
@@ -194,8 +194,8 @@ class Task:
     def _stiffness(self):
         """Return the stiffness of the contact, N/m.
 
-        By Hertz's law the stiffness grows with the speed of impact. The loose mass is assumed to
-        cross the gap of rule (18) in half a cycle, at the middle frequency of the band.
+        By Hertz's law the stiffness grows with the speed of impact. The speed is assumed to be
+        2 f g: f is the middle frequency of the band, g the gap of rule (18) at this frequency.
         """
         limits = self.scales.range_to_si(bounds.STIFFNESS_RANGE, "stiffness")
         stiffness = self.contact
@@ -213,7 +213,7 @@ class Task:
             )
 
     def _check_deviations(self):
-        """Raise ValueError if nominal values, or values at ends of tolerances, are not allowed."""
+        """Raise ValueError if a nominal value, or a value at an end of a tolerance, is wrong."""
         gap = self.gap or 1e-3 * self.gap_span[0]
         widths = self.deviations(1e3 * gap)
         least = self.restitution * (1 - self.tolerances.get("restitution", 0.0))
@@ -229,7 +229,7 @@ class Task:
                 self.packed(gap, frequency, factors)
 
     def _checked_tolerances(self):
-        """Return the tolerances as relative numbers. An absolute one of the gap is a text in m."""
+        """Return the tolerances as fractions. An absolute tolerance of the gap is a text in m."""
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
@@ -259,7 +259,7 @@ class Task:
 
     @cached_property
     def gap_tolerance(self) -> tuple[float, float]:
-        """Largest deviation of the gap: a fraction, and a length in mm. The one not given is 0."""
+        """Tolerance of the gap: a fraction of the gap plus a length (mm). One of the two is 0."""
         value = self.tolerances.get("gap", 0.0)
         return (value, 0.0) if isinstance(value, float) else (0.0, 1e3 * float(value.split()[0]))
 
@@ -279,12 +279,12 @@ class Task:
     def gap_span(self) -> tuple[float, float]:
         """Least and greatest gap that a design considers, mm.
 
-        In greater gaps no steady motion of the machine reaches a loose mass at rest in the middle.
+        In a greater gap the machine moves too little to touch a loose mass at rest in the middle.
         """
         rules = np.array([1e3 * self.rule_gap(f) for f in self.grid])
         sizes = self.bare[np.isfinite(self.bare)]
         most = 2 * sizes.max() if len(sizes) else ESCAPING * rules.max()
-        if self.gravity:  # the machine may throw the loose mass up to the other wall
+        if self.gravity:  # the machine may throw the loose mass up to the opposite wall
             speeds = 1e-3 * self.bare * 2 * math.pi * self.grid
             fastest = np.max(speeds[np.isfinite(speeds)], initial=0)
             most += 1e3 * fastest**2 / 2 / abs(self.gravity)
@@ -297,9 +297,9 @@ class Task:
 
     @cached_property
     def hurried(self) -> Settling:
-        """`Settling` of first runs (`cells.run`). They last for some decay times of the machine."""
+        """`Settling` of first runs (`cells.run`), limited to some decay times (see PATIENT)."""
         full = self.effort.settling
-        # Decay time of the machine in forcing cycles at mid-band.
+        # Decay time of the machine in forcing cycles at the middle frequency of the band.
         decay = sum(self.band) * self.machine.mass / self.machine.viscous_damping
         patience = int(np.clip(PATIENT * decay, LEAST_PATIENCE, full.patience))
         limit = int(np.clip(LONG * PATIENT * decay, LEAST_LIMIT, full.limit))
@@ -307,14 +307,14 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances in the band, Hz: without loose mass, and with it fixed to the machine."""
+        """Resonances in the band, Hz: without loose mass, and with the loose mass fixed."""
         ratio = math.sqrt(1 + self.mass / self.machine.mass)
         found = [each for end in self.resonance for each in (end / ratio, end)]
         return [each for each in found if self.band[0] < each < self.band[1]]
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Evenly spaced frequencies over the band, Hz. Resonances replace those nearest to them."""
+        """Evenly spaced frequencies over the band, Hz. Each resonance replaces the nearest one."""
         values = np.linspace(*self.band, self.effort.frequencies)
         for frequency in self.resonances:
             values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
@@ -326,16 +326,16 @@ class Task:
         return self.bare_at(self.grid)
 
     def bare_at(self, frequencies) -> np.ndarray:
-        """Return largest displacements (mm) without damper at frequencies, by harmonic balance."""
+        """Return the largest free displacements (mm) at frequencies (Hz), by harmonic balance."""
         return self.millimetres(np.array([sizes[-1] for sizes in self._balances(frequencies)]))
 
     @property
     def migration_offer(self) -> str:
-        """Flag `yes` if the machine without damper has two motions at a frequency, else `no`."""
+        """`yes` if the machine without damper has two motions at some frequency, otherwise `no`."""
         return "yes" if any(len(sizes) > 1 for sizes in self._balances(self.grid)) else "no"
 
     def _balances(self, frequencies) -> list:
-        """Return for each frequency (Hz) the ascending dimensionless amplitudes without damper."""
+        """Return for each frequency (Hz) the dimensionless amplitudes without damper, ascending."""
         oscillator = self.machine.oscillator()
         turning = self.scales.from_si(np.asarray(frequencies), "frequency")
         return [balance_amplitudes(oscillator, w) for w in turning]
@@ -352,7 +352,7 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return frequencies (Hz): `count` of `grid`, the worst one, the resonances, `others`."""
+        """Return frequencies (Hz): `count` of `grid`, `worst_frequency`, `resonances`, `others`."""
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(self.grid[places], [self.worst_frequency, *resonances, *others])
@@ -369,7 +369,7 @@ class Task:
         return 2 * self.scales.to_si(force, "force") / (self.mass * (2 * math.pi * frequency) ** 2)
 
     def damper(self, gap, factors=NOMINAL) -> MachineDamper:
-        """Return the damper with a gap (m). `factors`, ordered as VARIED, multiply its values."""
+        """Return the damper with a gap (m). `factors` has one factor for each name in VARIED."""
         varied = dict(zip(VARIED, factors, strict=True))
         return MachineDamper(
             mass=self.mass,
@@ -382,7 +382,7 @@ class Task:
         )
 
     def system(self, gap, frequency, factors=NOMINAL) -> tuple:
-        """Return dimensionless oscillator, damper and frequency, scaled by the nominal machine."""
+        """Return oscillator, damper, frequency: dimensionless, in scales of the nominal machine."""
         varied = dict(zip(VARIED, factors, strict=True))
         oscillator = self.machine.oscillator()
         oscillator = replace(
@@ -401,7 +401,7 @@ class Task:
         return pack(*self.system(gap, frequency, factors))
 
     def millimetres(self, displacement):
-        """Return dimensionless displacements converted to mm, the unit of datasets."""
+        """Convert dimensionless displacements to mm, the unit of displacements in datasets."""
         return 1e3 * self.scales.to_si(displacement, "displacement")
 
     def describe(self) -> dict:
@@ -428,14 +428,14 @@ class Task:
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the least and the greatest frequency (Hz) of natural vibration, peak and folds."""
+    """Return the least and the greatest (Hz) of natural frequency, peak frequency and folds."""
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
     found = [point.frequency for point in free_folds(oscillator)]
     try:
         found.append(maximum_response(oscillator).frequency)
     except ValueError:
-        pass  # no peak: heavy damping, or motion over the barrier of a softening spring
+        pass  # no peak: heavy damping, or a motion that passes the barrier of a softening spring
     ends = [*machine.scales.to_si(np.array(found), "frequency")]
     if natural or not ends:
         ends.append(natural)
@@ -443,7 +443,7 @@ def resonance_of(machine) -> tuple[float, float]:
 
 
 def checked_band(machine, band, resonance) -> tuple[float, float]:
-    """Return the ends of a band, Hz. The band must reach into the range `resonance`."""
+    """Return both ends of a band (Hz). The band must overlap the range `resonance` (Hz)."""
     if not isinstance(band, Sequence | np.ndarray) or isinstance(band, str) or len(band) != 2:
         raise ValueError(
             f"band = {bounds.shown(band)}: must be least and greatest frequency (how many "

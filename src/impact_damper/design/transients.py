@@ -1,8 +1,8 @@
 """Transients of a machine with and without its damper: a swept sine, and the unforced decay.
 
-The integrator requires a fixed frequency. Each forcing cycle of a sweep therefore has the mean
-frequency of the same cycle of a continuous sweep. The phases of both sweeps differ by at most pi/4
-times the relative change of the frequency in a cycle.
+A continuous sweep is replaced by a stepped sweep, because the integrator needs a fixed frequency.
+Each cycle of the stepped sweep has the mean frequency of this cycle in the continuous sweep. The
+phases of both sweeps differ by at most pi/4 x relative change of the frequency in a cycle.
 """
 
 import math
@@ -32,18 +32,18 @@ from impact_damper.motions.records import envelope
 
 EQUIPMENT = ("bare", "damped")
 TOLERANCE = 1e-10
-# A sweep has the rate SWEEP (damping ratio x natural frequency in Hz)^2 Hz/s. The resonance peak of
-# a linear machine is 6 % lower at this rate than in steady state. A sweep that would have more than
-# MOST_SWEPT cycles is faster.
+# SWEEP: the rate of a sweep in Hz/s is SWEEP (damping ratio x natural frequency in Hz)^2. The
+# resonance peak of a linear machine is then 6 % lower than in steady state.
+# MOST_SWEPT: largest number of cycles. A sweep with more cycles at this rate is made faster.
 SWEEP, MOST_SWEPT = 4.0, 6000
 # Largest relative change of the frequency in a forcing cycle.
 STEEPEST = 0.01
-# Before a sweep the first frequency is held until transients without the damper have decayed to the
-# fraction SETTLED, but for at most HELD forcing cycles.
+# Before a sweep the first frequency is held. SETTLED: fraction to which transients without the
+# damper decay in this time. HELD: largest number of forcing cycles in this time.
 SETTLED, HELD = 0.01, 10**5
-# A decay ends at an escape, after MOST_WINDOWS windows, or when little energy above rest is left:
-# that of REST times the first displacement. A window is a period of the unforced vibration.
-# With a softening spring a window has at most LONGEST periods of small vibrations.
+# REST: a decay ends when its energy has fallen to the energy at REST x first displacement.
+# MOST_WINDOWS: largest number of windows of a decay. A window is a period of unforced vibration.
+# LONGEST: longest window with a softening spring, in periods of small vibrations.
 REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
 
@@ -51,7 +51,7 @@ def transients(task, choice, progress=None) -> xr.Dataset:
     """Return a dataset of a swept sine and an unforced decay, with and without the damper."""
     machine, damper = task.machine, task.damper(1e-3 * float(choice["design_gap"]))
     # A sweep leads to the large motions of a nonlinear machine only if the sweep passes all
-    # resonances, which may lie outside the band.
+    # resonances. Resonances may lie outside the band.
     low = min(task.band[0], task.resonance[0])
     high = max(task.band[1], task.resonance[1])
     decay_rate = machine.viscous_damping / (4 * np.pi * machine.mass)
@@ -64,8 +64,8 @@ def transients(task, choice, progress=None) -> xr.Dataset:
 def swept_sine(machine, damper, band, rate) -> xr.Dataset:
     """Return a dataset of sweeps up and down over a band (Hz) at a rate (Hz/s), from steady state.
 
-    The envelope is the largest displacement in each cycle. It is infinite in the cycle in which the
-    motion escapes over the barrier of a softening spring, and NaN in later cycles.
+    The envelope is the largest displacement in each cycle. If the motion escapes over the barrier
+    of a softening spring, the envelope is infinite in this cycle and NaN in later cycles.
     """
     least, most = band
     count = int((most**2 - least**2) / (2 * rate))
@@ -82,7 +82,7 @@ def swept_sine(machine, damper, band, rate) -> xr.Dataset:
 
 
 def _swept(machine, damper, first, frequencies):
-    """Return the largest displacement (m) in each cycle of a sweep. Held cycles are left out."""
+    """Return the largest displacement (m) in each cycle of a sweep, after the cycles held."""
     decay_rate = machine.viscous_damping / (2 * machine.mass)
     held = min(math.ceil(-math.log(SETTLED) * first / decay_rate), HELD)
     rows = forced(machine, damper, np.concatenate([np.full(held, first), frequencies]))
@@ -93,7 +93,7 @@ def _swept(machine, damper, first, frequencies):
 def sweep_periods(first, slope, count):
     """Return two arrays over cycles of a continuous sweep: beginning (s), mean frequency (Hz).
 
-    At each beginning the phase in cycles, first t + slope t^2/2, is a whole number.
+    A cycle begins when the phase first t + slope t^2/2 is a whole number of cycles.
     """
     phases = np.arange(count + 1)
     times = 2 * phases / (first + np.sqrt(first**2 + 2 * slope * phases))
@@ -112,7 +112,7 @@ def forced(machine, damper, frequencies):
 
 
 def ring_down(machine, damper, displacement) -> xr.Dataset:
-    """Return a dataset of the unforced decay from a displacement (m), loose mass in mid-gap."""
+    """Return a dataset of unforced decays from a displacement (m), loose mass in the middle."""
     decays = [decay(machine, each, displacement) for each in (None, damper)]
     runs, status = zip(*decays, strict=True)
     padded = np.full((len(EQUIPMENT), max(map(len, runs)), 4), np.nan)
@@ -127,10 +127,10 @@ def ring_down(machine, damper, displacement) -> xr.Dataset:
 
 
 def decay(machine, damper, displacement):
-    """Return the unforced decay from a displacement (m) in windows of time, and how it ends.
+    """Return the unforced decay from a displacement (m) as an array, and its end as a word.
 
-    Each window is a row: time at its middle (s), inverse of its length (Hz), largest displacement
-    (m), number of contacts. The decay ends "at_rest", "escaped", or at the "limit" of windows.
+    A row is a window of time. Columns: middle (s), inverse of the length (Hz), largest displacement
+    (m), number of contacts. The word is "at_rest", "escaped", or "limit" after MOST_WINDOWS.
     """
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
@@ -156,7 +156,7 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy at rest. Gravity puts the loose mass on a wall unless friction holds it."""
+    """Return the energy at rest. Friction holds the loose mass, or gravity puts it on a wall."""
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
     weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]
@@ -177,9 +177,9 @@ def _window(p, left):
 
 
 def unforced_amplitude(stiffness, cubic, stored) -> float:
-    """Return the amplitude A of x'' + a x + b x^3 = 0 with the energy a A^2/2 + b A^4/4.
+    """Return the amplitude A of x'' + a x + b x^3 = 0 at the energy a A^2/2 + b A^4/4 = `stored`.
 
-    The amplitude is infinite if a softening spring cannot store the energy.
+    a is `stiffness`, b is `cubic`. A is infinite if a softening spring cannot store the energy.
     """
     square = stiffness**2 + 4 * cubic * stored
     if square <= 0:
@@ -188,11 +188,11 @@ def unforced_amplitude(stiffness, cubic, stored) -> float:
 
 
 def unforced_period(stiffness, cubic, amplitude) -> float:
-    """Return the period of x'' + a x + b x^3 = 0 at an amplitude A, infinite at a barrier.
+    """Return the period of x'' + a x + b x^3 = 0 at an amplitude A, infinite at the barrier.
 
-    The motion is A cn(w t | m) with w^2 = a + b A^2 and m = b A^2/(2 w^2). Its period is 4 K(m)/w,
-    with the complete elliptic integral K. (A. H. Nayfeh and D. T. Mook, Nonlinear Oscillations,
-    1979, section 2.1.)
+    The motion is A cn(w t | m) with w^2 = a + b A^2 and m = b A^2/(2 w^2). The period is 4 K(m)/w.
+    K is the complete elliptic integral of the first kind. (A. H. Nayfeh and D. T. Mook, Nonlinear
+    Oscillations, 1979, section 2.1.)
     """
     square = stiffness + cubic * amplitude**2
     if square <= 0:

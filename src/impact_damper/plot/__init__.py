@@ -1,7 +1,7 @@
 """Plots of results, such as `impact_damper.plot.response(data)`.
 
-All but `conclusion` draw on the given `axes`, to which `axes.legend()` adds a legend. Without
-`axes` they make a figure with a legend.
+Each function except `conclusion` draws on the given `axes`. Then `axes.legend()` adds a legend.
+Without `axes` the function makes a figure with a legend.
 """
 
 from impact_damper.plot.basin_plane import basins

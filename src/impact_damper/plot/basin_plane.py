@@ -8,7 +8,7 @@ from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.plot import style
 from impact_damper.plot.sheets import dataset_in, sheet
 
-# Colours of attractors by ascending displacement: three in turn, then one for the last of several.
+# Colours of attractors in ascending order of displacement. The last of several has the last colour.
 COLOURS = (style.SKY, style.VERMILION, style.PURPLE, "#F7E7A6")
 CHAOS = style.ORANGE
 # Colours of states that lead to no attractor, for the labels -6 to -1 (`BASIN_LABEL`).
@@ -22,7 +22,7 @@ def basins(data, axes=None):
     """Draw basins of attraction: the motion to which each state of a plane leads.
 
     With a damper the motion also depends on the place of the loose mass. If several places were
-    computed, the shade is the share of places that lead to the smallest motion.
+    computed, the shade of a state is the share of places that lead to the smallest motion.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def basins(data, axes=None):
 
 
 def _draw_labels(axes, data, colours):
-    """Colour each state by the motion to which it leads, and add legend entries."""
+    """Colour each state by the motion to which the state leads, and add legend entries."""
     labels = data["basin_label"].values
     palette = ListedColormap([*WITHOUT_ATTRACTOR, *colours])
     low, high = -len(WITHOUT_ATTRACTOR) - 0.5, len(colours) - 0.5
@@ -93,7 +93,7 @@ def _fill(axes, data, values, **look):
 
 
 def _name(axes, data):
-    """Label the axes. The title gives frequency, phase, and for data without units the damper."""
+    """Label the axes. The title has frequency and phase; without units also the damper."""
     frequency = data["frequency"]
     if frequency.attrs["units"] == "1":
         names = ("mass_ratio", "clearance") if has_damper(data) else ()
@@ -108,7 +108,7 @@ def _name(axes, data):
 
 
 def _attractor_words(data):
-    """Return a text for each attractor with its period, size and share."""
+    """Return for each attractor a text of its period, displacement and share."""
     units = f" {data['attractor_displacement'].attrs['units']}".removesuffix(" 1")
     names = ("attractor_period", "attractor_displacement", "attractor_share")
     return [

@@ -16,7 +16,7 @@ EVENTS = {
     "grazing": ("change of contact", "P", style.SKY),
     "merging": ("change of contact", "P", style.SKY),
 }
-# Kinds of ends beyond which a branch goes on inside the range of the parameter, and their marker.
+# OPEN_ENDS: ends beyond which a branch goes on inside the parameter range. OPEN: marker of an end.
 OPEN_ENDS = ("lost", "point_limit", "unstable")
 OPEN = {"marker": "x", "color": style.BLACK, "markersize": 4.5, "linestyle": "none", "zorder": 3.1}
 # Columns: label, colour, opacity of unstable orbits, test of the period.
@@ -25,7 +25,7 @@ PERIODS = [
     ("period 3", style.PURPLE, 1.0, lambda period: period == 3),
     ("other periods", style.ORANGE, 0.4, lambda period: period not in (1, 3)),
 ]
-# Columns, for orbits without a damper: role if stable, role if unstable, test of the period.
+# Without a damper. Columns: role in `style.ROLES` if stable, role if unstable, test of the period.
 FREE = [
     ("free_stable", "free_unstable", lambda period: period == 1),
     ("subharmonic_free", "subharmonic_unstable", lambda period: period == 3),
@@ -37,12 +37,12 @@ def branch(data, axes=None):
     """Draw the largest displacement in periodic orbits against the parameter that varies.
 
     Stable orbits are solid lines, and unstable orbits dotted lines. Colours distinguish periods.
-    Markers show the bifurcations and changes of contact that are next to stable orbits.
+    Markers show bifurcations and changes of contact, but only next to stable orbits.
 
     Parameters
     ----------
     data : xarray.Dataset or list of xarray.Dataset
-        Results of `orbit_branches`, over the same parameter.
+        Results of `orbit_branches`. All results vary one parameter.
     axes : matplotlib.axes.Axes, optional
 
     Returns
@@ -86,7 +86,7 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield the parts (`parts_by_stability`) of branches whose period passes the test `chosen`."""
+    """Yield `parts_by_stability` of each branch whose period passes the test `chosen`."""
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     value, size = data["followed_value"].values, data["orbit_displacement"].values
     for branch, period in enumerate(data["branch_period"].values):
@@ -100,13 +100,13 @@ def parts_by_stability(value, size, stable):
     edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
     for first, last in zip(edges, edges[1:], strict=False):
         if last > first:
-            # A part includes the first orbit of the next part, so that the two lines join.
+            # A part includes the first orbit of the next part, so that the lines of the parts join.
             part = slice(first, last + 1)
             yield value[part], size[part], bool(stable[first])
 
 
 def draw_free_orbits(axes, data):
-    """Draw orbits without a damper. Their look depends on period and stability."""
+    """Draw orbits without a damper. The look of an orbit depends on its period and stability."""
     for role, unstable, chosen in FREE:
         for value, size, stable in runs(data, chosen):
             style.draw(axes, value, size, **style.ROLES[role if stable else unstable])

@@ -36,10 +36,10 @@ def design(data, axes=None):
 
 
 def conclusion(data) -> list[str]:
-    """Return the conclusion of a design: four paragraphs, and one for each exception that holds.
+    """Return the conclusion of a design: four paragraphs, and further paragraphs for exceptions.
 
-    The four paragraphs say what to build, how far the machine moves with the damper, how sure this
-    is, and which condition matters most. Jinja2 must be installed.
+    The four paragraphs say what to build, how far the machine moves with the damper, how sure the
+    promise is, and which condition matters most. Jinja2 must be installed.
 
     Parameters
     ----------

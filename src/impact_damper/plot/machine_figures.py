@@ -45,7 +45,7 @@ def draw_answer(data):
 
 
 def frequency_panel(axes, data):
-    """Draw displacements against the forcing frequency, with points for single motions."""
+    """Draw displacements against the forcing frequency: lines of bounds, points of motions."""
     frequency = data["promise_frequency"].values
     plot_sizes(axes, frequency, data["promise_bare_displacement"].values, **BARE)
     if "competitor_displacement" in data:
@@ -68,9 +68,9 @@ def frequency_panel(axes, data):
 
 
 def over_frequency(data) -> tuple:
-    """Return two arrays of displacements: with nominal values, and the largest of all sets.
+    """Return two arrays of displacements over frequency: of the nominal set, of the worst set.
 
-    A set holds values within the tolerances. Its displacements are interpolated over frequency.
+    A set is a choice of values within the tolerances. Displacements of a set are interpolated.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []
@@ -81,7 +81,7 @@ def over_frequency(data) -> tuple:
 
 
 def gap_panel(axes, data):
-    """Draw displacements against the gap: those found by the search, and the quiet orbit's."""
+    """Draw displacements against the gap: results of the search, and the quiet orbit."""
     gap = float(data["design_gap"])
     tolerance = parameters_of(data)["tolerances"].get("gap", 0.0)
     axes.axvspan(gap * (1 - tolerance), gap * (1 + tolerance), **TOLERATED)
@@ -173,7 +173,7 @@ def draw_transients(data):
 
 @style.context({"axes.labelsize": 8.0, "lines.markersize": 2.6})
 def draw_machines(*, machines):
-    """Return the figure of several machines, whose rows are like the figure of `draw_answer`."""
+    """Return the figure of several machines. Each row has the two panels of `draw_answer`."""
     drawn = style.figure("double", 1.0 + 1.75 * len(machines))
     panels = drawn.subplots(len(machines), 2, squeeze=False)
     for (left, right), data, letter in zip(panels, machines, ascii_lowercase, strict=False):
@@ -189,7 +189,7 @@ def draw_machines(*, machines):
 
 
 def finite(values):
-    """Return displacements, with NaN for motions that escape."""
+    """Return displacements, with NaN in place of motions that escape."""
     values = np.asarray(values, float)
     return np.where(values < ENDLESS, values, np.nan)
 
@@ -225,5 +225,5 @@ def name_numbers(axis, low, high):
     axis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:.0e}"[0] in digits else "")
 
 
-# Figure on the page of a machine -> function that returns the figure or None.
+# Name of a figure on the page of a machine -> function that returns the figure or None.
 FIGURES = {"answer": draw_answer, "forces": draw_forces, "transients": draw_transients}

@@ -10,7 +10,7 @@ from impact_damper.plot import style
 
 
 def mesh(axes, x, y, values, norm, absent=None):
-    """Draw and return cells coloured by `values`. NaN is hatched, with the label `absent`."""
+    """Draw and return cells coloured by `values`. Cells with NaN are hatched, labelled `absent`."""
     back = {"facecolor": style.PALE, "hatch": "////", "edgecolor": style.GREY}
     axes.patch.set(linewidth=0, **back)
     if absent:
@@ -20,7 +20,7 @@ def mesh(axes, x, y, values, norm, absent=None):
 
 
 def hatch(axes, x, y, where, **look):
-    """Hatch the cells of a mask. They form one path, because one path for each cell is slow."""
+    """Hatch the cells of a mask. All cells form one path, because many paths are slow."""
     x, y = edges_of(x), edges_of(y)
     cells = [
         Path.unit_rectangle().transformed(
@@ -33,7 +33,7 @@ def hatch(axes, x, y, where, **look):
 
 
 def edges_of(centres):
-    """Return the n + 1 edges of n > 1 cells. Inner edges are midway between the centres."""
+    """Return n + 1 edges of n > 1 cells from centres. Inner edges are midway between centres."""
     middles = (centres[1:] + centres[:-1]) / 2
     return np.concatenate([[2 * centres[0] - middles[0]], middles, [2 * centres[-1] - middles[-1]]])
 

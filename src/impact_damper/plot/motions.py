@@ -1,4 +1,4 @@
-"""Single motions: a phase portrait, a course in time, and a run of migration control."""
+"""Plots of single motions: phase portrait, displacement over time, run of migration control."""
 
 import numpy as np
 
@@ -22,18 +22,18 @@ LINE, THIN = {"linewidth": 0.8}, {"linewidth": 0.3, "alpha": 0.7, "rasterized": 
 
 
 def orbit(data, axes=None):
-    """Draw a motion: its phase portrait, and its course in time with its contacts.
+    """Draw a phase portrait of a motion, and displacements and contacts over time.
 
     Parameters
     ----------
     data : xarray.Dataset
-        A result of `simulate`, which can start from the state of a steady motion or orbit.
+        A result of `simulate`. The run may start from the state of a steady motion or orbit.
     axes : sequence of 2 matplotlib.axes.Axes, optional
 
     Returns
     -------
     list of matplotlib.axes.Axes
-        Axes of the phase portrait and of the course in time.
+        Axes of the phase portrait, axes of displacements over time.
 
     Examples
     --------
@@ -49,7 +49,7 @@ def orbit(data, axes=None):
 
 
 def phase_panel(axes, run):
-    """Draw velocity against displacement of the primary mass. The line is thick in contact."""
+    """Draw velocity against displacement of the primary mass, as a thick line in contact."""
     axes.plot(run["displacement"], run["velocity"], color=style.BLACK, linewidth=0.8)
     for wall, look in WALLS.items():
         axes.plot(run["displacement"], run["velocity"].where(_in_contact(run, wall)), **look)
@@ -73,7 +73,7 @@ def _time_panel(axes, run):
 
 
 def _in_contact(run, wall):
-    """Return the mask of times in contact with a wall. A contact whose end is NaN never ends."""
+    """Return the mask of times in contact with a wall. An end of NaN means never."""
     chosen = run["contact_wall"].values == wall
     contacts = run[["contact_begin", "contact_end"]].isel(contact=chosen)
     begun = contacts["contact_begin"] <= run["time"]
@@ -89,7 +89,7 @@ def migration(data, axes=None, span=None):
         A result of `migrate`.
     axes : matplotlib.axes.Axes, optional
     span : (float, float), optional
-        First and last time to draw, by default the whole run.
+        First and last time to draw, by default of the whole run.
 
     Returns
     -------

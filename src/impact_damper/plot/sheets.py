@@ -14,8 +14,8 @@ from impact_damper.plot import style
 def datasets_in(data, takes, words) -> list[xr.Dataset]:
     """Return one or several datasets as a list.
 
-    `takes` returns whether a dataset is allowed. `words` names the functions that return such
-    datasets. Other datasets raise TypeError, and so do datasets of different machines.
+    The function `takes` returns whether a dataset is allowed. `words` names the functions whose
+    results are allowed. Other datasets raise TypeError. Datasets of several machines do so too.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:
@@ -30,7 +30,7 @@ def datasets_in(data, takes, words) -> list[xr.Dataset]:
 
 
 def dataset_in(data, takes, words) -> xr.Dataset:
-    """Return a single dataset, checked as by `datasets_in`."""
+    """Return the only dataset in `data`, after the checks of `datasets_in`."""
     found = datasets_in(data, takes, words)
     if len(found) > 1:
         raise TypeError(f"data = {len(found)} datasets: must be one result of {words}")
@@ -41,7 +41,7 @@ def dataset_in(data, takes, words) -> xr.Dataset:
 def sheet(axes, count=1, height=3.6, columns=3):
     """Return a context that yields the given axes, or `count` axes of a new figure.
 
-    A new figure is `height` inches high. Its legend has `columns` columns. 0 means no legend.
+    A new figure is `height` inches high. Its legend has `columns` columns, or is left out for 0.
     """
     if axes is not None:
         given = list(np.ravel(np.array(axes, object)))
@@ -55,6 +55,6 @@ def sheet(axes, count=1, height=3.6, columns=3):
         yield list(panels[0])
         if columns:
             style.legend(drawn, columns)
-        # In a notebook the first figure turns on interactive mode. It must stay on afterwards.
+        # In a notebook the first figure turns on interactive mode. This mode must stay on.
         interactive = matplotlib.is_interactive()
     matplotlib.interactive(interactive)

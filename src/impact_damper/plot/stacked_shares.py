@@ -38,8 +38,8 @@ INTERVAL = {"color": style.BLACK, "linewidth": 0.6}
 def shares(data, axes=None):
     """Draw the stacked shares of random starts that lead to each motion, with 95 % intervals.
 
-    A motion has one colour at all frequencies or clearances. Of each kind of motion, the one with
-    most starts has the full colour, and further ones are paler.
+    A motion has one colour at all frequencies or clearances. The motion of a kind with most starts
+    has the full colour. Further motions of the kind are paler.
 
     Parameters
     ----------
@@ -81,14 +81,14 @@ def _look(kind, rank):
     """Return the look of a motion. `rank` counts the motions of a kind from 0."""
     colour, hatch = LOOKS[kind]
     if rank and kind == "period 1":
-        hatch = "----"  # pale blue alone resembles another kind
+        hatch = "----"  # pale blue without hatching resembles another kind
     white = PALER[min(rank, len(PALER) - 1)]
     face = [white + (1 - white) * part for part in to_rgb(colour)]
     return EDGE | {"facecolor": face, "hatch": hatch}
 
 
 def _ranked_motions(data):
-    """Return (kind, rank, mask) of each motion, by kind. Rank 0 has most starts of its kind."""
+    """Return (kind, rank, mask) of each motion. Rank 0 of a kind has most starts."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:
@@ -103,7 +103,7 @@ def _ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Return a motion's masks by kind. Chaos that ended in a run counts as a transient."""
+    """Return a motion's masks, keyed by kind. Chaos that ended in a run is a transient."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0

@@ -32,7 +32,7 @@ STYLE = {
     "legend.frameon": False,
     "legend.handlelength": 2.4,
     "legend.columnspacing": 1.4,
-    # Titles have a fixed height. The search for a free height takes a fifth of the drawing time.
+    # Height of titles. With None, matplotlib searches it, which takes a fifth of the drawing time.
     "axes.titley": 1.0,
     "axes.linewidth": 0.6,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
@@ -118,7 +118,7 @@ MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
 
 
 def context(*changes):
-    """Return a context manager (also a decorator) for the common style with changes."""
+    """Return a context manager or decorator that sets the common style with `changes`."""
     return matplotlib.style.context(["default", STYLE, *changes])
 
 
@@ -128,7 +128,7 @@ def figure(column, height) -> Figure:
 
 
 def grid(count, row, rest, columns=2, **shared):
-    """Return a figure and its lettered axes. Each row adds `row` inches to a height of `rest`."""
+    """Return a figure and its lettered axes. Height: `rest` inches + `row` inches for each row."""
     columns = min(columns, count)
     rows = -(-count // columns)
     drawn = figure("double", rest + row * rows)
@@ -152,12 +152,12 @@ def points(index) -> dict:
 
 
 def draw(axes, x, y, *, label=None, **look) -> None:
-    """Plot a line. The label is left out if the axes already have it."""
+    """Plot a line. The label is left out if the axes already have this label."""
     axes.plot(x, y, label=once(axes, label), **look)
 
 
 def once(axes, label):
-    """Return a label, or None if the axes already have it. A legend then lists the label once."""
+    """Return a label, or None if the axes have the label, so that a legend lists it once."""
     return None if label in axes.get_legend_handles_labels()[1] else label
 
 
@@ -171,7 +171,7 @@ def parameter_label(parameters, *names, separator=", ") -> str:
 
 
 def axis_label(variable, words=None) -> str:
-    """Return a label of a DataArray: its description (or `words`), symbol and units."""
+    """Return an axis label of a DataArray: description (or `words`), symbol and units."""
     words, units = words or variable.attrs["long_name"], variable.attrs["units"]
     label = words[0].upper() + words[1:]
     if "symbol" in variable.attrs:
@@ -194,7 +194,7 @@ def letter_panels(panels) -> None:
 
 
 def legend(figure, columns) -> None:
-    """Add a legend below all axes that lists each label once."""
+    """Add a legend below all axes. The legend lists each label once."""
     entries = {}
     for axes in figure.axes:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
@@ -206,8 +206,8 @@ def legend(figure, columns) -> None:
 def save_figure(figure, path) -> None:
     """Write `path`.pdf and `path`.png, each complete or not at all, reproducible to the byte.
 
-    The layout is computed once, so that both files show the same picture. Then the layout engine is
-    set to None, because matplotlib draws each file twice with the engine "none".
+    The layout is computed once, so that both files have one layout. Then the layout engine is
+    removed, because with a layout engine matplotlib draws each file twice.
     """
     with context():
         if figure.get_layout_engine() is not None:

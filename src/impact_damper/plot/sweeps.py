@@ -1,4 +1,4 @@
-"""Displacement against clearance, with the optimum."""
+"""Displacement against clearance, and the optimum clearance."""
 
 import json
 
@@ -20,15 +20,15 @@ OPTIMUM = style.markers(
 STAR = OPTIMUM | {"markeredgewidth": 0.5, "markersize": 7.5}
 NEAR = style.line("at most 10 % larger", style.GREY, marker="|", linewidth=0.6, zorder=3)
 BALANCE = style.line("lines: $|a|$ by equations (7)", style.GREY)
-# Parameters in the legend: the last one always, the others if they differ between the curves.
+# Parameters in the legend: `mass_ratio` always, another parameter if it differs between curves.
 VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 
 
 def sweep(data, axes=None):
-    """Draw the largest displacement of the quiet motion against clearance, and its minimum.
+    """Draw the largest displacement of the quiet motion against clearance, and the minimum.
 
-    Points show the exact motion. Lines show the amplitude by harmonic balance. If harmonic balance
-    gives no optimum, as for inelastic contact, the lines join the points.
+    Points show the exact motion. Lines show the amplitude by harmonic balance. For inelastic
+    contact harmonic balance gives no optimum, and the lines join the points.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The page of a design in HTML with its figures, and its conclusion in sentences."""
+"""The page of a design in HTML, with figures and with a conclusion in sentences."""
 
 import base64
 import io
@@ -20,9 +20,9 @@ from impact_damper.model.text import number, percent, with_unit
 from impact_damper.plot import style
 from impact_damper.plot.machine_figures import ENDLESS, FIGURES
 
-# Dots per inch. A figure of 7 inches has 1540 pixels, so that pages never enlarge it.
+# Dots per inch of figures. A figure 7 inches wide has 1540 pixels and is never enlarged on a page.
 DPI = 220
-# Start of the line of HTML by which a page of this package is recognised.
+# A page of this package is recognised by this text, the beginning of a line of HTML.
 GENERATOR = '<meta name="generator" content="impact-damper'
 
 
@@ -32,9 +32,9 @@ def conclusion(data) -> list[str]:
 
 
 def check_folder(folder, machine, force) -> None:
-    """Raise OSError unless files can be written into a folder.
+    """Raise OSError if files cannot be written into a folder.
 
-    Unless `force`, the folder must have no `index.html` from elsewhere and no other machine's data.
+    Without `force`, an `index.html` of another program or data of another machine are also errors.
     """
     probe = folder / "index.html.check"
     with whole(probe) as part:
@@ -99,7 +99,7 @@ def _conclusion(numbers):
 
 
 def _environment(escaping):
-    """Return the environment of the templates, with filters for numbers."""
+    """Return the Jinja environment of the templates, with filters that format numbers."""
     environment = Environment(
         loader=PackageLoader("impact_damper.plot.pages"),
         autoescape=escaping,
@@ -114,17 +114,17 @@ def _environment(escaping):
 
 
 def _one_line(text):
-    """Return a text in one line. Escaped text stays escaped."""
+    """Return a text in one line. Escaped HTML stays escaped."""
     joined = " ".join(str(text).split())
     return Markup(joined) if isinstance(text, Markup) else joined
 
 
-# In the decay time an unforced vibration falls to this fraction of its first displacement.
+# The decay time ends when an unforced vibration has fallen to this fraction of its first value.
 DECAY = 0.1
-# If the gaps that keep the promise reach at most this fraction beyond an end of the tolerance, the
-# page names the end of the tolerance.
+# If the last gap that keeps the promise is at most this fraction beyond the end of the tolerance,
+# the page names the end of the tolerance, not the last gap.
 NEAR = 0.01
-# Names that the page uses for additions to the decision, and for quantities.
+# Names on the page. ADDITIONS: additions to the decision. QUANTITIES: values that may deviate.
 ADDITIONS = {
     "response": "motions and forces at the gap",
     "orbits": "the quiet orbit over the gap",
@@ -144,7 +144,7 @@ QUANTITIES = {
     "damping": "damping",
     "force": "excitation",
 }
-# With fewer impacts in a cycle the loose mass is only ballast.
+# With fewer than HARDLY impacts in a cycle the loose mass is only ballast.
 HARDLY = 0.2
 # Columns of GIVEN: key of the machine, description, unit, divisor, key of the tolerance or None.
 # Columns of COSTS: name of a variable, description, unit, factor.
@@ -179,7 +179,7 @@ TABLES = {
 
 
 def size(value, unit="mm", digits=3) -> str:
-    """Return a number with its unit, "escapes" for a motion that escapes, "not known" for NaN."""
+    """Return a number with its unit, "escapes" if infinite or ENDLESS mm, "not known" if NaN."""
     if np.isnan(value):
         return "not known"
     escapes = np.isinf(value) or (unit == "mm" and value >= ENDLESS)
@@ -187,7 +187,7 @@ def size(value, unit="mm", digits=3) -> str:
 
 
 def numbers_of(data) -> dict:
-    """Return a dictionary of numbers and texts of a design, which the templates show."""
+    """Return a dictionary of the numbers and texts of a design that templates show."""
     asked = parameters_of(data)
     gap, tolerances = float(data["design_gap"]), asked["tolerances"]
     tolerance = tolerances.get("gap", 0.0)
@@ -270,7 +270,7 @@ def _worst_values(data):
 
 
 def _shocks(data):
-    """Return the effects of impulses on the machine, or None if they were not computed."""
+    """Return the effects of impulses on the machine, or None if not computed."""
     if "shock_return" not in data:
         return None
     impulses, cycles = np.abs(data["shock_impulse"].values), data["shock_return"].values
@@ -285,7 +285,7 @@ def _shocks(data):
 
 
 def _condition(data, tolerated):
-    """Return the nearest change of gap or excitation after which nothing is promised, or None."""
+    """Return the smallest change of gap or excitation that breaks the promise, or None."""
     gap, promised = float(data["design_gap"]), float(data["promised_displacement"])
     found = []
     kinds = decode(data["keeping_end"]).values
@@ -299,7 +299,7 @@ def _condition(data, tolerated):
     if "force_map_displacement" in data:
         shares = data["force_share"].values
         sizes = data["force_map_displacement"].max("operating_frequency").values
-        # The displacement may grow in proportion to the excitation.
+        # The promise grows in proportion to an excitation above the one given.
         kept = sizes <= KEEPS * promised * np.maximum(shares, 1)
         for step in (1, -1):
             k = int(np.argmin(np.abs(shares - 1)))
@@ -331,7 +331,7 @@ def _worse(data, nominal):
 
 
 def _other_mass(data, asked):
-    """If this loose mass is not good enough, return another that is. Otherwise return None."""
+    """Return a better loose mass if this one is not good enough and another is, else None."""
     missed = named(data, "limit_status") == "missed"
     fails = missed or named(data, "decision") == "do_not_build"
     if "other_mass" not in data or not fails:
@@ -347,7 +347,7 @@ def _other_mass(data, asked):
 
 
 def _masses(data, asked):
-    """Return the table rows of this damper and of a heavier damper; [] if none was computed."""
+    """Return table rows: this damper, heavier damper; [] if no heavier damper was computed."""
     if "other_mass" not in data:
         return []
     names = ("other_mass", "other_gap", "other_displacement", "other_force")
