@@ -1,8 +1,8 @@
-"""Integrate many trajectories. LANES of them are stepped side by side in vector registers.
+"""Integrate many trajectories. A step advances LANES trajectories together in vector registers.
 
-All trajectories of one step must be in the same phase, in flight or in contact. Therefore a pool
-holds more trajectories than there are lanes, and has a queue for each kind of step. Each step takes
-its trajectories from the longest queue. The result of a trajectory depends on no other trajectory.
+All trajectories of one step must be in flight, or all must be in contact. Therefore a pool holds
+more trajectories than there are lanes, and has a queue for each kind of step. Each step takes its
+trajectories from the longest queue. The result of a trajectory depends on no other trajectory.
 """
 
 from typing import NamedTuple
@@ -17,7 +17,7 @@ from impact_damper.kernel.single import extremum
 from impact_damper.model import packed
 
 LANES = 16
-# Largest number of trajectories in a pool. The longest of its queues then mostly fills all lanes.
+# Largest number of trajectories in a pool. With 64 the longest queue mostly fills all lanes.
 RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
@@ -26,7 +26,7 @@ flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.cont
 flight_tangents = by_address(_MANY.flight_tangents)
 contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Numbers of rows of a step, and indices in a row of `Pool.numbers`, which ends before LENGTH.
+# Numbers of rows of a step. Row k < LENGTH of trajectory m is stored in `Pool.numbers[m, k]`.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -38,15 +38,15 @@ class Pool(NamedTuple):
 
     numbers: Parameters, state, side, time, longest step and tolerance; shape (m, LENGTH).
     ends: End times; shape (m,).
-    tangents: One tangent of each trajectory; shape (m, 4).
     farthest: |Z1| beyond which a trajectory escapes (`equation.no_return`); shape (m,).
-    queues: Indices of the trajectories that wait for a step of each kind; shape (4, m).
+    tangents: One tangent of each trajectory; shape (m, 4).
+    queues: For each kind of step, indices of the trajectories that wait for it; shape (4, m).
     waiting: Number of trajectories in each queue; shape (4,).
-    contacts: Contacts begun since the last call of `send`; shape (m,).
-    largest: Largest |Z1| since the last call of `enter`, NaN if not wanted (then for all
-        trajectories of the pool); shape (m,).
-    held: Index of the trajectory whose parameters each lane holds, or -1; shape (LANES,).
-    a, d: Rows of the step and of its tangents (`instances.rows`).
+    contacts: Number of contacts begun since the last call of `send`; shape (m,).
+    largest: Largest |Z1| since the last call of `enter`; shape (m,). All numbers are NaN if the
+        caller does not need the largest |Z1|.
+    held: Index of the trajectory whose parameters are in each lane, or -1; shape (LANES,).
+    a, d: Rows of the trajectories of a step (a), and of the tangents (d): `instances.rows`.
     """
 
     numbers: np.ndarray
@@ -82,7 +82,7 @@ def make_pool(size):
 
 @kernel
 def enter(pool, m, p, y, side, tolerance):
-    """Write a trajectory into a pool at index m. Its integration begins after a call of `send`."""
+    """Write a trajectory into a pool at index m. A call of `send` then begins the integration."""
     numbers = pool.numbers[m]
     for i in range(packed.COUNT):
         numbers[i] = p[i]
@@ -109,7 +109,7 @@ def send(pool, m, t, end, with_tangent):
 
 @kernel_only
 def enqueue(queues, waiting, m, kind):
-    """Append a trajectory to the queue for a kind of step."""
+    """Append trajectory m to the queue for steps of a kind."""
     queues[kind, waiting[kind]] = m
     waiting[kind] += 1
 
@@ -118,8 +118,8 @@ def enqueue(queues, waiting, m, kind):
 def choose(pool, chosen):
     """Take at most LANES trajectories from the longest queue.
 
-    `chosen` receives their indices. Lanes that remain free get the last index. Return two numbers:
-    how many trajectories were taken, and the kind of step for which their queue is.
+    `chosen[lane]` becomes the index of a taken trajectory. Lanes that remain free get the last
+    index again. Return two numbers: how many trajectories were taken, and their kind of step.
     """
     waiting = pool.waiting
     kind = FLIGHT
@@ -135,7 +135,7 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Copy chosen trajectories into lanes. Parameters that a lane holds are not copied again."""
+    """Copy chosen trajectories into lanes, but no parameters that a lane already holds."""
     for lane in range(LANES):
         m = chosen[lane]
         numbers = pool.numbers[m]
@@ -153,10 +153,10 @@ def gather(pool, chosen, kind):
 
 @kernel_only
 def scatter(pool, chosen, count, kind, arrived):
-    """Copy trajectories from the lanes into the pool, and queue those that have not ended.
+    """Copy trajectories from lanes into the pool. Put trajectories that have not ended in queues.
 
-    Return the number of trajectories that have ended. `arrived` receives their indices. Escaped
-    trajectories (`equation.no_return`) end at once, in the state at the escape.
+    Return the number of trajectories that have ended. `arrived` receives the indices of the ended
+    trajectories. An escaped trajectory (`equation.no_return`) ends in the state at the escape.
     """
     ended = 0
     for lane in range(count):
@@ -188,7 +188,7 @@ def scatter(pool, chosen, count, kind, arrived):
 
 @kernel_only
 def raise_largest(pool, chosen, count, order):
-    """Raise the largest |Z1| of chosen trajectories to the largest |Z1| in the last step."""
+    """Raise `pool.largest` of chosen trajectories to |Z1| in the last step, if |Z1| is larger."""
     series = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
     for lane in range(count):
         m = chosen[lane]
@@ -200,9 +200,9 @@ def raise_largest(pool, chosen, count, order):
 
 @kernel
 def advance_some(pool, chosen, arrived):
-    """Step the trajectories of a pool until some have ended. Return the number of these.
+    """Step the trajectories of a pool until some have ended. Return how many have ended.
 
-    `arrived` (LANES,) receives their indices. `chosen` (LANES,) is working memory.
+    `arrived` (LANES,) receives the indices of ended trajectories. `chosen` (LANES,) is scratch.
     """
     ended = 0
     a, d = pointer(pool.a), pointer(pool.d)
@@ -228,8 +228,8 @@ def advance(parameters, states, sides, starts, ends, tolerance, contacts, larges
     """Integrate trajectories, each from its start time to its end time.
 
     The function replaces `states` (m, 4) and `sides` (m,), the walls in contact. `contacts` (m,)
-    receives the number of contacts that each trajectory has begun, `largest` (m,) its largest |Z1|,
-    infinity after an escape.
+    receives the number of contacts that began in each trajectory. `largest` (m,) receives the
+    largest |Z1| of each trajectory, or infinity after an escape.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

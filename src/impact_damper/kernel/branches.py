@@ -1,8 +1,8 @@
-"""Compile templates of a step without numba's front end, which would take most of the time.
+"""Compile the templates of a step without numba's front end, which would take most of the time.
 
-A template is a Python function. Its arguments are pointers to float64 and numbers. It consists of
+A template is a Python function. Its arguments are numbers and pointers to float64. It consists of
 assignments, calls, `if`, `while`, `return`, and `for` loops over `range(count)` with a constant
-count. Expressions of constants are evaluated at compilation, and unreachable branches left out.
+count. Expressions of constants are evaluated at compilation. Unreachable code is left out.
 """
 
 import ast
@@ -40,7 +40,7 @@ INTRINSICS = {math.sqrt: "sqrt", math.sin: "sin", math.cos: "cos", np.floor: "fl
 
 @cache
 def _definitions(file):
-    """Return a dictionary from the number of a function's first line to its syntax tree."""
+    """Return the syntax trees of a file's functions. Keys are the numbers of their first lines."""
     found = {}
     for node in ast.walk(ast.parse(Path(file).read_text())):
         if isinstance(node, ast.FunctionDef):
@@ -54,7 +54,7 @@ def definition(function):
 
 
 def bits(x):
-    """Return the bits of a float as an integer, which for x > 0 is about 2^52 (1023 + log2(x))."""
+    """Return the bits of a float as an integer. It is about 2^52 (1023 + log2(x)) if x > 0."""
     return int(np.float64(x).view(np.int64))
 
 
@@ -64,13 +64,13 @@ def number(x):
 
 
 def template(function, caller):
-    """Return an intrinsic that calls a template from numba's kernels. `caller` only calls it."""
+    """Return an intrinsic by which kernels call a template. `caller` only calls the template."""
 
     def generate(context, builder, signature, arguments):
         builder.call(_compiled(builder.module, function, arguments), arguments)
         return context.get_dummy_value()
 
-    # numba takes the number of arguments from the signature of these functions.
+    # numba takes the number of the intrinsic's arguments from the signature of these functions.
     def of_one(typing, a):
         return types.void(a), generate
 
@@ -83,7 +83,7 @@ def template(function, caller):
 
 
 def _is_llvm(value):
-    """Return whether a value is known only when the compiled code runs."""
+    """Return whether a value is an LLVM value, which is known only when the compiled code runs."""
     return isinstance(value, ir.Value)
 
 
@@ -107,16 +107,16 @@ def _compiled(module, function, arguments):
 
 
 class Body(ast.NodeVisitor):
-    """Writes the LLVM code of a template. What is known at compilation stays a Python object."""
+    """Writes the LLVM code of a template. Values known at compilation stay Python objects."""
 
     def __init__(self, builder, function):
         self.builder, self.function = builder, function
         self.tree = definition(function)
-        # Values of names that are assigned once, memory of other names, memory of returned values.
+        # `values` of names assigned once, `memory` of other names, memory of `returned` values.
         self.values, self.memory, self.returned = {}, {}, []
 
     def expand(self, arguments):
-        """Write the body with these arguments. Return what the template returns."""
+        """Write the body of the template with these arguments. Return the value it returns."""
         self.end = self.builder.append_basic_block()
         names = [each.arg for each in self.tree.args.args]
         nodes = [each for each in ast.walk(self.tree) if isinstance(each, ast.Name)]
@@ -184,7 +184,7 @@ class Body(ast.NodeVisitor):
         self.store(node.target, self.visit(value))
 
     def store(self, target, value):
-        """Assign a value to a name or an array entry, or each value of a tuple to its target."""
+        """Assign a value to a name or to an array entry, or several values to several targets."""
         if isinstance(target, ast.Tuple):
             for each, part in zip(target.elts, value, strict=True):
                 self.store(each, part)
@@ -225,7 +225,7 @@ class Body(ast.NodeVisitor):
         self.builder.position_at_end(after)
 
     def visit_For(self, node):
-        """Write a loop over several lanes i as a loop. Unroll all other loops."""
+        """Write a loop `for i` of several rounds as a loop in LLVM. Unroll all other loops."""
         count, counter = self.visit(node.iter.args[0]), node.target.id
         if counter == "i" and count > 1:
             with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:
@@ -304,7 +304,7 @@ class Body(ast.NodeVisitor):
         return getattr(self.builder, whole)(*pair)
 
     def extreme(self, sign, found, other):
-        """Return the smaller or the larger of two numbers. NaN is compared as in Python."""
+        """Return the smaller (sign "<") or larger (">") number. NaN is compared as in Python."""
         return self.builder.select(self.compared(sign, other, found), other, found)
 
     def visit_Call(self, node):

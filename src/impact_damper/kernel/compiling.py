@@ -1,12 +1,12 @@
 """Compile kernels, which are functions in machine code, with numba. Decorators for functions:
 
     kernel       The function is compiled on the first call, and its machine code is cached.
-    kernel_only  Only kernels can call the function, which is cached as a part of them.
+    kernel_only  Only kernels can call the function. Its machine code is cached with each caller.
     inlined      Kernels that call the function contain a copy of the function.
 
-numba compiles a cached kernel again if the kernel's own file was edited. It does not notice edits
-of other files whose functions the kernel calls. Therefore the kernels of each module have their own
-cache folder. Its name is a digest of all files on which the kernels can depend.
+numba compiles a cached kernel again if the kernel's own file was edited. numba does not notice
+edits of other files with functions that the kernel calls. Therefore each module has a cache folder
+for its kernels. The folder's name is a digest of all files on which these kernels can depend.
 """
 
 import gc
@@ -33,15 +33,15 @@ from impact_damper.kernel.sources import kernel_digest
 # Time spent on compilation, in s, after which MESSAGE is printed.
 PATIENCE = 1.0
 MESSAGE = "impact_damper: compiling kernels; later sessions will load them from the cache"
-# Kind of numba event that `compiled` triggers while it compiles a kernel.
+# Kind of the numba event with which `compiled` reports that it compiles a kernel.
 COMPILING = "impact_damper:compile"
-# Number of float64 numbers in a cache line of the processor, which has 64 bytes.
+# Number of float64 numbers in a cache line of the processor (64 bytes).
 CACHE_LINE = 8
 
 
 @cache
 def cache_directory(*paths) -> Path:
-    """Return the folder for the compiled kernels of modules; `paths` are the modules' files."""
+    """Return the folder for the compiled kernels of the modules in the files `paths`."""
     chosen = os.environ.get("NUMBA_CACHE_DIR")
     root = Path(chosen) if chosen else platformdirs.user_cache_path("impact-damper")
     path = root / kernel_digest(*paths)
@@ -52,7 +52,7 @@ def cache_directory(*paths) -> Path:
     return path
 
 
-# Folder for the modules that `instances` generates, and for their compiled kernels.
+# Folder for the modules that `instances` generates, and for the compiled kernels of these modules.
 CACHE_DIRECTORY = cache_directory()
 
 
@@ -69,16 +69,15 @@ def own_cache(function):
         numba.config.CACHE_DIR = before
 
 
-# "contract" allows LLVM to fuse a multiplication with an addition. No other change of the
-# arithmetic is allowed. With "nogil" kernels release Python's global interpreter lock, so Python
-# threads can run them in parallel. With the error model "numpy" a division by zero gives infinity
-# or NaN and raises no error.
+# CONTRACT: LLVM may fuse a multiplication with an addition, but not change arithmetic otherwise.
+# "nogil": kernels release Python's global interpreter lock. So threads can run kernels in parallel.
+# "error_model": with "numpy", a division by zero gives infinity or NaN and raises no error.
 CONTRACT = ("contract",)
 SETTINGS = {"cache": True, "nogil": True, "fastmath": set(CONTRACT), "error_model": "numpy"}
 
 
 def kernel(function, **options):
-    """Decorate a function as a kernel. numba's `options` override SETTINGS."""
+    """Decorate a function as a kernel. `options` are options of numba, and override SETTINGS."""
     with own_cache(function):
         return numba.njit(no_cfunc_wrapper=True, **SETTINGS | options)(function)
 
@@ -89,7 +88,7 @@ inlined = partial(kernel, inline="always")
 
 @kernel
 def aligned(count):
-    """Return an array of `count` zeros. It begins at a cache line, so that vectors load fast."""
+    """Return an array of `count` zeros that begins at a cache line, so that vectors load fast."""
     numbers = np.zeros(count + CACHE_LINE)
     before = -numbers.ctypes.data // 8 % CACHE_LINE
     return numbers[before : before + count]
@@ -99,7 +98,7 @@ def aligned(count):
 def pointer(typing, array):
     """Return a pointer to the first element of an array. The caller must keep the array alive.
 
-    Pointers save time: numba counts references to arrays, which takes longer than some kernels.
+    numba counts references to arrays, but not to pointers. Counting takes longer than some kernels.
     """
 
     def generate(context, builder, signature, arguments):
@@ -116,7 +115,7 @@ def signature_of(function):
 
 @cache
 def compiled(function):
-    """Return a kernel as a compiled C function. All arguments of the kernel must be pointers."""
+    """Return a kernel as a compiled C function. All its arguments must be pointers to float64."""
     told = event.trigger_event(COMPILING, data={"dispatcher": function})
     with own_cache(function.py_func), told:
         return numba.cfunc(signature_of(function), **SETTINGS)(function.py_func)
@@ -126,9 +125,9 @@ def by_address(function):
     """Return a stand-in for a kernel. A call of the stand-in jumps to the kernel's address.
 
     Without the stand-in, LLVM would compile the kernel again as part of each caller. A compiled
-    caller refers to the kernel by a name, which this function binds to the address. The name must
-    be bound before the caller is loaded from the cache. Therefore this function is called at the
-    import of a module that the modules of all callers import.
+    caller refers to the kernel by a name. This function binds the name to the kernel's address.
+    This must happen before numba loads a caller from the cache. Therefore this function is called
+    at the top level of a module, and the modules of all callers import this module.
     """
     name = f"{function.py_func.__module__}.{function.py_func.__name__}"
     llvmlite.binding.add_symbol(name, compiled(function).address)
@@ -137,7 +136,7 @@ def by_address(function):
 
 @intrinsic
 def call_at(typing, address, numbers):
-    """Call the kernel at the integer `address`. Its argument is `numbers`, a pointer to float64."""
+    """Call the kernel at the integer `address`. Its argument is the float64 pointer `numbers`."""
 
     def generate(context, builder, signature, arguments):
         address, numbers = arguments
@@ -149,7 +148,7 @@ def call_at(typing, address, numbers):
 
 
 class Progress(event.Listener):
-    """Prints MESSAGE when this package's kernels have taken more than PATIENCE to compile."""
+    """Prints MESSAGE when the compilation of this package's kernels has taken PATIENCE seconds."""
 
     def __init__(self):
         self.depth, self.spent, self.written = 0, 0.0, False
@@ -158,7 +157,7 @@ class Progress(event.Listener):
         if _is_own(started):
             if self.depth == 0:
                 self.begun, self.collecting = time.perf_counter(), gc.isenabled()
-                # Garbage collection would take a fifth of the time and find little.
+                # Garbage collection would take a fifth of the compilation time and find little.
                 gc.disable()
             self._change(1)
 
@@ -179,7 +178,7 @@ class Progress(event.Listener):
 
 
 def _is_own(compiled):
-    """Return whether an event concerns a function of this package or of a generated module."""
+    """Return whether a numba event concerns a function of this package or of a generated module."""
     return compiled.data["dispatcher"].py_func.__module__.startswith("impact_damper")
 
 

@@ -2,9 +2,9 @@
 
     Z1'' = (F + U W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
-This is equation (3) of the paper with three more parameters k3, F and U of `Oscillator`. Some
-functions yield lines of Python code, from which `instances` makes kernels. The text
-docs/explanation/series.md explains the recurrence and the names in these lines.
+This is equation (3) of the paper with three further parameters: k3, F and U. Some functions yield
+lines of Python code. `instances` makes kernels from the lines. docs/explanation/series.md explains
+the recurrence of the Taylor coefficients, and the names in the lines.
 """
 
 import math
@@ -30,8 +30,8 @@ from impact_damper.model.packed import (
 def forcing_amplitude(p, lane=0, lanes=1):
     """Return the amplitude F + U W^2 of the forcing per unit of primary mass.
 
-    Each row of `p` belongs to a parameter and has one number for each of `lanes` trajectories.
-    `lane` is the index of the trajectory whose amplitude is returned.
+    `p` is a flat array of rows. Row k holds parameter k of each of `lanes` trajectories. The
+    returned amplitude belongs to the trajectory with the index `lane`.
     """
     frequency = p[FREQUENCY * lanes + lane]
     return p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
@@ -41,7 +41,7 @@ def forcing_amplitude(p, lane=0, lanes=1):
 def external_force(p, t):
     """Return the force of the excitation at the time t, divided by the primary mass.
 
-    Without fast math the product is rounded before it enters a sum.
+    With `fastmath=False` LLVM rounds the product and does not fuse it with a sum in the caller.
     """
     return forcing_amplitude(p) * math.cos(p[FREQUENCY] * t)
 
@@ -60,18 +60,18 @@ def spring_slope(p, x, lane=0, lanes=1):
 
 @kernel
 def acceleration(p, y, t):
-    """Return Z1'' without wall and friction in the state y = (Z1, Z1', Z2, Z2') at the time t."""
+    """Return Z1'' without the damper's forces, in the state y = (Z1, Z1', Z2, Z2') at time t."""
     return external_force(p, t) - p[DAMPING] * y[1] - spring(p, y[0])
 
 
 @kernel
 def no_return(p):
-    """Return the |Z1| beyond which a primary mass that moves outward never comes back, or infinity.
+    """Return the |Z1| beyond which an outward motion never comes back; infinity if k3 >= 0.
 
-    Beyond this |Z1| a softening spring (k3 < 0) pushes outward with at least the amplitude A of the
-    forcing. If |Z1| > 2 omega_l/sqrt(-k3), the outward force -k3 |Z1|^3 - omega_l^2 |Z1| is at
-    least -3/4 k3 |Z1|^3. If also |Z1| > (4 A/(-3 k3))^(1/3), this bound is at least A. The contact
-    forces of the loose mass are neglected.
+    Let A be the amplitude of the forcing. Beyond the returned |Z1| a softening spring (k3 < 0)
+    pushes outward with at least A: if |Z1| > 2 omega_l/sqrt(-k3), its outward force
+    -k3 |Z1|^3 - omega_l^2 |Z1| is at least -3/4 k3 |Z1|^3, and if |Z1| > (4 A/(-3 k3))^(1/3),
+    -3/4 k3 |Z1|^3 is at least A. The contact forces of the loose mass are neglected.
     """
     if p[CUBIC] >= 0.0:
         return math.inf
@@ -81,13 +81,13 @@ def no_return(p):
 
 @kernel_only
 def has_escaped(p, x, v):
-    """Return whether Z1 = x moves outward beyond `no_return` or is NaN; False unless k3 < 0."""
+    """Return whether Z1 = x moves outward beyond `no_return`. NaN also gives True if k3 < 0."""
     return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 
 @kernel_only
 def energy(p, y):
-    """Return the energy of masses, springs and gravity. A wall's spring counts while it pushes."""
+    """Return kinetic plus potential energy. A wall's spring contributes during contact only."""
     x, v = y[0], y[1]
     total = 0.5 * v * v + (0.5 * p[STIFFNESS] + 0.25 * p[CUBIC] * x * x) * x * x
     if p[INVERSE_MASS_RATIO] > 0.0:
@@ -102,13 +102,13 @@ def energy(p, y):
 def coefficients(at):
     """Yield the lines that load the coefficients of the spring's nonlinear terms.
 
-    `at(name)` returns the expression for the parameter `name`, which is in `packed.NAMES`.
+    `at(name)` returns the Python expression for the parameter `name`, one of `packed.NAMES`.
     """
     yield f"cubic = {at('CUBIC')}"
 
 
 def beginning(at):
-    """Yield the lines that compute from x0 further names, which the lines of `motion` need."""
+    """Yield the lines that compute names, such as `stiffness`, for the lines of `motion`."""
     yield from coefficients(at)
     yield "double = 2.0 * cubic"
     yield "s0 = cubic * x0 * x0"
@@ -119,12 +119,12 @@ def beginning(at):
 def motion(order, phase, constants, across):
     """Yield the lines that compute the series of a step up to `order`.
 
-    `phase` is "flight" or "contact". The lines need x0, x1, the names of `beginning` and the
-    constant acceleration `push`. They need `cosine` and `sine`, which are those of the forcing's
-    phase times the amplitude. In contact they also need q0, q1, `r1` and `mobility` = 1 + 1/rm,
-    and with `across` also `draw`, `base_cosine` and `base_sine`. `constants(k)` returns the lines
-    for coefficients that are the same in all steps of a trajectory: h/k, D/k (h, D if k = 0), and
-    the forcing's coefficient e[k] without its factor cosine or sine.
+    `phase` is "flight" or "contact". The lines read x0, x1, `push`, the names of `beginning`,
+    `cosine` = A cos(W T) and `sine` = A sin(W T), where A = F + U W^2. In contact the lines also
+    read q0, q1, `r1` and `mobility` = 1 + 1/rm. If `across` is true, the lines also read `draw`,
+    `base_cosine` and `base_sine`. `constants(k)` returns lines that set three coefficients:
+    h{k} = h/k and d{k} = D/k (h and D if k = 0), and e{k}, the coefficient of order k of the
+    forcing without its factor `cosine` or `sine`.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -145,8 +145,8 @@ def motion(order, phase, constants, across):
 def tangent(order, phase, constants):
     """Yield the lines that compute the series of a tangent up to `order`.
 
-    A tangent is a solution of the variational equations. In the lines x and q are those of the
-    tangent, and u0, u1, ... are those of `squares`. The arguments are as in `motion`.
+    A tangent is a solution of the variational equations. x0, x1, ... and q0, q1, ... in the lines
+    are coefficients of the tangent. `squares` computes u0, u1, ... `motion` describes arguments.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -173,10 +173,10 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Yield lines that update the coefficients s of k3 l^2 for a new term x[n] of a polynomial l.
+    """Yield lines that update s, the coefficients of k3 l^2, for a new term x[n] of a polynomial l.
 
-    With y = 2 k3 x[n] the lines add y x[j] to s[n+j] for each j < n. They update pairs of
-    coefficients, the first of which has an even index. The new coefficient s[2n] is k3 x[n]^2.
+    The lines add 2 k3 x[n] x[j] to s[n+j] for each j < n, and set s[2n] = k3 x[n]^2. Each line that
+    begins with P updates two neighbours, s[j] and s[j+1] with an even j. y[n] is 2 k3 x[n].
     """
     yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):
@@ -188,7 +188,7 @@ def _lower_squares(n):
 
 
 def _without_damping(k, drive):
-    """Yield the lines that compute c[k] = g[k] + h/k a[k-1] for k > 1; `drive` is the forcing."""
+    """Yield lines that compute c[k] = g[k] + h/k a[k-1], k > 1. `drive` is the forcing's term."""
     n, odd = k // 2, k % 2
     last = k - n - 1
     if odd and last % 2 and last > 1:
@@ -213,7 +213,7 @@ def _without_damping(k, drive):
 
 
 def _accelerations(k, phase, loose):
-    """Yield the lines that compute g[k] and x[k+2], in contact also q[k+2], from c[k] or m[k]."""
+    """Yield lines for g[k] and x[k+2], from c[k]. In contact: also for q[k+2], from `loose`[k]."""
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
     factor = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"

@@ -1,10 +1,10 @@
-"""Generate modules with the integration step, for a number of lanes and orders of the series.
+"""Generate modules with the integration step, for a number of lanes and two orders of the series.
 
-Several trajectories can be stepped side by side, each in its lane. A module has kernels of the
-series and the templates. A kernel of the series is a loop over the lanes, compiled by
-`straight_lines`. With one lane its code works on numbers and pairs. With several lanes it works on
-vectors, and a trajectory takes a third of the time. `branches` compiles the templates. All numbers
-of a step stand in a flat array of rows. Each row has one number for each lane.
+Each lane holds one trajectory. A module contains the templates, which `branches` compiles, and
+kernels that compute Taylor series. Such a kernel is a loop over the lanes, compiled by
+`straight_lines`. With one lane the kernel works on numbers and pairs of numbers. With several lanes
+the kernel works on vectors, and needs a third of the time per trajectory. All numbers of a step
+stand in a flat array of rows. Each row has one number for each lane.
 """
 
 import importlib.util
@@ -30,7 +30,7 @@ from impact_damper.kernel.templates import (
 from impact_damper.model import packed
 from impact_damper.model.parameters import NONLINEAR
 
-# Orders of the Taylor series. With these the integration is fastest at medium tolerances.
+# Orders of the Taylor series. With these orders the integration is fastest at medium tolerances.
 FLIGHT_ORDER = 18
 CONTACT_ORDER = 23
 # Groups of rows of a step, in this order:
@@ -38,12 +38,12 @@ CONTACT_ORDER = 23
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
 # STEP            SIDE, TIME, LONGEST and TOLERANCE are arguments; SIDE and LENGTH are results
 # SCRATCH, FREE   intermediate results
-# SERIES          coefficients of series
-# Series: X of Z1; Q of the depth Z2 -+ d0 in a wall; G of Z1'' without the force of the wall; U of
-# the slope of the spring's nonlinear force; E of the forcing without its factor cosine or sine. H
-# holds the numbers h/k, and D the numbers D/k. E, H and D are the same in all steps.
-# Rows of a tangent: STATE; KEPT, its Z2 while the loose mass sticks; TANGENT_SERIES, the
-# coefficients of its Z1 (DX) and of its depth (DQ).
+# SERIES          coefficients of series; E, H and D are the same in all steps of a trajectory
+#     X: Z1    Q: depth Z2 -+ d0 in a wall    G: Z1'' without the force of the wall    H: h/k
+#     U: slope of the spring's nonlinear force    E: forcing without cosine or sine    D: D/k
+# A tangent is a solution of the variational equations. Groups of its rows, in this order:
+# STATE and KEPT, which is the tangent's Z2 while the loose mass sticks
+# TANGENT_SERIES  coefficients of the tangent's Z1 (DX) and of the tangent's depth (DQ)
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
 SCRATCH = (
@@ -66,7 +66,7 @@ from {branches.__name__} import bits, number, template
 from {equation.__name__} import forcing_amplitude, spring, spring_slope
 from {straight.__module__} import {straight.__name__}
 """
-# Largest number of sums that one kernel computes.
+# Largest number of sums of series that one kernel computes.
 SUMS = 6
 # Coefficients of (cos x - 1)/x^2 and (sin x - x)/x^3 in powers of x^2.
 COSINES = [(-1.0) ** k / math.factorial(2 * k) for k in range(1, 9)]
@@ -74,7 +74,7 @@ SINES = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9)]
 
 
 def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
-    """Return the module with the step for a number of lanes and for the orders of the series."""
+    """Return the module with the step for a number of lanes and two orders of the series."""
     name = f"impact_damper_step_{lanes}_{flight_order}_{contact_order}"
     if name in sys.modules:
         return sys.modules[name]
@@ -109,7 +109,7 @@ def _source(writer):
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
     templates = forcing, root_search, across, friction, contact, separation, step
     text = "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])
-    # Functions of pointers that `branches` compiles are made callable from numba's kernels.
+    # `template` wraps functions that `branches` compiles, so that numba's kernels can call them.
     pattern = r"^def (\w+)\((a|a, d)\):$(?!\n    for i in range\(\d+\):)"
     for name, arguments in re.findall(pattern, text, re.MULTILINE):
         text += f"\n\ndef call_{name}({arguments}):\n    {name}({arguments})\n"
@@ -118,10 +118,10 @@ def _source(writer):
 
 
 def rows(flight_order, contact_order):
-    """Return a dictionary from the name of a row, or of a series, to the number of its first row.
+    """Return the numbers of rows by their names. A series has the number of its first row.
 
-    PARTS is the first row of partial sums. ROWS is the number of rows of a step, TANGENT_ROWS that
-    of a tangent.
+    PARTS is the first row of partial sums. ROWS is the number of rows of a step. TANGENT_ROWS is
+    the number of rows of a tangent.
     """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
@@ -136,9 +136,9 @@ def rows(flight_order, contact_order):
 
 
 class Writer:
-    """Writes the kernels of the series for a number of lanes and two orders, flight and contact.
+    """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
 
-    With one lane a trajectory has up to four tangents. With several, each lane has one tangent.
+    With one lane a trajectory has up to four tangents. With several lanes it has one tangent.
     """
 
     def __init__(self, lanes, flight_order, contact_order):
@@ -181,7 +181,7 @@ class Writer:
         return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
 
     def _computed(self, k, names):
-        """Yield lines that compute coefficient k of the constant series that `names` contains."""
+        """Yield lines that compute coefficient k of the constant series in `names`, e.g. "EHD"."""
         factor = f"{1 / k!r} * " if k > 1 else ""
         if "E" in names and k < 2:
             beginning = [f"w = {self.at('FREQUENCY')}", "e0 = 1.0"], ["ww = w * w", "e1 = -w"]
@@ -195,7 +195,7 @@ class Writer:
     def _constants(self, phase, tangent):
         """Return a function of k that returns the lines for coefficient k of the constant series.
 
-        With one lane the lines load it. With several lanes they compute it, as trajectories change.
+        With one lane they load it. With several they compute it, since a lane's trajectory changes.
         """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
         if self.lanes > 1:
@@ -205,14 +205,14 @@ class Writer:
     def series(self, phase, across=False):
         """Return a kernel that fills the series of a step: X and G, and in contact also Q.
 
-        If `across`, an acceleration acts on the loose mass alone (template `across`).
+        If `across` is true, Q includes the acceleration across (template `across`).
         """
         lines = [
             f"cosine = {self.at('COSINE')}",
             f"sine = {self.at('SINE')}",
             f"x0 = {self.at('Y0')}",
-            # Without 0.0, LLVM would load x0 and x1 as one vector. That load would wait until both
-            # numbers have been stored.
+            # Without + 0.0 LLVM would load x0 and x1 as one vector. The processor would then wait
+            # until both numbers have been stored.
             f"x1 = {self.at('Y1')} + 0.0",
             f"push = {self.at('PUSH')}",
             *equation.beginning(self.at),
@@ -235,7 +235,7 @@ class Writer:
         return self.function(name, self._stored(lines, f"{self.moving(phase)}G"))
 
     def squares(self, phase):
-        """Return a kernel that computes the series U, for the tangents, from the series X."""
+        """Return a kernel that computes the series U from the series X. The tangents need U."""
         count = self.orders[phase] - 1
         lines = list(equation.coefficients(self.at))
         lines += [f"x{k} = {self.at('X', k)}" for k in range(count)]
@@ -260,13 +260,13 @@ class Writer:
         return self.function(f"{phase}_tangent_series", lines, tangent=True)
 
     def _factors(self, phase):
-        """Yield lines that load the factors of the recurrence in contact; none in flight."""
+        """Yield lines that load the factors `r1` and `mobility` in contact; no lines in flight."""
         if phase == "contact":
             yield f"r1 = {self.at('CONTACT_STIFFNESS')}"
             yield f"mobility = 1.0 + {self.at('INVERSE_MASS_RATIO')}"
 
     def _stored(self, lines, names, tangent=False):
-        """Yield `lines`. Store each coefficient of a series in `names` by a further line."""
+        """Yield `lines`. Add lines that store each coefficient of the series named in `names`."""
         for line in lines:
             yield line
             target = line.split(" = ")[0]
@@ -281,7 +281,7 @@ class Writer:
 
 
 class Source(Writer):
-    """Writes the kernels that the templates call. They compute series, their sums, and bounds."""
+    """Writes the kernels that the templates call: kernels for series, their sums, and bounds."""
 
     def text(self):
         """Return the source of all kernels, with their imports."""
@@ -304,7 +304,7 @@ class Source(Writer):
             self.sums("flight_early", "flight", "T", slope | curve, terms=early),
             self.sums("flight_curve", "flight", "T", jerk),
             self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
-            # Upper bounds on |g| and |g'|, where g is Z1'' without the force of the wall.
+            # Upper bounds on |g|, |g'| and |g''|, where g is Z1'' without the force of the wall.
             self.sums("flight_bound", "flight", "LENGTH", bound),
             self.sums("flight_jerk", "flight", "LENGTH", {"JERK_BOUND": "|G'|"}),
             self.sums("flight_snap", "flight", "T", {"SNAP": "|G''|"}),
@@ -318,10 +318,10 @@ class Source(Writer):
     def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
         """Return the source of a kernel that sums series at the time in the row `time`.
 
-        `results` maps the row of a sum to what is summed: "X" is the series X, "X'" its derivative,
-        "|X|" the moduli of its terms. A sum begins at the order `begin` and has at most `terms`
-        terms. After the sums the kernel executes the lines `then`. The terms are added in four
-        partial sums of every fourth term, because the processor computes four at the same time.
+        `results` maps the row for a sum to the summed series: "X" is the series X, "X'" is the
+        derivative of X, "|X|" has the moduli of the terms of X. A sum begins at the order `begin`
+        and has at most `terms` terms. Then the kernel executes the lines `then`. A sum has four
+        partial sums of every fourth term, because the processor computes four sums at once.
         """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
@@ -370,7 +370,7 @@ class Source(Writer):
     def _wall(self):
         """Yield lines for the second (CURVE) and third (JERK) derivatives of Z1 and of the depth.
 
-        Before these lines Z1_CURVE and Z1_JERK must hold g and g', which lack the wall's force.
+        Before these lines Z1_CURVE and Z1_JERK must hold g and g'. g is Z1'' without the wall.
         """
         mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
         for force, depth_row, rate, derivative in (
@@ -385,7 +385,7 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """Yield lines that store in TAIL the largest modulus of the velocities' last two terms."""
+        """Yield lines that store in TAIL the largest modulus of each velocity's last two terms."""
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):
@@ -407,7 +407,7 @@ class Source(Writer):
         return self.function(f"{phase}_tangent_value", lines, tangent=True)
 
     def _time(self, row, phase):
-        """Yield lines that load the time t from a row and compute the powers that `_sum` needs."""
+        """Yield lines that load t from a row, and compute the powers of t that `_sum` needs."""
         yield f"t = {self.at(row)}"
         yield "t2 = t * t"
         yield "t4 = t2 * t2"
@@ -427,16 +427,16 @@ def _constants(*numbers):
 
 
 def _paired(c, result):
-    """Return a line that sums eight terms c[k] u^k by Estrin's scheme, with v = u^2."""
+    """Return a line that assigns the sum of eight terms c[k] u^k (Estrin's scheme, v = u^2)."""
     low, high = (f"({a} + {b} * u) + ({c} + {d} * u) * v" for a, b, c, d in (c[:4], c[4:]))
     return f"{result} = ({low}) + ({high}) * (v * v)"
 
 
 def _sum(c, result, parts, done):
-    """Yield lines that sum a series at t in four partial sums of every fourth term.
+    """Yield lines that sum the terms c[k] t^k in four partial sums of every fourth term.
 
-    `parts` are the partial sums of the first `done` terms. Terms are added in rising order, because
-    the last coefficients of a step are computed last.
+    `parts` are the partial sums of the first `done` terms. The lines add further terms in rising
+    order, because a step computes the last coefficients last.
     """
     for j in range(4):
         yield f"part{j} = {parts[j]}"

@@ -1,6 +1,6 @@
 """Integrate one trajectory in steps. An event, such as the beginning of a contact, ends a step.
 
-The state is (Z1, Z1', Z2, Z2'). The wall in contact, `side`, is -1 or 1, and 0 in flight.
+The state is (Z1, Z1', Z2, Z2'). `side` is the wall in contact, -1 or 1, or 0 in flight.
 """
 
 import numpy as np
@@ -23,7 +23,7 @@ _ONE = instances.instance(1)
 constant_series, find_sway = _ONE.constant_series, _ONE.find_sway
 flight_step, contact_step = by_address(_ONE.flight_step), by_address(_ONE.contact_step)
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
-# Index in a workspace at which the numbers of the tangents begin; a multiple of CACHE_LINE.
+# Index in a workspace at which the numbers of the tangents begin. It is a multiple of CACHE_LINE.
 BEHIND = -(-SIZE // CACHE_LINE) * CACHE_LINE
 SIDE, TIME, LONGEST = _ONE.SIDE, _ONE.TIME, _ONE.LONGEST
 TOLERANCE, LENGTH = _ONE.TOLERANCE, _ONE.LENGTH
@@ -31,24 +31,24 @@ PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _O
 T, SWAY, SWAY_SLOPE, STUCK = _ONE.T, _ONE.SWAY, _ONE.SWAY_SLOPE, _ONE.STUCK
 DRAW, BASE_COSINE, BASE_SINE, E = _ONE.DRAW, _ONE.BASE_COSINE, _ONE.BASE_SINE, _ONE.E
 FLIGHT_ORDER, CONTACT_ORDER = _ONE.FLIGHT_ORDER, _ONE.CONTACT_ORDER
-# Indices in a workspace at which the series of the tangents begin. Each coefficient has COLUMNS
-# numbers, one for each tangent.
+# Indices in a workspace at which the tangents' series of Z1 (DX) and of the depth (DQ) begin. Each
+# coefficient has COLUMNS numbers, one for each tangent.
 _ROWS = rows(FLIGHT_ORDER, CONTACT_ORDER)
 DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 
-# Number of pieces of a step. In each piece at most one turning point of a polynomial is expected.
+# Number of pieces in which `extremum` divides an interval. It expects one turning point per piece.
 PIECES = 8
 
 
 @kernel
 def workspace():
-    """Return a workspace, an array for the rows of a trajectory and of its tangents in a step."""
+    """Return a workspace: an array for all numbers of a step of a trajectory and its tangents."""
     return aligned(BEHIND + TANGENT_SIZE)
 
 
 @kernel
 def assign(target, state):
-    """Copy a state into `target`. To compile `target[:] = state` would take three seconds."""
+    """Copy a state into `target`. numba would need three seconds to compile `target[:] = state`."""
     for i in range(4):
         target[i] = state[i]
 
@@ -68,8 +68,8 @@ def polynomial(c, order, t):
 def extremum(c, order, length, start):
     """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
 
-    On the interval |polynomial| exceeds its larger end value by at most length^2/8 times the
-    largest second derivative. Turning points are sought if one may be the largest value.
+    |polynomial| exceeds the larger of its two values at 0 and `length` by at most length^2/8 times
+    the largest |second derivative|. Turning points are sought only if this bound exceeds `start`.
     """
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)
@@ -84,7 +84,7 @@ def extremum(c, order, length, start):
         t = length * piece / PIECES
         value, slope = polynomial(c, order, t)
         best = max(best, abs(value))
-        # In this case the modulus increases at the beginning of the piece and decreases at its end.
+        # The condition: |polynomial| grows at the beginning of the piece and falls at its end.
         if slope * fall < 0.0 and value * slope < 0.0:
             turn = turning_time(c, order, t - length / PIECES, t, fall, slope)
             best = max(best, abs(polynomial(c, order, turn)[0]))
@@ -94,7 +94,7 @@ def extremum(c, order, length, start):
 
 @kernel_only
 def turning_time(c, order, begin, end, first, last):
-    """Return the time of slope 0 between `begin` and `end`, with the slopes `first` and `last`."""
+    """Return the time of slope 0 between `begin` (slope `first`) and `end` (slope `last`)."""
     t = begin + (end - begin) * first / (first - last)
     for _ in range(4):
         _, slope = polynomial(c, order, t)
@@ -109,7 +109,7 @@ def turning_time(c, order, begin, end, first, last):
 
 @kernel_only
 def write_trajectory(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace. The indices are the same for all orders of series."""
+    """Write a trajectory into a workspace. The indices do not depend on the orders of series."""
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -121,7 +121,7 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel_only
 def load(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace. If W, h or D has changed, fill the constant series."""
+    """Write a trajectory into a workspace. If W, h or D changes, compute the constant series."""
     kept = True
     for i in (FREQUENCY, DAMPING, DASHPOT):
         kept = kept and a[PARAMETERS + i] == p[i]
@@ -132,7 +132,7 @@ def load(p, y, side, tolerance, a):
 
 @kernel_only
 def step_loaded(t, longest, a):
-    """Step the trajectory in a workspace. Return the step's length, and `side` at its end."""
+    """Do one step of a trajectory. Return the step's length, and `side` at the end of the step."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:
@@ -153,9 +153,9 @@ def unload(y, a):
 def step(p, y, side, t, longest, tolerance, work):
     """Integrate one step, at most up to the first event and at most over the time `longest`.
 
-    The step begins at the time t with `side`, the wall in contact. The state at its end replaces
-    y (4,). Return the step's length and the wall in contact at its end. `work` is a `workspace()`.
-    It receives the series of Z1 from index X on, and in contact that of Z2 -+ d0 from index Q on.
+    The step begins at the time t with the wall `side` in contact. The state at the step's end
+    replaces y (4,). Return the step's length, and `side` at its end. `work` is a `workspace()`. It
+    receives the series of Z1 from index X on, in contact also the series of Z2 -+ d0 from Q on.
 
     If the motion has escaped (`equation.no_return`), the returned length is `longest`, because
     steps on the way to infinity become ever shorter. The true length is `work[LENGTH]`.
@@ -169,7 +169,7 @@ def step(p, y, side, t, longest, tolerance, work):
 
 @kernel_only
 def state_in_step(work, side, y, t):
-    """Return the state at time t of the step in `work`, which began at time 0 in the state y."""
+    """Return the state a time t after the step in `work` began with the state y and `side`."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     x, v = polynomial(work[X:], order, t)
@@ -188,7 +188,7 @@ def state_in_step(work, side, y, t):
 
 @kernel_only
 def series_of_loose_mass(work, side, y, c):
-    """Fill c with the Taylor coefficients of Z2 over a step from the state y; return the order."""
+    """Fill c with the Taylor coefficients of Z2 in a step that began in y. Return their order."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     for k in range(order + 1):
@@ -210,7 +210,7 @@ def series_of_loose_mass(work, side, y, c):
 
 @kernel
 def side_of(p, y):
-    """Return the wall with which the loose mass is in contact, -1 or 1, or 0 in flight."""
+    """Return the wall in contact with the loose mass in the state y: -1 or 1, or 0 in flight."""
     wall = 1 if y[2] > 0.0 else -1
     depth = abs(y[2]) - p[CLEARANCE]
     if depth < 0.0 or (p[LAG] > 0.0 and depth + p[LAG] * wall * y[3] <= 0.0):

@@ -1,8 +1,8 @@
 """Find the source files on which a module depends, by following its imports.
 
-A digest of these files is the name of the folder with the compiled kernels. The workflow runs a
-job again if one of these files was edited. This module imports neither numba nor NumPy, because
-every dry run of the workflow imports it.
+The folder of compiled kernels has a digest of such files as its name. The workflow runs a job again
+if a file on which the job depends was edited. numba and NumPy load slowly. This module does not
+import them, because every dry run of the workflow imports this module.
 """
 
 import ast
@@ -18,7 +18,7 @@ ROOT = KERNEL.parents[1]
 
 
 def sources(*paths) -> set:
-    """Return the files `paths` and all files that these import, directly or not.
+    """Return the files `paths` and all files that they import, directly or through other files.
 
     Only imports from this package and from the packages of `paths` are followed.
     """
@@ -35,9 +35,9 @@ def sources(*paths) -> set:
 def _imports(path, packages):
     """Return the files of `packages` that a Python file imports directly.
 
-    Of `import a.b.c` the files `__init__.py` of a and of a.b are left out.
+    For `import a.b.c` this is the file of a.b.c, without the `__init__.py` of a and of a.b.
     """
-    # Only statements that import from `packages` are parsed, because whole files take much longer.
+    # Only imports from `packages` are parsed, because parsing whole files takes much longer.
     statement = re.compile(
         rf"^ *((?:from|import) (?:{'|'.join(packages)})\b(?:[^(\n]*\([^)]*\)|[^(\n]*$))",
         re.MULTILINE,
@@ -49,7 +49,7 @@ def _imports(path, packages):
         else:
             names += [f"{node.module}.{alias.name}" for alias in node.names]
     files = set(map(module_file, names))
-    # A package that imports all its modules at run time depends on them.
+    # An `__init__.py` with this text imports all modules of its folder at run time.
     if path.name == "__init__.py" and "iter_modules(__path__)" in path.read_text():
         files |= set(path.parent.glob("*.py"))
     return files

@@ -1,8 +1,8 @@
 """Compile arithmetic without branches ("straight lines"). numba's type inference is bypassed.
 
-A Taylor series of a step has thousands of operations, and numba's type inference takes a
-millisecond for each. Several trajectories are computed side by side, each in its lane. All lanes
-execute the same lines. With one lane an operation on a pair of numbers takes one instruction.
+A Taylor series of a step has thousands of operations. numba's type inference takes a millisecond
+for each operation. Each lane holds one trajectory, and all lanes execute the same lines. With one
+lane, one instruction operates on a pair of numbers.
 """
 
 import ast
@@ -16,7 +16,7 @@ from numba.core import cgutils
 from impact_damper.kernel.branches import OPERATORS, Body
 from impact_damper.kernel.compiling import CONTRACT
 
-# Number of lanes in a vector: twice as many with AVX-512, which has twice as many registers.
+# Number of lanes in a vector. A processor with AVX-512 has twice as many registers as others.
 WIDTH = 8 if get_host_cpu_features().get("avx512f") else 4
 FLOAT = ir.DoubleType()
 PAIR = ir.VectorType(FLOAT, 2)
@@ -26,18 +26,18 @@ INDEX, OFFSET = ir.IntType(32), ir.IntType(64)
 def straight(function):
     """Decorate a function that consists of a loop `for i in range(lanes)` with assignments.
 
-    The number of lanes is at most WIDTH, or a multiple of WIDTH. The left of `=`, `+=` or `-=` is a
-    name, `a[1 + i]`, or, with one lane, `a[1]`. The right side consists of names, constants,
-    `a[1 + i]`, `a[1]` (the same for all lanes), `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`,
-    `*`, `/`, `abs(x)`, and `max(x, y)`, which means `x if x > y else y`. `(x, y)` is a pair, and
-    `x, y = ...` unpacks a pair. An operator acts on each number of a pair.
+    The number of lanes is at most WIDTH, or a multiple of WIDTH. The left side of `=`, `+=` or `-=`
+    is a name, `a[1 + i]`, or, with one lane, `a[1]`. The right side consists of names, constants,
+    `a[1 + i]`, `a[1]` (equal in all lanes), `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`, `*`,
+    `/`, `abs(x)`, and `max(x, y)`, which means `x if x > y else y`. `(x, y)` is a pair, and
+    `x, y = ...` unpacks a pair. An operator acts on each of the two numbers of a pair.
     """
     function.write = write
     return function
 
 
 def write(function, builder, pointers):
-    """Write the LLVM code of a call of a function (see `straight`) with these pointers."""
+    """Write the LLVM code of a call of `function` (see `straight`) with `pointers` as arguments."""
     lines = _Lines(builder, function)
     (loop,) = lines.tree.body
     lanes = loop.iter.args[0].value
@@ -45,7 +45,7 @@ def write(function, builder, pointers):
     lines.values = dict(zip([each.arg for each in lines.tree.args.args], pointers, strict=True))
     lines.arithmetic = Arithmetic(builder, width)
     rounds, step = (ir.Constant(OFFSET, count) for count in (lanes // width, width))
-    # If one vector holds all lanes, no loop is written, because LLVM would delay the loop's stores.
+    # If one vector holds all lanes, no loop is written, because LLVM would delay stores in a loop.
     with cgutils.for_range(builder, rounds) if lanes > WIDTH else nullcontext() as turn:
         lines.first = builder.mul(turn.index, step) if turn else None
         lines.run(loop.body)
@@ -134,7 +134,7 @@ class Arithmetic:
         return ir.Constant(self.type, value if self.width == 1 else [value] * self.width)
 
     def in_all_lanes(self, value):
-        """Return a number that is equal to the double `value` in all lanes."""
+        """Return a number that has the value of the double `value` in all lanes."""
         return value if self.width == 1 else self._repeated(value, self.width)
 
     def pair(self, first, second):
@@ -165,7 +165,7 @@ class Arithmetic:
         return self.combined("fneg", value)
 
     def fused(self, first, second, third):
-        """Return first * second + third, rounded only once if the processor can do so."""
+        """Return first * second + third. If the processor can, it rounds the result only once."""
         return self._each(partial(self._intrinsic, "llvm.fmuladd"), first, second, third)
 
     def modulus(self, number):
@@ -184,7 +184,7 @@ class Arithmetic:
         return self.builder.shuffle_vector(vector, vector, zeros)
 
     def _intrinsic(self, name, *values):
-        """Return the result of an LLVM intrinsic for values of one type."""
+        """Return the result of an LLVM intrinsic for `values`, which all have the same type."""
         kind = values[0].type
         suffix = f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64"
         signature = ir.FunctionType(kind, [kind] * len(values))
@@ -194,7 +194,7 @@ class Arithmetic:
         return self.builder.call(function, values)
 
     def _each(self, operation, *values):
-        """Return the result of an operation on numbers, or on both numbers of pairs."""
+        """Return the result of an operation on numbers, or on each number of pairs."""
         if not any(map(self.is_pair, values)):
             return operation(*values)
         if self.width > 1:

@@ -1,7 +1,7 @@
 """Integrate one trajectory and its tangents. A tangent is a solution of the variational equations.
 
-The kernels of the tangents are compiled when this module is imported (`compiling.by_address`).
-Therefore a module that integrates no tangents imports `single` only.
+An import of this module compiles the kernels of the tangents (`compiling.by_address`). Therefore a
+module that integrates no tangents imports `single` instead of this module.
 """
 
 from impact_damper.kernel import instances
@@ -16,7 +16,7 @@ contact_tangents = by_address(_ONE.contact_tangents)
 
 @kernel_only
 def load_tangents(tangents, d):
-    """Write tangents into their part of a workspace."""
+    """Write tangents (m, 4) into d, the part of a workspace for tangents."""
     if len(tangents) > 0:
         for i in range(COLUMNS):
             for j in range(4):
@@ -25,7 +25,7 @@ def load_tangents(tangents, d):
 
 @kernel_only
 def unload_tangents(tangents, d):
-    """Read tangents from their part of a workspace."""
+    """Copy tangents (m, 4) from d, the part of a workspace for tangents."""
     for i in range(len(tangents)):
         for j in range(4):
             tangents[i, j] = d[COLUMNS * j + i]
@@ -33,7 +33,7 @@ def unload_tangents(tangents, d):
 
 @kernel_only
 def step_all(count, t, longest, a, d):
-    """Integrate one step of the trajectory and the `count` tangents in a workspace."""
+    """Do one step of a trajectory and `count` tangents. Return the step's length, and `side`."""
     before = a[SIDE]
     length, side = step_loaded(t, longest, a)
     if count > 0:
@@ -46,7 +46,7 @@ def step_all(count, t, longest, a, d):
 
 @kernel
 def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
-    """Step y as `single.step` does, and its `tangents` (m, 4), m <= 4. New values replace both."""
+    """Do a step of the state y (see `single.step`) and of `tangents` (m, 4), m <= 4, in place."""
     a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, side, tolerance, a)
     load_tangents(tangents, d)
@@ -60,8 +60,8 @@ def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
 def advance(p, y, tangents, side, t, end, tolerance, work):
     """Integrate from time t to time `end`. `step_with_tangents` describes the other arguments.
 
-    Return three numbers: the side at the end, how many contacts began, and the time in contact. A
-    motion that escapes (`equation.no_return`) stops in the state at the escape.
+    Return three numbers: `side` at the end, the number of contacts begun, and the time in contact.
+    A motion that escapes (`equation.no_return`) stops in the state at the escape.
     """
     contacts = 0
     touching = 0.0

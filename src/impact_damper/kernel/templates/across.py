@@ -1,31 +1,31 @@
 """Template (see `step`): acceleration across, which is Z2'' - Z1'' without the force of a wall.
 
 The acceleration across is DRAW - BASE A cos(W T), with the amplitude A of the forcing. DRAW is
-gravity along the gap plus the friction of a sliding loose mass. The other term appears if the base
-moves, because Z1 is measured from the base. SWAY is the double integral of the acceleration across
-from the beginning of the step.
+gravity along the gap plus the friction of a sliding loose mass, per unit of its mass. BASE is 1 if
+the base moves, because Z1 is measured from the base. SWAY is the double integral over time of the
+acceleration across, from the beginning of the step.
 """
 
-# Phase angle (rad) below which (x - sin x) / x^3 is computed from its series.
+# Phase angle x (rad) below which (x - sin x) / x^3 is computed from its Taylor series.
 SMALL = 0.5
 
 
 def is_outside(a, i):
-    """Return whether a flight begins behind a wall's surface, and the loose mass does not stick."""
+    """Return whether a flight begins behind a wall's surface (|Z2| > d0), without sticking."""
     return abs(a[Y2 + i]) > a[CLEARANCE + i] and a[STUCK + i] == 0.0
 
 
 def load_across(a):
-    """Compute the acceleration ACROSS when the step begins, and a bound MOST on its modulus.
+    """Compute ACROSS, the acceleration across as a step begins, and MOST, a bound on its modulus.
 
-    SWAYS is 0 if no acceleration across acts in any lane.
+    SWAYS is the number of lanes in which an acceleration across acts.
     """
     acting = 0
     rough = 0
     for i in range(LANES):
         acting += 1 if abs(a[GRAVITY + i]) + a[BASE + i] + a[FRICTION + i] > 0.0 else 0
         rough += 1 if a[FRICTION + i] > 0.0 else 0
-    # If nothing acts, and nothing acted in the last step, the rows are 0 already.
+    # If no acceleration across acts now, and none acted in the last step, the rows are 0 already.
     if acting > 0 or a[SWAYS] > 0.0:
         for i in range(LANES):
             a[DRAW + i] = a[GRAVITY + i]
@@ -72,7 +72,7 @@ def find_sway(a):
 
 
 def flight_values(a):
-    """Compute Z1, SWAY and their derivatives at T. From these Z2 follows (`contact.loose_mass`)."""
+    """Compute Z1, SWAY and their derivatives at T. `contact.loose_mass` computes Z2 from them."""
     flight_slope(a)
     flight_curve(a)
     find_sway(a)
@@ -87,10 +87,10 @@ def penetration_values(a):
 def find_return(a):
     """Find the first contact in [0, T] in lanes whose loose mass begins behind a wall's surface.
 
-    The wall pushes again once f = q + LAG q' rises to zero at a depth q > 0. If f does not, a
-    contact begins at q = 0 as usual. MODE, WALL, T and the rows END_ are set as by `find_contact`,
-    but MODE becomes MET_DEEP for a contact at a depth. No search is needed if the other wall is out
-    of reach and f certainly falls. f does so if -q' exceeds LAG times a bound on |q''|.
+    If f = q + LAG q' rises to zero at a depth q > 0, a contact begins there, and MODE becomes
+    MET_DEEP. Other contacts begin at a wall's surface, and MODE becomes MET. WALL, T, END_Z1 and
+    END_Z1_SLOPE are set as in `find_contact`. No search is needed if f certainly falls and the
+    other wall is out of reach. f falls if -q' exceeds LAG times a bound on |q''|.
     """
     flight_bound(a)
     flight_jerk(a)
@@ -124,7 +124,7 @@ def find_return(a):
 
 
 def step_outside(a, i, t):
-    """Return the next time and mode of the search of `find_return` in lane i, in mode MARCH."""
+    """Do one step of the search of `find_return` at time t. Return the next time and next mode."""
     wall, lag, bound = a[WALL + i], a[LAG + i], a[BOUND + i]
     clearance = a[CLEARANCE + i]
     z, w = loose_mass(a, i, t)
@@ -132,7 +132,7 @@ def step_outside(a, i, t):
     slope = wall * w
     f = q + lag * slope
     rise = slope + lag * wall * (a[Z1_CURVE + i] + a[SWAY_CURVE + i])
-    # Z2 and Z2' follow from Z1 and Z1', whose rounding errors may exceed that of the clearance.
+    # `fine` is the rounding error of q and f. It includes the rounding errors of Z1 and Z1'.
     fine = abs(a[Y0 + i]) + clearance + lag * (abs(a[Y1 + i]) + abs(slope))
     fine *= ROUNDING
     bent = bound + lag * a[JERK_BOUND + i]
@@ -140,7 +140,7 @@ def step_outside(a, i, t):
     deep = safe_advance(-q, slope, bound) if q <= fine else 0.0
     pressed = safe_advance(-f, rise, bent) if f <= fine else 0.0
     across = safe_advance(2.0 * clearance + q, -slope, bound)
-    # At t = 0 a positive f that falls is a rounding error of the separation before this flight.
+    # If f is positive and falls at t = 0, f is a rounding error: this flight begins at f = 0.
     pushes = rise > 0.0 or (f > fine and t > 0.0)
     here = q >= -fine and f >= -fine and (q > fine or slope > 0.0) and pushes
     other = 2.0 * clearance + q <= fine and slope < 0.0

@@ -5,14 +5,14 @@ SAG = 0.13
 
 
 def loose_mass(a, i, t):
-    """Return Z2 and Z2' at time t of a flight. Z2 - Z1 is a linear function of t plus SWAY."""
+    """Return Z2 and Z2' at the time t of a flight. Z2 - Z1 is SWAY plus a linear function of t."""
     drift = a[Y3 + i] - a[Y1 + i]
     place = a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t
     return place + a[SWAY + i], a[Z1_SLOPE + i] + drift + a[SWAY_SLOPE + i]
 
 
 def first_guess(a, i):
-    """Return an estimate of the contact's time from three terms of the series of the distance."""
+    """Return the estimated time of a contact: the root of the distance's series up to order 2."""
     distance = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
     speed = abs(a[Y3 + i])
     bend = a[WALL + i] * (a[G + i] + a[ACROSS + i])
@@ -22,7 +22,7 @@ def first_guess(a, i):
 def distance_ahead(a, i, t):
     """Return three numbers at time t: the distance f to WALL, the Newton step -f/f', and f''/f'.
 
-    Before the call Z1, SWAY and their first two derivatives at t must be in their rows.
+    Before the call the rows of Z1, SWAY and their first two derivatives must hold values at time t.
     """
     z, w = loose_mass(a, i, t)
     closing = a[WALL + i] * w
@@ -32,10 +32,10 @@ def distance_ahead(a, i, t):
 
 
 def expect_contact(a):
-    """Move T from LENGTH to the expected time of a contact, in lanes that expect a contact.
+    """In lanes in which a contact is expected, move T from LENGTH to the contact's expected time.
 
-    Three terms of the series decide whether a contact is expected. Half of all terms give the time.
-    So the processor need not wait for the last coefficients.
+    Three terms of the series of Z2 decide whether a contact is expected. Half of the terms of Z1
+    give the expected time. So the processor need not wait for the last coefficients.
     """
     expected = 0
     for i in range(LANES):
@@ -51,9 +51,9 @@ def expect_contact(a):
 
 
 def guess_contact(a):
-    """Move T to the expected contact if MODE is BRACKET and the contact lies before LENGTH.
+    """Set T to the expected time of a contact if MODE is BRACKET and this time is before LENGTH.
 
-    In all other lanes move T to LENGTH.
+    In all other lanes set T to LENGTH.
     """
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
@@ -69,22 +69,22 @@ def guess_contact(a):
 def find_contact(a):
     """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
 
-    If there is such a time, MODE becomes MET, and WALL is the wall that is met. If there is
-    certainly none, MODE becomes MISSED, and T keeps its value. MODE also becomes MISSED if
-    APART > 0: the loose mass sticks, or it begins behind a wall's surface. Before the call END_Z1
-    and END_Z1_SLOPE must hold Z1 and Z1' at T. They are updated with T. If T is below LENGTH, a
-    contact is expected at T (`expect_contact`). It may lie slightly later.
+    If there is such a time, MODE becomes MET, and WALL becomes the wall in contact. If there is
+    certainly no such time, MODE becomes MISSED, and T keeps its value. If APART > 0, MODE becomes
+    MISSED too: the loose mass sticks, or begins the flight behind a wall's surface. Before the call
+    END_Z1 and END_Z1_SLOPE must hold Z1 and Z1' at T. If T changes, so do END_Z1 and END_Z1_SLOPE.
+    T < LENGTH means that a contact is expected at T (`expect_contact`), or slightly later.
 
     Bounds decide most flights without a search. `change` is a bound on the change of Z2' in the
     flight. The wall ahead is the wall to which Z2' points at the beginning.
 
     - `clear`: the chord is the straight line between Z2 at both ends of the flight. Z2 deviates
-      from it by at most SAG `change` T. If both ends are further from the wall ahead, Z2 does not
-      meet this wall.
-    - `left`: the chord gives a lower bound on the distance to the wall behind. The speed at the
-      beginning and `change` give another. If the mean of both is positive, this wall is not met.
-    - `certain`: the speed at each end gives a lower bound on the speed. If the mean of both bounds
-      is positive, the velocity keeps its sign: only the wall ahead can be met, and only once.
+      from the chord by at most `sag`. If both ends are more than `sag` away from the wall ahead,
+      Z2 does not meet this wall.
+    - `left`: the chord gives a lower bound on the distance to the other wall. Z2' at the beginning
+      and `change` give another. If the mean of both bounds is positive, Z2 does not meet this wall.
+    - `certain`: Z2' at each end, with `change`, gives a lower bound on the speed to the wall ahead.
+      If the mean of both bounds is positive, Z2 can meet only the wall ahead, and only once.
     """
     undecided = 0
     expected = 0
@@ -118,7 +118,7 @@ def find_contact(a):
 
 
 def meet_expected(a):
-    """Do one iteration in lanes that expect a contact at T. Return how many lanes are undecided."""
+    """Do one iteration for contacts expected at T. Return how many lanes are still undecided."""
     flight_curve(a)
     find_sway(a)
     undecided = 0
@@ -140,10 +140,10 @@ def meet_expected(a):
 def exclude_contacts(a):
     """Set MODE to MISSED in lanes whose loose mass certainly meets no wall in [0, T].
 
-    Return the number of lanes that are still undecided. The cubic polynomial with the values and
-    slopes of Z2 at 0 and T differs from Z2(s T) by at most 16 `most` s^2 (1 - s)^2, where
-    384 `most` = T^4 max |Z2''''|. Each half of the cubic lies between its Bernstein coefficients,
-    and the difference raises these by at most 4/3 `most` (inner), `most` (middle) and 0 (others).
+    Return the number of lanes that are still undecided. Let P(s) be the cubic polynomial with the
+    values and slopes of Z2 at 0 and T. |Z2(s T) - P(s)| is at most 16 `most` s^2 (1 - s)^2, where
+    `most` = T^4 max|Z2''''| / 384. Each half of P lies between its Bernstein coefficients. For Z2 a
+    coefficient grows by at most `most` at s = 1/2, 4/3 `most` next to s = 1/2, and 0 elsewhere.
     """
     flight_snap(a)
     undecided = 0
@@ -197,11 +197,11 @@ def search_contact(a):
                 upper = safe_advance(clearance - z, w, bound)
                 lower = safe_advance(clearance + z, -w, bound)
                 wall = 1.0 if upper < lower else -1.0
-                # If Z2 leaves a wall, the distance is a rounding error for the time `shortest`.
+                # If Z2 leaves a wall, the distance is only a rounding error for a time `shortest`.
                 shortest = math.sqrt(8.0 * fine / (bound + TINY))
                 receding = max(shortest, ROUNDING * t) if wall * w <= 0.0 else 0.0
                 ahead = max(min(upper, lower), receding)
-                # A mass at rest on the wall does not close in, so a later time decides.
+                # A loose mass at rest on a wall does not approach the wall: no contact begins at t.
                 t, mode = march_step(
                     t, clearance - wall * z, wall * w > 0.0, ahead, a[LENGTH + i], fine
                 )

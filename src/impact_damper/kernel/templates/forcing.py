@@ -1,18 +1,18 @@
 """Template (see `step`): cosine and sine of the forcing's phase at the beginning of a step."""
 
-# pi/2 as the sum of two numbers. QUARTER has few digits, so that multiples of QUARTER are exact.
+# QUARTER + QUARTER_REST is pi/2. QUARTER has few binary digits: its integer multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
-# Largest change of phase (rad) for which COSINE and SINE follow from earlier ones by the addition
-# theorem. It uses the series of cos and sin of the change up to third order.
+# Largest change of phase (rad) over which `forcing` only corrects COSINE and SINE. The correction
+# uses the addition theorem, and the series of cos and sin of the change up to third order.
 NEAR = 1e-4
 
 
 def find_circle(a):
-    """Compute CIRCLE_COSINE and CIRCLE_SINE, cosine and sine of ANGLE (rad).
+    """Compute CIRCLE_COSINE = cos(ANGLE) and CIRCLE_SINE = sin(ANGLE), with ANGLE in rad.
 
-    Quarter turns are subtracted from ANGLE first, because the series converge fast only up to an
-    eighth of a turn.
+    The function first subtracts quarter turns (pi/2) from ANGLE, because the series converge fast
+    only for angles up to pi/4.
     """
     for i in range(LANES):
         angle = a[ANGLE + i]
@@ -34,7 +34,7 @@ def find_circle(a):
 
 
 def find_forcing(a):
-    """Compute COSINE and SINE of the forcing's phase at the time KNOWN, times the amplitude."""
+    """Compute COSINE = A cos(W KNOWN) and SINE = A sin(W KNOWN). A is the forcing's amplitude."""
     for i in range(LANES):
         a[ANGLE + i] = a[FREQUENCY + i] * a[KNOWN + i]
     find_circle(a)
@@ -45,9 +45,9 @@ def find_forcing(a):
 
 
 def forcing(a):
-    """Compute COSINE and SINE of the forcing's phase at TIME, times the amplitude.
+    """Compute COSINE = A cos(W TIME) and SINE = A sin(W TIME). A is the forcing's amplitude.
 
-    With one lane both are corrected if `look_ahead` has computed them for a time close to TIME.
+    With one lane, if COSINE and SINE are known at a time KNOWN close to TIME, they are corrected.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:
@@ -62,9 +62,9 @@ def forcing(a):
 
 
 def look_ahead(a):
-    """With one lane, compute COSINE and SINE at T, the expected end of the step.
+    """With one lane, compute COSINE and SINE at TIME + T, the expected end of the step.
 
-    The processor does this while it waits for other results of the step.
+    The processor computes them while it waits for other results of the step.
     """
     if LANES == 1:
         a[KNOWN] = a[TIME] + a[T]

@@ -1,19 +1,19 @@
 """Template (see `step`): Coulomb friction of the loose mass on its floor.
 
 SLIDE is the sign of Z2'. While the loose mass slides, friction adds -FRICTION SLIDE to the
-acceleration across (template `across`) and PUSH to Z1''. While it sticks (STUCK), both masses move
-together. g is Z1'' without the loose mass:
+acceleration across (template `across`) and PUSH to Z1''. While the loose mass sticks (STUCK is 1),
+both masses move together. Let g be Z1'' without the loose mass. Then
 
     (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T))
 
-Per unit of loose mass, the friction that holds both masses together is below FRICTION in modulus.
+The loose mass sticks while this takes a friction, per unit of loose mass, of less than FRICTION.
 """
 
 
 def load_friction(a):
     """Decide at the beginning of a step whether the loose mass sticks, or which way it slides.
 
-    The loose mass can stick only if Z2' is exactly 0, as `end_turn` sets it.
+    The loose mass can stick only if Z2' is exactly 0. `end_turn` sets Z2' to 0 after a turn.
     """
     a[STICKS] = 0.0
     for i in range(LANES):
@@ -37,7 +37,7 @@ def load_friction(a):
 
 
 def wall_force(a, i):
-    """Return the force of the wall on the loose mass when a step begins, 0 in flight."""
+    """Return the wall's force, per primary mass, at the beginning of a step. It is 0 in flight."""
     wall = a[SIDE + i]
     depth = a[Y2 + i] - wall * a[CLEARANCE + i]
     force = a[CONTACT_STIFFNESS + i] * depth + a[DASHPOT + i] * a[Y3 + i]
@@ -45,10 +45,10 @@ def wall_force(a, i):
 
 
 def hold(a):
-    """In lanes whose loose mass sticks, replace parameters by those of both masses as one body.
+    """In lanes whose loose mass sticks, replace parameters, because both masses move as one body.
 
-    Damping and spring act on both masses, so their parameters are scaled. The last two of HELD_ROWS
-    belong to the wall. They become 0, because the force of the wall is constant.
+    Parameters of the damping and of the spring are divided by 1 + rm. The last two of HELD_ROWS are
+    stiffness and dashpot of the wall. Both become 0, because the force of the wall is constant.
     """
     for k in range(len(HELD_ROWS)):
         row, free = HELD_ROWS[k], FREE_ROWS[k]
@@ -63,7 +63,7 @@ def hold(a):
 
 
 def let_go(a):
-    """Restore the parameters that `hold` replaced."""
+    """Restore the parameters that `hold` has replaced."""
     for k in range(len(HELD_ROWS)):
         for i in range(LANES):
             a[HELD_ROWS[k] + i] = a[FREE_ROWS[k] + i]
@@ -71,7 +71,7 @@ def let_go(a):
 
 
 def load_rates(a):
-    """With one lane, fill the constant series h/k and D/k again."""
+    """With one lane, compute the rows of the constant series h/k and D/k again."""
     if LANES == 1:
         for k in range(max(FLIGHT_ORDER, CONTACT_ORDER) - 1):
             a[H + k] = a[DAMPING] * (1.0 / max(k, 1))
@@ -79,7 +79,7 @@ def load_rates(a):
 
 
 def series_held(a, touching):
-    """Compute the series of a step in which the loose masses of some lanes stick (`hold`)."""
+    """Compute the series of a step in which the loose mass sticks in at least one lane (`hold`)."""
     hold(a)
     for i in range(LANES):
         inverse = a[INVERSE_MASS_RATIO + i]
@@ -98,10 +98,10 @@ def series_held(a, touching):
 
 
 def find_turn(a, touching):
-    """Find the first turn or slip before T.
+    """Find the first turn or slip before T. `touching` says whether the step is in contact.
 
-    At a turn Z2' of a sliding loose mass is 0. At a slip a sticking mass begins to slide. In lanes
-    with a turn or a slip, MODE becomes TURNED, T its time, and the rows END_ receive the state.
+    At a turn Z2' of a sliding loose mass is 0. At a slip a sticking loose mass begins to slide. In
+    lanes with a turn or slip MODE becomes TURNED, and T, END_Z1, ... belong to the turn or slip.
     """
     if touching:
         contact_jerk(a)
@@ -130,7 +130,7 @@ def find_turn(a, touching):
 
 
 def step_to_turn(a, i, touching):
-    """Advance the search of `find_turn` in one lane by one step."""
+    """Move T of lane i to the next time of the search of `find_turn`, or end the search."""
     t, bound = a[T + i], a[BOUND + i]
     stuck = a[STUCK + i] > 0.0
     if touching:
@@ -172,12 +172,12 @@ def step_to_turn(a, i, touching):
 
 
 def wall_force_held(a, i):
-    """Return the constant force of the wall on a loose mass that sticks at a depth."""
+    """Return the wall's force, per primary mass, on a loose mass that sticks. It is constant."""
     return a[FREE_CONTACT_STIFFNESS + i] * (a[Y2 + i] - a[SIDE + i] * a[CLEARANCE + i])
 
 
 def end_turn(a):
-    """Set Z2' to 0 after a turn or while the loose mass sticks, and to TINY SLIDE after a slip."""
+    """Set Z2' to TINY SLIDE after a slip, and to 0 after a turn or while the loose mass sticks."""
     for i in range(LANES):
         slipped = a[STUCK + i] > 0.0 and a[MODE + i] == TURNED
         held = a[STUCK + i] > 0.0 and not slipped
@@ -188,7 +188,7 @@ def end_turn(a):
 
 
 def keep_tangents(a, d):
-    """Replace parameters by `hold`, and store the Z2 of the tangents in KEPT."""
+    """Call `hold`, which replaces parameters, and store the Z2 of each tangent in KEPT."""
     hold(a)
     for i in range(TANGENTS):
         d[KEPT + i] = d[2 * TANGENTS + i]
@@ -197,9 +197,9 @@ def keep_tangents(a, d):
 def friction_jump(a, d):
     """Multiply tangents by the saltation matrix of a turn, and undo `keep_tangents`.
 
-    Let J be the jump of friction at the turn, b be Z2'' before the turn, and w be the tangent's
-    Z2'. The tangent's Z1' jumps by -rm w J/b, and w jumps by -(1 + rm) w J/b. If the loose mass has
-    stuck during the step, w becomes 0.
+    Let J be the jump of FRICTION SLIDE at the turn, b be Z2'' before the turn, and w be the
+    tangent's Z2'. The tangent's Z1' jumps by -rm w J/b, and w jumps by -(1 + rm) w J/b. If the
+    loose mass has stuck during the step, w becomes 0, and the tangent's Z2 becomes KEPT.
     """
     for i in range(TANGENTS):
         j = i % LANES

@@ -1,7 +1,7 @@
 """Template (see `step`): search for the first root of an event function f(t) within a step.
 
-In flight f is the distance of the loose mass to a wall, and its root is the beginning of a contact.
-In contact f is q + LAG q' (`separation`), and its root is the separation. Modes in the row MODE:
+In flight f is the distance of the loose mass to a wall. A contact begins at the root of f. In
+contact f is q + LAG q' (`separation`). The contact ends at the root of f. Values of the row MODE:
 
     MARCH     several roots are possible. A bound on |f''| gives a time within which f cannot
               vanish. The search advances by such times, so that it never passes the first root.
@@ -9,14 +9,14 @@ In contact f is q + LAG q' (`separation`), and its root is the separation. Modes
     ENDING    the search has reached the end of the step without a root.
     MET       the root has been found.
     MISSED    the step certainly contains no root.
-    MET_DEEP  a contact begins at a depth behind the wall's surface (`across.find_return`).
-    TURNED    the loose mass turns, or begins to slide, before the root (`friction.find_turn`).
+    MET_DEEP  a contact begins at a depth |Z2| - d0 > 0 behind the wall's surface (`find_return`).
+    TURNED    before the root, friction stops the loose mass or releases it (`find_turn`).
 """
 
-# Relative rounding error of an event function, 4 units in the last place.
+# Rounding error of an event function, relative to its largest term: 4 units in the last place.
 ROUNDING = 2.0**-50
-# The iteration for a root ends if the neglected term is at most LAST_MOVE times the tolerance. The
-# size of this term is (move / bending time)^3. The bending time is at most |f'/f''|.
+# Let r be max(`rate`, 2 / LENGTH), as in `is_last_move`. An iteration in mode BRACKET neglects a
+# term of the size |r move|^3. The iteration ends if |r move|^3 <= LAST_MOVE times the tolerance.
 LAST_MOVE = 0.01
 MARCH, BRACKET, ENDING, MET, MISSED, MET_DEEP, TURNED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0
 # TINY prevents divisions by zero. FAR replaces infinity, because 0 times infinity is NaN.
@@ -25,10 +25,10 @@ FAR = 1e200
 
 
 def safe_advance(f, closing, bound):
-    """Return a time before which the event function f, now equal to `f`, cannot vanish.
+    """Return a time within which an event function cannot vanish.
 
-    `closing` is -f', and `bound` is at least |f''|. The time is the first root of
-    f - closing t - bound t^2/2.
+    `f` is the function's value now, `closing` is -f' now, and `bound` is at least |f''| at all
+    times. The returned time is the first root t of f - closing t - bound t^2/2.
     """
     f = max(f, 0.0)
     root = math.sqrt(closing * closing + 2.0 * bound * f)
@@ -38,10 +38,10 @@ def safe_advance(f, closing, bound):
 
 
 def march_step(t, f, closing, ahead, length, fine):
-    """Return the next time and mode of a search in mode MARCH. f is positive until t + `ahead`.
+    """Return two numbers: the next time and the next mode of a search in mode MARCH.
 
-    The root is at t if f decreases (`closing` is true), and if either f is at most its rounding
-    error `fine` or `ahead` is too short to change t.
+    The event function f has no root between t and t + `ahead`. `closing` says whether f decreases.
+    t is the root if `closing` and (f <= `fine` or t + `ahead` == t). `fine` is f's rounding error.
     """
     met = closing and (f <= fine or t + ahead == t)
     ends = not t + ahead < length
@@ -55,21 +55,21 @@ def chebyshev(first, bend):
 
 
 def is_last_move(a, i, move, rate):
-    """Return whether the neglected term is at most LAST_MOVE times the tolerance, or ROUNDING."""
+    """Return whether an iteration ends with `move`, because it neglects little (see LAST_MOVE)."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
 
 def bracketed_step(a, i, t, f, first, bend, rate, fine):
-    """Return the next move and mode of a search in mode BRACKET, by one safeguarded iteration.
+    """Return two numbers: the next move and the next mode of a search in mode BRACKET.
 
-    The event function f is positive at LOW and not positive at HIGH, with one root between them.
-    HIGH is FAR as long as no time with f <= 0 is known. At most one root then lies between LOW and
-    the end of the step. Bisection replaces a move that would leave the bracket.
+    One root lies between LOW, where f > 0, and HIGH, where f <= 0. If no time with f <= 0 is known,
+    HIGH is FAR, and at most one root lies between LOW and the end of the step. If a move would
+    leave the interval from LOW to HIGH, bisection replaces the move.
 
-    `first` is an estimate of the move to the root, such as a Newton step. `bend` is the part of f''
-    that this estimate neglects, divided by f'. `is_last_move` gets the larger of `rate` and
-    |`bend`|. `fine` is the rounding error of f.
+    `first` is an estimate of the move to the root, such as a Newton step. The estimate neglects the
+    part `bend` f' of f''. `is_last_move` gets the larger of `rate` and |`bend`|. `fine` is the
+    rounding error of f.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t
@@ -84,13 +84,13 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
         return 0.0, MISSED
     inner = move if inside else 0.5 * (low + min(high, length)) - t
     step = length - t if past else inner
-    # The search also ends if the move is too short to change t, or is NaN.
+    # The search also ends if the move is too short to change t, or if the move is NaN.
     moved = t + step > t or t + step < t
     return step, MET if last or not moved else BRACKET
 
 
 def store_end(a, i, row, end, move, going):
-    """If `going`, store a function after a move in the row `end`, and its slope in the next row.
+    """If `going`, write a function after a move into the row `end`, its slope into the next row.
 
     The four rows from `row` on hold the function and its three derivatives before the move.
     """
@@ -103,7 +103,7 @@ def store_end(a, i, row, end, move, going):
 
 
 def store_search(a, i, mode, t, move):
-    """Store T, MODE, Z1 and Z1' after a move. Return 1 if the search goes on, else 0."""
+    """Store T, MODE, Z1 and Z1' of lane i after a move. Return 1 if its search goes on, else 0."""
     going = a[MODE + i] <= ENDING
     a[T + i] = t
     a[MODE + i] = mode

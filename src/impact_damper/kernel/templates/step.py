@@ -1,41 +1,41 @@
 """One Taylor step of the integration, for one trajectory or several side by side.
 
-The trajectories of a step are all in flight or all in contact. The step integrates each at most to
-its next event: a contact begins or ends, or the loose mass turns or begins to slide.
+The trajectories of a step are all in flight or all in contact. A step ends a trajectory at the next
+event at the latest. Events: a contact begins or ends, or the loose mass stops or begins to slide.
 
-The files in this folder are templates. `instances.instance` joins them into one module for a number
-of lanes (trajectories side by side) and for two orders of the Taylor series, in flight and in
-contact. The module begins with imports, constants, and the functions that `instances.Source`
-writes. All numbers stand in flat arrays, `a` for trajectories and `d` for tangents. A name in
-capitals, such as Y0, is the index at which a row begins: a[Y0 + i] belongs to lane i.
+The files in this folder are templates. `instances.instance` joins them into one module. The module
+is made for one number of lanes. Each lane holds one trajectory. The module begins with imports,
+constants, and the functions that `instances.Source` writes. The array `a` holds the numbers of
+trajectories, the array `d` the numbers of tangents. A name in capitals, such as Y0, is the index in
+`a` at which a row begins: a[Y0 + i] belongs to lane i. `instances` describes the rows.
 """
 
-# Bits of the float 1.0.
+# The 64 bits of the float 1.0, read as an integer.
 ONE = 1023 << 52
-# Largest ratio of the last terms of a series to the tolerance. Contacts amplify errors, but with
-# this ratio the error of settled motions stays below 10 times the tolerance.
+# Largest ratio of the last terms of a series to tolerance times SCALE. Contacts amplify errors, but
+# with SAFETY = 0.05 the error of settled motions stays below 10 times the tolerance.
 SAFETY = 0.05
 # A flight is shortened if its last terms exceed EXCESS times `largest_tail`. With EXCESS = 1 many
-# flights would be computed twice, because their lengths are predicted.
+# flights would be shortened, because `predict_length` is not exact.
 EXCESS = 4.0
-# Longest flight, in units of LAG, that begins behind the surface that a wall has at rest
-# (`across.is_outside`). In the time LAG an unloaded wall returns to 1/e of its penetration.
+# Longest flight, in units of LAG, that begins behind a wall's surface at rest, at |Z2| > d0. In the
+# time LAG the penetration of an unloaded wall falls to 1/e of its value.
 OUTSIDE = 2.0
-# Largest distance from a wall, over the clearance, at which a flight of length 0 ends in contact.
+# Largest distance from a wall, divided by d0, at which a flight of length 0 ends in contact.
 NEAREST = 1e-9
 
 
 def largest_tail(a, i):
-    """Return the largest modulus that the last terms of the velocities' series may have."""
+    """Return the largest modulus that the last terms in the series of a velocity may have."""
     return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
 
 
 def limit_length(a, series, order, excess):
-    """Shorten LENGTH so that the last two terms of a series' derivative stay below `largest_tail`.
+    """Shorten LENGTH so that the last two terms of a velocity's series are below `largest_tail`.
 
-    Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. The new LENGTH is an
-    n-th root of the ratio of `largest_tail` to a coefficient. The root is computed, with an error
-    of a few per cent, from the bits of both numbers, which are nearly linear in the logarithms.
+    Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. Let c[k] be the last or
+    last but one coefficient. LENGTH is at most (`largest_tail` / |k c[k]|)^(1/(k-1)). The power has
+    an error of a few per cent: it follows from the floats' bits, nearly linear in the logarithm.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
@@ -50,9 +50,9 @@ def limit_length(a, series, order, excess):
 def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
-    The coefficients of Z1 are assumed to decay geometrically from SCALE. Three coefficients from
-    order EARLY on give the rate. The last terms of Z1' then reach `largest_tail` at LENGTH. Thanks
-    to the prediction the processor can begin the next step before the last coefficients are known.
+    The coefficients k x[k] of Z1' are assumed to be SCALE / r^(k-1). The orders EARLY, EARLY + 1
+    and EARLY + 2 give three values of r, of which the smallest is used. At LENGTH the last term of
+    Z1' is then `largest_tail`. The processor need not wait for the last coefficients.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -71,7 +71,7 @@ def predict_length(a):
 
 
 def end_flight(a):
-    """Reduce T where the last terms are too large, and compute END_Z1 and END_Z1_SLOPE at T."""
+    """Reduce T where TAIL is too large. Store Z1 and Z1' at T in END_Z1 and END_Z1_SLOPE."""
     flight_slope(a)
     beyond = 0
     for i in range(LANES):
@@ -87,7 +87,7 @@ def end_flight(a):
 
 
 def flight_step(a):
-    """Step trajectories in flight. SIDE becomes the wall at which a contact begins, or 0."""
+    """Do a step in flight. SIDE becomes the wall (-1 or 1) if a contact begins, and 0 otherwise."""
     forcing(a)
     load_across(a)
     if a[STICKS] > 0.0:
@@ -119,7 +119,7 @@ def flight_step(a):
     find_sway(a)
     for i in range(LANES):
         t = a[T + i]
-        # Within rounding errors of a wall a step can be too short to change the time.
+        # Next to a wall a step can be too short to change TIME. Then a contact begins (`stuck`).
         near = 1.0 if a[Y2 + i] > 0.0 else -1.0
         stuck = a[TIME + i] + t == a[TIME + i] and t < a[LONGEST + i] and near * a[Y3 + i] > 0.0
         stuck = stuck and near * a[Y2 + i] > (1.0 - NEAREST) * a[CLEARANCE + i]
@@ -142,7 +142,7 @@ def flight_step(a):
 
 
 def shorten_outside(a):
-    """Shorten LENGTH and T in lanes whose loose mass begins behind a wall's surface."""
+    """Shorten LENGTH and T of flights that begin behind a wall's surface (`across.is_outside`)."""
     for i in range(LANES):
         shorter = min(a[LENGTH + i], OUTSIDE * a[LAG + i])
         a[LENGTH + i] = shorter if is_outside(a, i) else a[LENGTH + i]
@@ -183,8 +183,8 @@ def dashpot_jump(a, d, direction):
     """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
 
     At this event the force of the wall's dashpot begins (direction -1) or ends (direction +1). No
-    other force jumps. Therefore the tangent's velocities jump in proportion to the tangent's Z2. A
-    contact that begins or ends at a depth needs no matrix, because no force jumps there.
+    other force jumps. Therefore the tangent's velocities jump in proportion to the tangent's Z2. If
+    a contact begins or ends at |Z2| > d0, the wall's force is 0 then. No force and no tangent jump.
     """
     for i in range(TANGENTS):
         j = i % LANES
@@ -197,7 +197,7 @@ def dashpot_jump(a, d, direction):
 
 
 def contact_step(a):
-    """Step trajectories in contact. SIDE becomes 0 if the contact ends."""
+    """Do a step in contact. SIDE becomes 0 in lanes whose contact ends."""
     forcing(a)
     load_across(a)
     predict_separation(a)
