@@ -49,7 +49,7 @@ class AllowedQuantity(Allowed):
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
     """Return the type of a quantity within bounds.
 
-    A value may also be text with a unit of another quantity, one of those named in `absolute`.
+    A value may also be text with a unit of a quantity in `absolute`, such as "0.2 mm".
     """
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 
@@ -177,7 +177,7 @@ class MachineEntry(section.Section):
             yield f"{section.dotted(path)}: {error}" if path else str(error)
 
     def _lacking(self, path):
-        """Yield a line for each missing key, and one if contact_stiffness and contact are given."""
+        """Yield a line for each missing key, and one if stiffness and contact are both given."""
         rival, ball = self.absorber.values(), self.contact.values()
         for key in Rival.model_fields:
             if rival and key not in rival:

@@ -66,7 +66,7 @@ class Allowed:
 
 
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
-    """Return the type of a finite number within bounds. An error also names `also` as allowed."""
+    """Return the type of a finite number within bounds. Errors name `also` as allowed, too."""
     bounds = {"greater than": above, "at least": least, "at most": most}
     words = [f"a finite number{also and f' or {also}'}", *_bounds(bounds)]
     kind = confloat(strict=True, allow_inf_nan=False, gt=above, ge=least, le=most)
@@ -163,7 +163,7 @@ def _shown(bound):
 
 NAME = text("a name becomes part of a file name", pattern="[A-Za-z0-9][A-Za-z0-9_]{0,63}")
 
-# CSafeLoader, of the C library libyaml if installed, is several times as fast as SafeLoader.
+# CSafeLoader needs the C library libyaml, and is several times as fast as SafeLoader.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 # Numbers with an exponent. YAML 1.1 reads 2.0e+5 as a number, but 2e5, 2.0e5 and 2e+5 as text.
 SCIENTIFIC = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
@@ -263,7 +263,7 @@ def dotted(path) -> str:
 
 
 def problems_of(error) -> list:
-    """Return a line for each problem that pydantic found, in alphabetical order of paths."""
+    """Return a line for each problem that pydantic found, sorted by the path of keys."""
     details = error.errors(include_url=False)
     # A path holds keys (text) and positions in lists (int). Python cannot compare text with int.
     return [_line(detail) for detail in sorted(details, key=lambda d: [*map(str, d["loc"])])]

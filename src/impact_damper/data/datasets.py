@@ -75,8 +75,8 @@ def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
 def in_si(data, machine, damper=None) -> xr.Dataset:
     """Return a dimensionless dataset converted to the units of a machine.
 
-    Displacements become mm, but states m and m/s, the units in which functions take states. The
-    attribute `machine` holds machine and damper in SI units; `parameters` stays dimensionless.
+    Displacements are then in mm, but states in m and m/s, as functions take states. The attribute
+    `machine` holds machine and damper in SI units. The attribute `parameters` stays dimensionless.
     """
     scales = machine.scales
     found = _converted(data, lambda values, unit: values * unit, scales)
@@ -94,7 +94,7 @@ def from_si(data, scales) -> xr.Dataset:
 
 
 def _converted(data, convert, scales):
-    """Return a dataset with convert(values, unit) for each variable and the unit of its kind."""
+    """Return a dataset with the values convert(values, unit of its kind) for each variable."""
     found = {}
     for name, each in data.variables.items():
         kind = _kind(name, data)
@@ -114,7 +114,7 @@ def _kind(name, data):
     kind = VARIABLES[name].kind
     if kind == "followed":
         parameter = parameters_of(data).get("parameter")
-        # A sweep does not store its parameter's name; the parameter is one of its coordinates.
+        # A sweep does not store the name of its parameter. The parameter is a coordinate.
         swept = "clearance" if "clearance" in data.coords else "frequency"
         kind = facts_of(parameter)[1] if parameter else swept
     return "gap" if kind == "clearance" else kind
@@ -190,12 +190,12 @@ def decode(values) -> xr.DataArray:
 
 
 def is_settled(motions):
-    """Return the mask of motions with the outcome "settled", in a dataset or a structured array."""
+    """Return the mask of motions with the outcome "settled", in a dataset or an array."""
     return np.asarray(motions["outcome"]) == flag("outcome", "settled")
 
 
 def touches_no_wall(motions):
-    """Return the mask of motions that touch no wall, in a dataset or a structured array."""
+    """Return the mask of motions whose loose mass touches no wall, in a dataset or an array."""
     names = ("non_colliding", "drifting")
     return np.isin(motions["outcome"], [flag("outcome", name) for name in names])
 

@@ -2,8 +2,8 @@
 
 from impact_damper.data.variables import register
 
-# KEEPS: largest displacement at a gap that keeps the promise, divided by the promised displacement.
-# WORTH: least fraction by which a damper worth building lowers the largest displacement.
+# A gap keeps the promise if the largest displacement is at most KEEPS times the promised one.
+# A damper is worth building if it lowers the largest displacement by the fraction WORTH or more.
 KEEPS, WORTH = 1.1, 0.25
 
 register(

@@ -45,7 +45,7 @@ def starts_needed(share) -> int:
 
 
 def escape_rate(lives, horizon):
-    """Return the rate at which runs end up to a horizon, and its 95 % interval, shape (3,)."""
+    """Return the rate at which runs end within a horizon, and its 95 % interval, shape (3,)."""
     captures = np.sum(lives <= horizon)
     exposure = np.sum(np.minimum(lives, horizon))
     # Interval of a Poisson count: quantiles of the gamma distribution.

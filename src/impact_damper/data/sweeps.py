@@ -10,7 +10,7 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 
 
 class Family(NamedTuple):
-    """A motion over a sweep. `period` is in cycles, or 0. `starts` starts lead to the motion.
+    """A motion over a sweep. `period`: in cycles, or 0. `starts`: number of starts that lead to it.
 
     `places` is the mask of this motion in arrays of the sweep, shape (parameter values, motions).
     """

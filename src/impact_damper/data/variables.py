@@ -58,7 +58,7 @@ def register(table) -> None:
 
 
 def _named_values(text):
-    """Return the flags listed in a text, or of the variable named in it; None for an empty text."""
+    """Return the flags listed in a text, or the flags of the variable it names; None for ""."""
     text = text.strip()
     if not text or text in VARIABLES:
         return VARIABLES[text].flags if text else None

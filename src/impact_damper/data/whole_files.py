@@ -57,7 +57,7 @@ def _reason(folder, error):
 
 
 def check_length(path) -> None:
-    """Raise BrokenFileError if its first bytes show that a file is no whole NetCDF-4 file."""
+    """Raise BrokenFileError if the first bytes of a file show that it is no whole NetCDF-4 file."""
     with open(path, "rb") as file:
         start = file.read(LENGTH.stop)
     if not start.startswith(SIGNATURE):

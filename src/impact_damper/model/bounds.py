@@ -24,7 +24,7 @@ AMPLITUDE_RANGE = {"least": 0.0, "most": 1e6}
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
 # Largest natural frequency of the contact divided by the forcing frequency.
 MOST_STIFF = 1e6
-# RADIUS_RANGE: radius of the ball of random starts. MOST_RADIUS: largest radius over clearance.
+# RADIUS_RANGE: radius of the ball of random starts. MOST_RADIUS: largest radius/clearance.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 MOST_RADIUS = 1e3
 # Bounds of the fields of `settling.Settling`.

@@ -33,6 +33,6 @@ def damping_ratio(restitution_, rule=ZERO_PENETRATION) -> float:
     logarithm = math.log(1 / restitution_)
     if rule == ZERO_PENETRATION or not logarithm:
         return logarithm / math.hypot(math.pi, logarithm)
-    from scipy.optimize import brentq  # Snakemake's dry runs import this module
+    from scipy.optimize import brentq  # a slow import; Snakemake's dry runs do without it
 
     return brentq(lambda z: restitution(z) - restitution_, 0.0, 10.0, xtol=1e-15, rtol=1e-14)

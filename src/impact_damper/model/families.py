@@ -31,7 +31,7 @@ def facts_of(parameter) -> tuple:
 def read_followed(model, parameter, span) -> tuple:
     """Return the name in PARAMETERS of the argument `parameter`, and a dimensionless `span`.
 
-    For a machine, `parameter` is a field of it or its damper. The span must hold the model's value.
+    Some parameters have other names in machines. The span must hold the value in the model.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}

@@ -86,7 +86,7 @@ class HertzContact:
         return 4 / 3 * self.radius**0.5 * self.modulus
 
     def pressure(self, force) -> float:
-        """Return the pressure p0 at the centre, Pa, under a force, N (Johnson, equation 4.24)."""
+        """Return the pressure p0 (Pa) at the centre for a force in N (Johnson, equation 4.24)."""
         return (6 * force * self.modulus**2 / (math.pi**3 * self.radius**2)) ** (1 / 3)
 
     def yields(self, pressure) -> str:
@@ -104,13 +104,13 @@ class HertzContact:
         return (5 * mass * speed**2 / (4 * self.coefficient)) ** 0.4
 
     def impact(self, speed, mass) -> Impact:
-        """Return the elastic `Impact` for a relative speed and a reduced mass (`compression`)."""
+        """Return the `Impact` of elastic bodies; `compression` explains the arguments."""
         q = self.compression(speed, mass)
         return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
 
     def stiffness(self, speed, mass) -> float:
-        """Return the stiffness k (N/m) of the linear spring with k q^2/2 = m v^2/2 (`compression`).
+        """Return the stiffness k (N/m) of the linear spring with k q^2/2 = m v^2/2.
 
-        The largest force k q of this spring is 4/5 of the largest force K q^(3/2) after Hertz.
+        q, m and v: see `compression`. The force k q is 4/5 of the force K q^(3/2) after Hertz.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

@@ -15,16 +15,16 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# For `from_response`. FOLD: keeps a divisor, which is 0 at a fold, from 0. PASSES: number of fits.
+# For `from_response`. FOLD: least divisor of a residual, used at folds. PASSES: number of fits.
 FOLD, PASSES = 0.1, 6
 
 
 class Identified(NamedTuple):
     """A machine found by a fit, and the uncertainties of its values.
 
-    `uncertainties` has the standard uncertainty of each fitted field, in SI units, valid if errors
-    of the samples are independent and equally large. `noise` is the standard deviation of the
-    residuals, in m for a decay, a fraction for a response. `ended` says how the fit ended.
+    `uncertainties` has the standard uncertainty of each fitted field, in SI units, if errors of the
+    samples are independent and equally large. `noise` is the standard deviation of the residuals:
+    in m for a decay, as a fraction for a response. `ended` says how the fit ended.
     """
 
     machine: object
@@ -35,7 +35,7 @@ class Identified(NamedTuple):
 
 @names_arguments
 def from_ring_down(cls, data, *, mass, **excitation) -> Identified:
-    """Find the machine whose decay by m x'' + c x' + k x + k3 x^3 = 0 is nearest to a measured one.
+    """Find the machine whose decay m x'' + c x' + k x + k3 x^3 = 0 fits a measured decay best.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def from_ring_down(cls, data, *, mass, **excitation) -> Identified:
 
 @names_arguments
 def from_response(cls, data, *, force) -> Identified:
-    """Find the machine whose response to a known force is nearest to a measured curve.
+    """Find the machine whose response to a known force fits a measured response best.
 
     All branches obey the balance of the first harmonic, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2
     = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). With R = ln(left side/right

@@ -246,7 +246,7 @@ class Machine:
     def _static_deflection(self):
         """Return the static deflection (m) under the force, or under mass times base_acceleration.
 
-        For an unbalance the result is unbalance/mass, for a base_displacement this amplitude.
+        If unbalance is given, the result is unbalance/mass; if base_displacement, this amplitude.
         Without excitation it is the deflection at which the linear force of the spring equals the
         cubic force, or 1 mm if one of these forces is absent.
         """
@@ -280,7 +280,7 @@ class Machine:
         return self.linear_stiffness * x + abs(self.cubic_stiffness) * x**3
 
     def oscillator(self) -> Oscillator:
-        """Return the dimensionless oscillator: the machine in its scales."""
+        """Return the dimensionless oscillator that describes the machine in the scales `scales`."""
         scales = self.scales
         force, unbalance = self.forcing
         return Oscillator(
@@ -321,7 +321,7 @@ class Machine:
         gap : float, str or pint.Quantity
             Full play of the loose mass from wall to wall, m.
         clearances : sequence of 2 floats, str or pint.Quantity
-            In place of `gap`, the distances (m) of the loose mass at rest to both walls. Motions
+            In place of `gap`, the distances (m) from the loose mass at rest to both walls. Motions
             depend on the sum only, because no spring holds the loose mass between the walls.
         mount : dict, optional
             Arguments of `mounting`, such as {"inclination": "90 deg"}.
@@ -404,7 +404,7 @@ class TunedAbsorber:
         convert(self)
 
     def detuned(self, detuning) -> "TunedAbsorber":
-        """Return the absorber with its stiffness times 1 + detuning."""
+        """Return the absorber with the stiffness multiplied by 1 + detuning."""
         factor = 1 + bounds.check_number("detuning", detuning, above=-1, most=10)
         return replace(self, stiffness=self.stiffness * factor)
 

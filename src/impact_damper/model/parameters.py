@@ -49,7 +49,7 @@ class Oscillator:
     Raises
     ------
     TypeError, ValueError
-        If a value is not a number or out of range.
+        If a value is no number, or is out of range.
 
     Examples
     --------
@@ -104,7 +104,7 @@ class Oscillator:
         return [name for name in NONLINEAR if getattr(self, name)]
 
     def told(self, *names) -> str:
-        """Return fields as "name = value", for a machine with its names and SI units."""
+        """Return fields as "name = value"; for a machine, in the machine's names and SI units."""
         found = []
         for name in names:
             facts = self.__dataclass_fields__[name].metadata
@@ -142,7 +142,7 @@ class Damper:
     Raises
     ------
     TypeError, ValueError
-        If a value is not a number or out of range.
+        If a value is no number, or is out of range.
 
     Examples
     --------
@@ -212,7 +212,7 @@ def beyond_closed_forms(oscillator, damper) -> list:
 
 
 def check_closed_form(oscillator, damper):
-    """Raise TypeError if `damper` is no Damper, ValueError if `beyond_closed_forms` finds any."""
+    """Raise TypeError if `damper` is no Damper, ValueError if closed forms refuse a parameter."""
     check_damper(damper)
     why = "must be 0 in closed forms and harmonic balance with a damper; simulate it instead"
     for part, name in beyond_closed_forms(oscillator, damper):

@@ -31,7 +31,7 @@ class Settling:
     Raises
     ------
     TypeError, ValueError
-        If a value is not a number or out of range.
+        If a value is no number, or is out of range.
 
     Examples
     --------

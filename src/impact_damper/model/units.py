@@ -12,7 +12,7 @@ from impact_damper.model.text import number, with_unit
 
 
 class Quantity(NamedTuple):
-    """A kind of physical quantity: its SI unit, and its exponents of length, time and mass.
+    """A kind of physical quantity: the SI unit, and the exponents of length, time and mass in it.
 
     Datasets use the unit `shown` if it is not empty. 1 `unit` is `factor` times the unit `shown`.
     """
@@ -112,7 +112,7 @@ def _from_dataset(value):
 
 @cache
 def _factor(text, unit):
-    """Return how many SI units `unit` the unit `text` is; None if the two cannot be converted."""
+    """Return how many SI units `unit` make one unit `text`; None if `text` is no such unit."""
     import pint  # takes a third of a second; plain numbers do without pint
 
     registry = pint.get_application_registry()

@@ -1,10 +1,10 @@
-"""Design rule (19) of the paper for the clearance. Snakemake's dry runs use it without NumPy."""
+"""Design rule (19) of the paper for the clearance. No NumPy: it would slow Snakemake's dry runs."""
 
 import math
 
 
 def peak_frequency(oscillator) -> float:
-    """Return the peak frequency Wp of rule (19), dimensionless; raise ValueError without a peak.
+    """Return the dimensionless peak frequency Wp of rule (19). Raise ValueError without a peak.
 
     At Wp the displacement Z1 without the damper lags the forcing by a quarter of a cycle. By
     section 2.1 of the paper, s = Wp^2 solves the following equation with g = (3/4) k3.

@@ -1,6 +1,6 @@
 """Single-term harmonic balance of the free oscillator (without damper): Z1 = a cos(W T + t1).
 
-The balance is (a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2: g = (3/4) k3, forcing amplitude f.
+(a wl^2 - a W^2 + g a^3)^2 + (h a W)^2 = f^2 with g = (3/4) k3 and the forcing amplitude f.
 """
 
 from functools import lru_cache
@@ -117,8 +117,8 @@ def maximum_response(oscillator) -> Point:
 def free_folds(oscillator) -> tuple[Point, ...]:
     """Return the folds of the free response curve, by ascending amplitude.
 
-    P is the left side of the equation in `maximum_response`, and u = a^2. At a fold P = 0 and
-    dP/du = 0. Both equations are quadratic in W^2. Their resultant has degree five in u.
+    P is the left side of the equation in `maximum_response`, and u = a^2. At a fold P = 0 and, for
+    constant W, dP/du = 0. Both equations are quadratic in W^2; the resultant has degree five in u.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening

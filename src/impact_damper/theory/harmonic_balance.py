@@ -24,7 +24,7 @@ from impact_damper.theory.single_harmonic import (
     stability,
 )
 
-# Largest distance of neighbouring solutions of a branch, over the largest component of a solution.
+# Largest distance between neighbours on a branch, divided by the largest component of a solution.
 JUMP = 0.25
 
 
@@ -71,14 +71,14 @@ def harmonic_balance(system, damper, frequencies):
     xarray.Dataset
         Variables over (frequency, free_solution) describe motions without the damper. With a
         damper, variables over (frequency, solution) describe solutions of (7) and motions in which
-        the loose mass rests. Variables over (frequency, root) describe roots of (14). Each index of
-        `free_solution`, `solution` or `root` is a branch, continuous over frequency from fold to
-        fold. Where a branch does not exist, entries are NaN or flagged absent.
+        the loose mass rests. Variables over (frequency, root) describe roots of (14). An index of
+        `free_solution`, `solution` or `root` is a branch from fold to fold. Where a branch does
+        not exist, entries are NaN or flagged absent.
 
         The suppression band is the range of frequencies around the peak Wp of the free response in
         which (7) has exactly one stable solution, and this solution is smaller than the free
         resonance branch. Beyond the fold of the free resonance branch there is no band. Variables
-        have the frequency of each `edge` (NaN if not found), the width, and the reduction at Wp.
+        of the band: frequency of each `edge` (NaN if not found), width, amplitude reduction at Wp.
 
     Raises
     ------
@@ -191,7 +191,7 @@ SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "r
 
 
 def _band(oscillator, damper):
-    """Return the variables of the band. Its interruptions shorter than SEARCH_STEP are missed."""
+    """Return the variables of the suppression band. The search misses breaks below SEARCH_STEP."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,
@@ -259,7 +259,7 @@ ZERO_AMPLITUDE = 1e-6
 
 
 def _smallest(oscillator, damper, frequency):
-    """Return the stable a of (7) with the least |a|, or NaN, and the `analytical_status`."""
+    """Return the stable amplitude a of (7) with the least |a|, or NaN, and `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     if beyond_closed_forms(oscillator, damper):
@@ -272,7 +272,7 @@ def _smallest(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return variables by (7): |a| of `dampers` (clearances ascend); the clearance with a = 0."""
+    """Return |a| by (7) for dampers of ascending clearance, and the clearance at which a = 0."""
     found = [_smallest(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best = np.nan

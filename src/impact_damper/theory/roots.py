@@ -55,7 +55,7 @@ def smooth_roots(function, size, lower, upper) -> np.ndarray:
 
 
 def _between(function, size, extrema, lower, upper):
-    """Return the roots of `function` in [lower, upper]; its derivative is 0 at `extrema`."""
+    """Return the roots of `function` in [lower, upper]; `extrema` has all zeros of the slope."""
     points = np.unique(np.clip(np.concatenate([[lower, upper], np.real(extrema)]), lower, upper))
     values = function(points)
     if not np.isfinite(values).all():

@@ -137,7 +137,7 @@ class _Balance:
     def angle_range(self):
         """Return bounds on the contact angle p of all solutions; equal bounds mean no solution.
 
-        By (7b), |a| is at most f/(h W). By (7a), |g a^3| is at most the sum of the other moduli.
+        By (7b), |a| <= f/(h W). By (7a), |g a^3| is at most the sum of the moduli of other terms.
         """
         reach = self.force / self.drag
         if reach == 0:
@@ -228,7 +228,7 @@ def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def fixed_points(solutions) -> np.ndarray:
-    """Return solutions of the balance as states of `jacobian`: fixed points of the slow flow."""
+    """Return solutions of the balance in the form of `state` in `jacobian`, shape (..., k)."""
     *sizes, phase = solutions
     return np.stack([size * np.exp(1j * phase) for size in sizes], axis=-1).view(float)
 
@@ -249,7 +249,7 @@ def _push_slopes(loose, damper):
 
 
 def _block(by_value, by_conjugate):
-    """Return real 2 x 2 matrices: (Re dz, Im dz) -> by_value dz + by_conjugate conj(dz)."""
+    """Return the real 2 x 2 matrices of the maps dz -> by_value dz + by_conjugate conj(dz)."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     rows = [
         np.stack([total.real, -difference.imag], axis=-1),

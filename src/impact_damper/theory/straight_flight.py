@@ -59,7 +59,7 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Depth in a wall at which the flights before and after meet, divided by (1 + 1/rm) q."""
+        """Depth in a wall where the flights before and after a contact meet, over (1 + 1/rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
