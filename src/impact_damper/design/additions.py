@@ -19,7 +19,7 @@ from impact_damper.design.task import NOMINAL, VARIED, labelled
 from impact_damper.design.transients import transients
 from impact_damper.motions.strobe_map import strobe_time
 
-# Number of evenly spaced frequencies of `force_map`, besides resonances and the critical frequency.
+# Number of evenly spaced frequencies of `force_map`. `Task.few` adds further frequencies.
 FREQUENCIES = 5
 # Loose mass of the heavier damper, divided by the loose mass of the task.
 HEAVIER = 2.0
@@ -44,8 +44,8 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 def other_masses(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset that compares the damper of the task with a heavier damper.
 
-    One round of the search finds the gap of the heavier damper. The dataset is empty if the damper
-    of the task is good enough, or if the heavier loose mass exceeds the mass of the machine.
+    One round of the search finds the heavier damper's gap. The dataset is empty if the decision
+    is "build" and no limit is missed, or if the heavier loose mass exceeds the machine's mass.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"

@@ -38,13 +38,13 @@ BLOCK, TAIL, HORIZON = 50, 50, 100_000
 # Numbers of cycles, summed over the motions of a regime. POOLED: least number for extrapolation.
 # MOST_POOLED: number after which the regime is not run further.
 POOLED, MOST_POOLED = 25_000, 200_000
-# Fraction by which a record is assumed to grow when the cycles double, until they reach POOLED.
+# Fraction by which a record is assumed to grow in each doubling of the cycles up to POOLED.
 MISSING = 0.03
 # QUARTERS: number of parts of a run. A regime is a torus if the largest displacements of the parts
 # differ by at most a fraction of the record: ROUGH in a comparison of gaps, otherwise STEADY.
 # SLACK: largest fraction by which a settled motion exceeds the displacement of its orbit.
 QUARTERS, STEADY, ROUGH, SLACK = 4, 0.002, 0.01, 0.001
-# Before a regime is run further, its motions get CHECKED cycles in which they may settle.
+# Number of cycles in which the motions of a regime may settle before the regime is run further.
 CHECKED = 100
 
 
@@ -142,7 +142,7 @@ class Motions:
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
     def numbers(self, k, rough=False) -> tuple:
-        """Return two arrays over the starts of cell k: displacements, masks of known ones."""
+        """Return arrays over the starts of cell k: displacements, True for known displacements."""
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
             sizes[regime], known[regime], _ = self.measured(k, regime, rough)
@@ -158,7 +158,7 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether a regime of cell k still fails the test of `measured` at MOST_POOLED."""
+        """Return whether a regime of cell k fails the test in `measured` at MOST_POOLED cycles."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 
@@ -179,9 +179,9 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Double the cycles of a regime of cell k; the first time run at least POOLED/2 in total.
+        """Double the cycles of a regime of cell k. The first time, run POOLED/2 cycles or more.
 
-        The first time, earlier records are dropped, because they may include transients.
+        The first time, drop earlier records, because these records may include transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):
@@ -276,11 +276,11 @@ def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
 
 
 def return_level(peaks) -> float:
-    """Return the displacement exceeded once in HORIZON cycles, or the largest peak if larger.
+    """Return the displacement exceeded once in HORIZON cycles, at least the largest peak.
 
     Excesses of peaks over a high level are assumed to be distributed exponentially (S. Coles, An
     Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). A bounded motion has
-    fewer large peaks than this distribution, so the result tends to be too large, not too small.
+    fewer large peaks than this distribution, so the result is too large rather than too small.
     """
     peaks = np.sort(peaks[np.isfinite(peaks)])
     tops = peaks[-TAIL - 1 :]

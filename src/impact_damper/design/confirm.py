@@ -13,8 +13,8 @@ from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import Curve, score, search, search_around
 from impact_damper.design.task import NOMINAL, SIDES, VARIED, Task, labelled
 
-# ROUNDS: largest number of gaps that are tried. The search is confirmed if it chooses a gap twice,
-# or if the least promise is at most CONFIRMED times the displacement at the gap that it chooses.
+# ROUNDS: largest number of gaps that are tried. The search is confirmed if a gap is chosen twice,
+# or if the least promise is at most CONFIRMED times the displacement at the gap chosen last.
 CONFIRMED, ROUNDS = 1.05, 4
 # If a promise exceeds SURPRISE times the displacement of the search, nearby gaps are run again.
 SURPRISE = 1.1

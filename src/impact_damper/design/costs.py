@@ -20,7 +20,7 @@ def measured_costs(p, y, begin, periods) -> dict:
 
     `impact_rate` and `impact_speed` include only contacts that begin in these cycles. Forces and
     powers are divided by the primary mass. Accelerations are absolute. After an escape, rates,
-    forces, accelerations and powers are NaN. `absolute_displacement` needs a moving base.
+    forces, accelerations and powers are NaN. `absolute_displacement` is NaN on a fixed base.
     """
     time = periods * 2 * np.pi / p[FREQUENCY]
     panels = sampled(p, y, begin, begin + time, POLISH_TOLERANCE)

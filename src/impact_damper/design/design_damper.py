@@ -70,8 +70,8 @@ def design_damper(
     share : float
         Fraction of all starts for which the promised displacement holds, 0.5 to 0.999.
     absorber : dict, optional
-        `mass` (kg), `stiffness` (N/m) and `damping` (N s/m) of an absorber, which is compared in
-        addition to the optimum absorber.
+        Absorber that is compared in addition to the optimum absorber: `mass` (kg), `stiffness`
+        (N/m) and `damping` (N s/m).
     effort : Effort, optional
         How many frequencies, gaps and starts are computed, and with how many threads.
     folder : str or pathlib.Path, optional

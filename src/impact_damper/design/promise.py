@@ -32,7 +32,7 @@ class Promise:
     ----------
     sets : array, shape (s, len(VARIED))
     cells : list of tuple
-        A cell is a tuple: index of the set, frequency (Hz). `motions` has the same order.
+        A cell is a tuple: index of the set, frequency (Hz). The cells in `motions` have this order.
     bounds : array, shape (cells,)
         Displacement (mm) below which at least the fraction `task.share` of all motions stays.
     peak_known : bool
@@ -75,7 +75,7 @@ class Promise:
     def _repeat_rare(self) -> None:
         """Run cells with rare motions again, with more starts.
 
-        With a probability of at most DOUBT, the first or the second bound of a cell is wrong.
+        A repeated cell has two bounds. Both are right with a probability of at least 1 - DOUBT.
         """
         allowed = int(2 * (1 - self.task.share) * self.count) + 1
         usual, bounds = (self.motions.bounds(rank)[0] for rank in (allowed, self.rank))

@@ -25,7 +25,7 @@ def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
 
 
 def quiet_orbit(task, gap, frequency) -> Orbit | None:
-    """Return the smallest quiet orbit from random starts at a gap (mm), frequency (Hz), or None."""
+    """Return the smallest quiet orbit from random starts at a gap (mm), frequency (Hz); or None."""
     cell = Cell(1e-3 * gap, frequency)
     records = run(task, [cell], task.effort.starts, ("orbit",)).records[0]
     pairs = records[is_symmetric_pair(records)]

@@ -21,21 +21,21 @@ CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
 # A cell is run again if its displacement exceeds DOUBTED x usual displacement (see `_ranks`).
 DOUBTED = 1.1
 # JUMP: at a jump, displacements at two neighbouring gaps have a ratio above JUMP.
-# SMOOTH, FINE: two gaps get a gap between them if log(ratio) > SMOOTH, or at a jump > FINE.
+# SMOOTH, FINE: an interval of gaps is split if log(upper/lower gap) > SMOOTH, at a jump if > FINE.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
-# CANDIDATE: nominal gaps whose values are at most CANDIDATE x least value of all form ranges.
+# CANDIDATE: a range of nominal gaps has values of at most CANDIDATE x least value of all gaps.
 # LEVEL: a range is cut where a value exceeds LEVEL x least value of the range.
 # ALIKE: a range is good if its least value is at most ALIKE x least value of all gaps.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
-# A chosen gap is rounded to DIGITS significant digits if possible, else to up to MOST_DIGITS - 1.
+# A chosen gap is rounded to DIGITS significant digits or, if needed, to more (below MOST_DIGITS).
 DIGITS, MOST_DIGITS = 3, 9
 # Displacement (mm) that stands for an infinite displacement.
 HUGE = 1e9
 
 
 class Range(NamedTuple):
-    """Range of nominal gaps with similar values, mm: ends, a gap near the middle, least value."""
+    """A range of nominal gaps (mm): both ends, a gap near the middle, least value (mm)."""
 
     low: float
     high: float
@@ -53,7 +53,7 @@ class Curve:
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements. At a known gap keep the larger one, or the new one if `replace`."""
+        """Add displacements. A known gap keeps the larger one, with `replace` the new one."""
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
             if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
@@ -67,7 +67,7 @@ class Curve:
                 self.close = np.insert(self.close, k, close)
 
     def within(self, lows, highs) -> np.ndarray:
-        """Return the largest displacement between the gaps lows[i] and highs[i], for each i.
+        """Return for each i the largest displacement at gaps from lows[i] to highs[i].
 
         At lows[i] and highs[i] the curve is interpolated; inside a jump the larger value counts.
         """
@@ -129,7 +129,7 @@ class Curve:
     def worst_inside(self, gap) -> np.ndarray:
         """Return `sets` with the factor of the worst gap within the tolerance of `gap`.
 
-        The result is empty if the displacement at `gap` or at an end of the tolerance is as large.
+        Empty if the displacement at `gap` or at an end of the tolerance is at least as large.
         """
         low, high = self.task.gap_ends(gap)
         inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
@@ -168,7 +168,7 @@ class Curve:
 
 
 def middle_gap(first, last) -> float:
-    """Return the middle of a range, rounded to few digits inside the range (see DIGITS)."""
+    """Return a gap near the middle of a range, with as few digits as possible (see DIGITS)."""
     middle = float(np.sqrt(first * last))
     for digits in range(DIGITS, MOST_DIGITS):
         gap = float(f"{middle:.{digits}g}")
@@ -182,7 +182,7 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
 
     Each gap has the values of its cell with the largest displacement. About (1 - share)/2 of the
     motions of a cell exceed the cell's displacement. Few starts hardly show how rare large motions
-    are. If rare motions may decide on a gap, their cell is run again with more starts.
+    are. If rare motions may decide on a gap, the cell is run again with more starts.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]

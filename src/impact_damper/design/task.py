@@ -213,7 +213,7 @@ class Task:
             )
 
     def _check_deviations(self):
-        """Raise ValueError if a nominal value, or a value at an end of a tolerance, is wrong."""
+        """Raise ValueError if nominal values or values at ends of tolerances are out of range."""
         gap = self.gap or 1e-3 * self.gap_span[0]
         widths = self.deviations(1e3 * gap)
         least = self.restitution * (1 - self.tolerances.get("restitution", 0.0))
@@ -307,7 +307,7 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances in the band, Hz: without loose mass, and with the loose mass fixed."""
+        """Resonances in the band, Hz: the loose mass is absent, or fixed to the machine."""
         ratio = math.sqrt(1 + self.mass / self.machine.mass)
         found = [each for end in self.resonance for each in (end / ratio, end)]
         return [each for each in found if self.band[0] < each < self.band[1]]
@@ -428,7 +428,7 @@ class Task:
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the least and the greatest (Hz) of natural frequency, peak frequency and folds."""
+    """Return the least and the greatest frequency (Hz) among natural frequency, peak and folds."""
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
     found = [point.frequency for point in free_folds(oscillator)]

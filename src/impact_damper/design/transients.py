@@ -32,8 +32,8 @@ from impact_damper.motions.records import envelope
 
 EQUIPMENT = ("bare", "damped")
 TOLERANCE = 1e-10
-# SWEEP: the rate of a sweep in Hz/s is SWEEP (damping ratio x natural frequency in Hz)^2. The
-# resonance peak of a linear machine is then 6 % lower than in steady state.
+# SWEEP: the rate of a sweep in Hz/s is SWEEP (damping ratio x natural frequency in Hz)^2. At
+# this rate the resonance peak of a linear machine is 6 % lower than in steady state.
 # MOST_SWEPT: largest number of cycles. A sweep with more cycles at this rate is made faster.
 SWEEP, MOST_SWEPT = 4.0, 6000
 # Largest relative change of the frequency in a forcing cycle.
@@ -65,7 +65,7 @@ def swept_sine(machine, damper, band, rate) -> xr.Dataset:
     """Return a dataset of sweeps up and down over a band (Hz) at a rate (Hz/s), from steady state.
 
     The envelope is the largest displacement in each cycle. If the motion escapes over the barrier
-    of a softening spring, the envelope is infinite in this cycle and NaN in later cycles.
+    of a softening spring, the envelope is infinite in the cycle of the escape, and then NaN.
     """
     least, most = band
     count = int((most**2 - least**2) / (2 * rate))
@@ -82,7 +82,7 @@ def swept_sine(machine, damper, band, rate) -> xr.Dataset:
 
 
 def _swept(machine, damper, first, frequencies):
-    """Return the largest displacement (m) in each cycle of a sweep, after the cycles held."""
+    """Return the largest displacement (m) in each cycle of a sweep, without the held cycles."""
     decay_rate = machine.viscous_damping / (2 * machine.mass)
     held = min(math.ceil(-math.log(SETTLED) * first / decay_rate), HELD)
     rows = forced(machine, damper, np.concatenate([np.full(held, first), frequencies]))
@@ -101,7 +101,7 @@ def sweep_periods(first, slope, count):
 
 
 def forced(machine, damper, frequencies):
-    """Return the packed parameters of a machine at n frequencies (Hz), shape (n, packed.COUNT)."""
+    """Return packed parameters of machine and damper at n frequencies (Hz), shape (n, COUNT)."""
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
     for end in (frequencies.max(), frequencies.min()):

@@ -70,7 +70,7 @@ def frequency_panel(axes, data):
 def over_frequency(data) -> tuple:
     """Return two arrays of displacements over frequency: of the nominal set, of the worst set.
 
-    A set is a choice of values within the tolerances. Displacements of a set are interpolated.
+    A set is a choice of values within the tolerances. Missing displacements are interpolated.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []

@@ -9,7 +9,7 @@ from impact_damper.plot.sheets import datasets_in, sheet
 
 # Look of the line that joins the settled motions of a branch.
 JOINED = {"linestyle": "-", "linewidth": 0.5}
-# DAMPED, FREE: outcome of a motion other than settled -> look, with and without a damper.
+# Outcome of a motion other than settled -> look. DAMPED: with a damper. FREE: without a damper.
 DAMPED = {name: style.ROLES[name] for name in ("chaotic", "chaotic_transient", "quasi_periodic")}
 DAMPED |= {name: style.ROLES["non_colliding"] for name in ("non_colliding", "drifting")}
 DAMPED["unresolved"] = style.ROLES["unresolved"]
@@ -87,7 +87,7 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw free orbits or, with a damper, unstable orbits of period 1; stable ones if `stable`."""
+    """Draw free orbits; with a damper unstable orbits of period 1, stable orbits if `stable`."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return

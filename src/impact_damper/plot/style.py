@@ -204,7 +204,7 @@ def legend(figure, columns) -> None:
 
 
 def save_figure(figure, path) -> None:
-    """Write `path`.pdf and `path`.png, each complete or not at all, reproducible to the byte.
+    """Write `path`.pdf and `path`.png. Each file is complete or absent, with reproducible bytes.
 
     The layout is computed once, so that both files have one layout. Then the layout engine is
     removed, because with a layout engine matplotlib draws each file twice.

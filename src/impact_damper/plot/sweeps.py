@@ -25,7 +25,7 @@ VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 
 
 def sweep(data, axes=None):
-    """Draw the largest displacement of the quiet motion against clearance, and the minimum.
+    """Draw the largest displacement of the quiet motion against clearance, and mark the minimum.
 
     Points show the exact motion. Lines show the amplitude by harmonic balance. For inelastic
     contact harmonic balance gives no optimum, and the lines join the points.

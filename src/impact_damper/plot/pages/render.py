@@ -119,7 +119,7 @@ def _one_line(text):
     return Markup(joined) if isinstance(text, Markup) else joined
 
 
-# The decay time ends when an unforced vibration has fallen to this fraction of its first value.
+# Decay time: time in which an unforced vibration falls to this fraction of the first displacement.
 DECAY = 0.1
 # If the last gap that keeps the promise is at most this fraction beyond the end of the tolerance,
 # the page names the end of the tolerance, not the last gap.
@@ -179,7 +179,7 @@ TABLES = {
 
 
 def size(value, unit="mm", digits=3) -> str:
-    """Return a number with its unit, "escapes" if infinite or ENDLESS mm, "not known" if NaN."""
+    """Return a number with its unit, "escapes" (infinite or ENDLESS mm), or "not known" (NaN)."""
     if np.isnan(value):
         return "not known"
     escapes = np.isinf(value) or (unit == "mm" and value >= ENDLESS)
@@ -252,7 +252,7 @@ def _hits(data) -> float:
 
 
 def _peak(data, name) -> SimpleNamespace:
-    """Return a variable's largest value over the band, and its frequency; NaN if unknown."""
+    """Return the largest value of a variable over the band and the frequency there, or NaN."""
     if name not in data or np.isnan(data[name]).all():
         return SimpleNamespace(size=np.nan, frequency=np.nan)
     k = int(np.nanargmax(data[name].values))
@@ -299,7 +299,7 @@ def _condition(data, tolerated):
     if "force_map_displacement" in data:
         shares = data["force_share"].values
         sizes = data["force_map_displacement"].max("operating_frequency").values
-        # The promise grows in proportion to an excitation above the one given.
+        # Above the given excitation, displacements may grow in proportion to the excitation.
         kept = sizes <= KEEPS * promised * np.maximum(shares, 1)
         for step in (1, -1):
             k = int(np.argmin(np.abs(shares - 1)))
