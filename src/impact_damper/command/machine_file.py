@@ -33,7 +33,7 @@ class AllowedQuantity(Allowed):
         return core_schema.with_info_plain_validator_function(self._quantity)
 
     def _quantity(self, value, info):
-        # In a job `context` is true. Values were checked before, and the import of pint is slow.
+        # If `context` is true, the values were checked before. This skips the slow import of pint.
         if info.context:
             return value
         if any((absolute_value(value, each) or -1) > 0 for each in self.absolute):

@@ -31,7 +31,7 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return k: at least a share of all values is below the k-th largest of `total` samples.
+    """Return k: at least a share of all values does not exceed the k-th largest of `total` samples.
 
     This holds with the confidence 1 - doubt for any distribution of the values (S. S. Wilks, Ann.
     Math. Stat. 12, 1941). If there are too few samples, k is 0.

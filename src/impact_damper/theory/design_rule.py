@@ -1,4 +1,4 @@
-"""Design rule (19) of the paper for the clearance. No NumPy: it would slow Snakemake's dry runs."""
+"""Design rule (19) of the paper for the clearance. Dry runs import this, so it needs no NumPy."""
 
 import math
 
