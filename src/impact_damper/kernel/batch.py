@@ -153,7 +153,7 @@ def gather(pool, chosen, kind):
 
 @kernel_only
 def scatter(pool, chosen, count, kind, arrived):
-    """Copy trajectories from lanes into the pool. Put trajectories that have not ended in queues.
+    """Copy trajectories from lanes into the pool, and put unfinished trajectories into queues.
 
     Return the number of trajectories that have ended. `arrived` receives the indices of the ended
     trajectories. An escaped trajectory (`equation.no_return`) ends in the state at the escape.
@@ -188,7 +188,7 @@ def scatter(pool, chosen, count, kind, arrived):
 
 @kernel_only
 def raise_largest(pool, chosen, count, order):
-    """Raise `pool.largest` of chosen trajectories to |Z1| in the last step, if |Z1| is larger."""
+    """Update `pool.largest` of chosen trajectories with the largest |Z1| in the last step."""
     series = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
     for lane in range(count):
         m = chosen[lane]
@@ -202,7 +202,7 @@ def raise_largest(pool, chosen, count, order):
 def advance_some(pool, chosen, arrived):
     """Step the trajectories of a pool until some have ended. Return how many have ended.
 
-    `arrived` (LANES,) receives the indices of ended trajectories. `chosen` (LANES,) is scratch.
+    `arrived` (LANES,) receives ended trajectories' indices. `chosen` (LANES,) is working memory.
     """
     ended = 0
     a, d = pointer(pool.a), pointer(pool.d)

@@ -116,7 +116,7 @@ class Body(ast.NodeVisitor):
         self.values, self.memory, self.returned = {}, {}, []
 
     def expand(self, arguments):
-        """Write the body of the template with these arguments. Return the value it returns."""
+        """Write the body of the template with these arguments. Return the template's result."""
         self.end = self.builder.append_basic_block()
         names = [each.arg for each in self.tree.args.args]
         nodes = [each for each in ast.walk(self.tree) if isinstance(each, ast.Name)]

@@ -40,7 +40,7 @@ CONTACT_ORDER = 23
 # SCRATCH, FREE   intermediate results
 # SERIES          coefficients of series; E, H and D are the same in all steps of a trajectory
 #     X: Z1    Q: depth Z2 -+ d0 in a wall    G: Z1'' without the force of the wall    H: h/k
-#     U: slope of the spring's nonlinear force    E: forcing without cosine or sine    D: D/k
+#     U: slope of the spring's nonlinear force    E: forcing, no cosine or sine    D: DASHPOT/k
 # A tangent is a solution of the variational equations. Groups of its rows, in this order:
 # STATE and KEPT, which is the tangent's Z2 while the loose mass sticks
 # TANGENT_SERIES  coefficients of the tangent's Z1 (DX) and of the tangent's depth (DQ)
@@ -120,8 +120,7 @@ def _source(writer):
 def rows(flight_order, contact_order):
     """Return the numbers of rows by their names. A series has the number of its first row.
 
-    PARTS is the first row of partial sums. ROWS is the number of rows of a step. TANGENT_ROWS is
-    the number of rows of a tangent.
+    PARTS is the first row of partial sums. A step has ROWS rows, a tangent has TANGENT_ROWS rows.
     """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
@@ -138,7 +137,7 @@ def rows(flight_order, contact_order):
 class Writer:
     """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
 
-    With one lane a trajectory has up to four tangents. With several lanes it has one tangent.
+    If there is one lane, the trajectory has up to four tangents, otherwise each has one tangent.
     """
 
     def __init__(self, lanes, flight_order, contact_order):
@@ -195,7 +194,8 @@ class Writer:
     def _constants(self, phase, tangent):
         """Return a function of k that returns the lines for coefficient k of the constant series.
 
-        With one lane they load it. With several they compute it, since a lane's trajectory changes.
+        With one lane the lines load the coefficient. With several lanes the lines compute the
+        coefficient, because the trajectory in a lane can change after each step.
         """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
         if self.lanes > 1:
@@ -370,7 +370,7 @@ class Source(Writer):
     def _wall(self):
         """Yield lines for the second (CURVE) and third (JERK) derivatives of Z1 and of the depth.
 
-        Before these lines Z1_CURVE and Z1_JERK must hold g and g'. g is Z1'' without the wall.
+        Before these lines Z1_CURVE and Z1_JERK must hold g and g', with g = Z1'' without the wall.
         """
         mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
         for force, depth_row, rate, derivative in (

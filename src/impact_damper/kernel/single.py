@@ -36,7 +36,7 @@ FLIGHT_ORDER, CONTACT_ORDER = _ONE.FLIGHT_ORDER, _ONE.CONTACT_ORDER
 _ROWS = rows(FLIGHT_ORDER, CONTACT_ORDER)
 DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 
-# Number of pieces in which `extremum` divides an interval. It expects one turning point per piece.
+# `extremum` divides an interval into PIECES pieces, and expects at most one turning point in each.
 PIECES = 8
 
 
@@ -169,7 +169,7 @@ def step(p, y, side, t, longest, tolerance, work):
 
 @kernel_only
 def state_in_step(work, side, y, t):
-    """Return the state a time t after the step in `work` began with the state y and `side`."""
+    """Return the state at time t of the step in `work`. The step begins at 0 in the state y."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     x, v = polynomial(work[X:], order, t)

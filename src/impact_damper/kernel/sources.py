@@ -1,6 +1,6 @@
 """Find the source files on which a module depends, by following its imports.
 
-The folder of compiled kernels has a digest of such files as its name. The workflow runs a job again
+The name of the folder of compiled kernels is a digest of such files. The workflow runs a job again
 if a file on which the job depends was edited. numba and NumPy load slowly. This module does not
 import them, because every dry run of the workflow imports this module.
 """
@@ -35,7 +35,7 @@ def sources(*paths) -> set:
 def _imports(path, packages):
     """Return the files of `packages` that a Python file imports directly.
 
-    For `import a.b.c` this is the file of a.b.c, without the `__init__.py` of a and of a.b.
+    For `import a.b.c` return the file of a.b.c, but not the `__init__.py` of a or of a.b.
     """
     # Only imports from `packages` are parsed, because parsing whole files takes much longer.
     statement = re.compile(

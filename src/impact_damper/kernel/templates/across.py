@@ -1,7 +1,7 @@
 """Template (see `step`): acceleration across, which is Z2'' - Z1'' without the force of a wall.
 
 The acceleration across is DRAW - BASE A cos(W T), with the amplitude A of the forcing. DRAW is
-gravity along the gap plus the friction of a sliding loose mass, per unit of its mass. BASE is 1 if
+gravity along the gap plus the friction of sliding, per unit of loose mass. BASE is 1 if
 the base moves, because Z1 is measured from the base. SWAY is the double integral over time of the
 acceleration across, from the beginning of the step.
 """
@@ -72,7 +72,7 @@ def find_sway(a):
 
 
 def flight_values(a):
-    """Compute Z1, SWAY and their derivatives at T. `contact.loose_mass` computes Z2 from them."""
+    """Compute Z1, SWAY and their derivatives at T. `contact.loose_mass` then gives Z2."""
     flight_slope(a)
     flight_curve(a)
     find_sway(a)

@@ -83,7 +83,7 @@ def find_contact(a):
       Z2 does not meet this wall.
     - `left`: the chord gives a lower bound on the distance to the other wall. Z2' at the beginning
       and `change` give another. If the mean of both bounds is positive, Z2 does not meet this wall.
-    - `certain`: Z2' at each end, with `change`, gives a lower bound on the speed to the wall ahead.
+    - `certain`: at each end Z2' and `change` give a lower bound on the speed to the wall ahead.
       If the mean of both bounds is positive, Z2 can meet only the wall ahead, and only once.
     """
     undecided = 0

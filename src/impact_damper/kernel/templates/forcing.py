@@ -47,7 +47,7 @@ def find_forcing(a):
 def forcing(a):
     """Compute COSINE = A cos(W TIME) and SINE = A sin(W TIME). A is the forcing's amplitude.
 
-    With one lane, if COSINE and SINE are known at a time KNOWN close to TIME, they are corrected.
+    With one lane, COSINE and SINE are only corrected if KNOWN, their time, is close to TIME.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:

@@ -6,14 +6,14 @@ both masses move together. Let g be Z1'' without the loose mass. Then
 
     (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T))
 
-The loose mass sticks while this takes a friction, per unit of loose mass, of less than FRICTION.
+While the loose mass sticks, the friction per unit of loose mass is below FRICTION in modulus.
 """
 
 
 def load_friction(a):
     """Decide at the beginning of a step whether the loose mass sticks, or which way it slides.
 
-    The loose mass can stick only if Z2' is exactly 0. `end_turn` sets Z2' to 0 after a turn.
+    The loose mass can stick only if Z2' is exactly 0. `end_turn` sets Z2' to 0 if the mass stops.
     """
     a[STICKS] = 0.0
     for i in range(LANES):

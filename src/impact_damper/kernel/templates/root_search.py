@@ -9,8 +9,8 @@ contact f is q + LAG q' (`separation`). The contact ends at the root of f. Value
     ENDING    the search has reached the end of the step without a root.
     MET       the root has been found.
     MISSED    the step certainly contains no root.
-    MET_DEEP  a contact begins at a depth |Z2| - d0 > 0 behind the wall's surface (`find_return`).
-    TURNED    before the root, friction stops the loose mass or releases it (`find_turn`).
+    MET_DEEP  a contact begins at |Z2| > d0, behind the wall's surface (`across.find_return`).
+    TURNED    before the root, the loose mass stops or begins to slide (`friction.find_turn`).
 """
 
 # Rounding error of an event function, relative to its largest term: 4 units in the last place.
@@ -55,7 +55,7 @@ def chebyshev(first, bend):
 
 
 def is_last_move(a, i, move, rate):
-    """Return whether an iteration ends with `move`, because it neglects little (see LAST_MOVE)."""
+    """Return whether `move` is the last move of an iteration (see the comment on LAST_MOVE)."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -90,7 +90,7 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
 
 def store_end(a, i, row, end, move, going):
-    """If `going`, write a function after a move into the row `end`, its slope into the next row.
+    """If `going`, store a function after `move` in the row `end`, and its slope in the next row.
 
     The four rows from `row` on hold the function and its three derivatives before the move.
     """

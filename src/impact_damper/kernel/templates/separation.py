@@ -7,9 +7,9 @@ the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the contact ends when 
 # Longest step, in natural periods of the contact: LONGEST_DEEPENING if q grows as the step begins,
 # and LONGEST_RETURNING if q falls.
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
-# Largest relative deviation of the phase's rate from the natural frequency (`find_separation`). The
-# phase then advances by less than 0.55 * 1.25 < 3/4 of 2 pi in a step that begins with growing q,
-# and by less than 0.4 * 1.25 = 1/2 of 2 pi in other steps. So a step has at most one separation.
+# Largest relative difference between the rate of a contact's phase (`find_separation`) and the
+# natural frequency. The phase then advances by less than 0.55 * 1.25 < 3/4 of 2 pi in a step with
+# growing q at the beginning, else by less than 0.4 * 1.25 = 1/2 of 2 pi: at most one separation.
 PHASE_MARGIN = 0.25
 
 

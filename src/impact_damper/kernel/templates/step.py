@@ -1,10 +1,10 @@
 """One Taylor step of the integration, for one trajectory or several side by side.
 
-The trajectories of a step are all in flight or all in contact. A step ends a trajectory at the next
-event at the latest. Events: a contact begins or ends, or the loose mass stops or begins to slide.
+The trajectories of a step are all in flight or all in contact. The step of a trajectory ends at the
+next event or before. Events: a contact begins or ends, or the loose mass stops or begins to slide.
 
-The files in this folder are templates. `instances.instance` joins them into one module. The module
-is made for one number of lanes. Each lane holds one trajectory. The module begins with imports,
+The files in this folder are templates. `instances.instance` joins them into one module. A module
+has a fixed number of lanes. Each lane holds one trajectory. The module begins with imports,
 constants, and the functions that `instances.Source` writes. The array `a` holds the numbers of
 trajectories, the array `d` the numbers of tangents. A name in capitals, such as Y0, is the index in
 `a` at which a row begins: a[Y0 + i] belongs to lane i. `instances` describes the rows.
@@ -12,8 +12,8 @@ trajectories, the array `d` the numbers of tangents. A name in capitals, such as
 
 # The 64 bits of the float 1.0, read as an integer.
 ONE = 1023 << 52
-# Largest ratio of the last terms of a series to tolerance times SCALE. Contacts amplify errors, but
-# with SAFETY = 0.05 the error of settled motions stays below 10 times the tolerance.
+# Largest ratio of a series' last terms to tolerance times SCALE, which is max(1, |Z1|, |Z1'|, ...).
+# Contacts amplify errors, but at 0.05 settled motions have errors below 10 times the tolerance.
 SAFETY = 0.05
 # A flight is shortened if its last terms exceed EXCESS times `largest_tail`. With EXCESS = 1 many
 # flights would be shortened, because `predict_length` is not exact.
@@ -33,9 +33,9 @@ def largest_tail(a, i):
 def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a velocity's series are below `largest_tail`.
 
-    Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. Let c[k] be the last or
-    last but one coefficient. LENGTH is at most (`largest_tail` / |k c[k]|)^(1/(k-1)). The power has
-    an error of a few per cent: it follows from the floats' bits, nearly linear in the logarithm.
+    Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. For the last and the
+    last but one coefficient c[k] the limit of LENGTH is (`largest_tail` / |k c[k]|)^(1/(k-1)).
+    `branches.bits`, an approximate logarithm, gives this root with an error of a few per cent.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
@@ -184,7 +184,7 @@ def dashpot_jump(a, d, direction):
 
     At this event the force of the wall's dashpot begins (direction -1) or ends (direction +1). No
     other force jumps. Therefore the tangent's velocities jump in proportion to the tangent's Z2. If
-    a contact begins or ends at |Z2| > d0, the wall's force is 0 then. No force and no tangent jump.
+    a contact begins or ends at |Z2| > d0, the wall's force is 0 there, and no tangent jumps.
     """
     for i in range(TANGENTS):
         j = i % LANES
