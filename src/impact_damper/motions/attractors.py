@@ -1,8 +1,8 @@
-"""Attractors, labels of the states that lead to them, and the release set of migration control.
+"""Attractors, labels of states, and the release set of migration control.
 
-A free motion or orbit is one without the damper. A neighbourhood is an ellipse around a state of a
-free orbit at the strobe (W T = pi/2). A motion whose state enters the ellipse provably tends to the
-orbit (docs/explanation/neighbourhoods.md). So the run of the motion is stopped.
+An attractor is a stable orbit; the label of a state says to which attractor the state leads. A
+neighbourhood is an ellipse around a state of a free orbit at the strobe (W T = pi/2). A motion that
+enters the ellipse tends to the orbit (proof: docs/explanation/neighbourhoods.md), so its run ends.
 """
 
 import math
@@ -20,16 +20,16 @@ from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_time
 
-# Proof of a neighbourhood. STEPS: time steps in a forcing cycle. FACTOR: largest ratio of the
-# radius after a period to the radius before. HALVINGS: bisections that find the radius before.
+# Proof of a neighbourhood. STEPS: time steps in a forcing cycle. FACTOR: largest allowed ratio of
+# the ellipse's radii after and before a period. HALVINGS: bisections in the search for the radius.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # ALIKE: two free orbits are equal if their states at the strobe differ by less than this number.
-# SAME: two damped motions are equal if their max |Z1| differ by less than this fraction.
+# SAME: two motions with the damper are equal if their max |Z1| differ by less than this fraction.
 ALIKE, SAME = 1e-6, 1e-5
-# Grid of states for the search for orbits. REACH: width of the grid along Z1, divided by the
-# largest |Z1| of the free motions; the same along Z1'. SEARCHED: number of points on each axis.
+# Grid of states for the search for orbits. REACH: width of the grid along Z1 over the largest |Z1|
+# of free motions, and along Z1' over the largest |Z1'|. SEARCHED: number of points on each axis.
 REACH, SEARCHED = 3.0, 24
-# Label of a motion by its outcome. The label of a settled motion is the index of its attractor.
+# Labels of unsettled motions, by outcome. The label of a settled motion is its attractor's index.
 LABELS = {
     records.UNRESOLVED: BASIN_LABEL["unresolved"],
     records.DIVERGED: BASIN_LABEL["escaped"],
@@ -39,16 +39,16 @@ LABELS = {
     records.DRIFTING: BASIN_LABEL["no_contact"],
     records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
 }
-# Release set. PHASES: number in a forcing cycle, even. WIDTH: half width of the grid, divided by
-# max |Z1| of the resonance motion. REFINED: fine cells along a coarse cell's edge, a power of 2.
+# Release set. PHASES: number of phases in a cycle, even. WIDTH: grid's half width over max |Z1| of
+# the resonance motion. REFINED: width of a coarse cell over width of a fine cell, a power of 2.
 PHASES, WIDTH, REFINED = 16, 1.6, 4
 
 
 class Attractors(NamedTuple):
-    """Attracting orbits of the free oscillator, by ascending max |Z1|, and their m neighbourhoods.
+    """Stable orbits of the free oscillator, in order of max |Z1|, with m neighbourhoods.
 
-    `owner` (m,) holds the index of each neighbourhood's orbit. A state z at a strobe lies in a
-    neighbourhood if |shape (z - centre)| < 1. If its proof fails, `shape` (m, 2, 2) is infinite.
+    Neighbourhood k belongs to the orbit with the index owner[k]. It contains a state z at the
+    strobe if |shape[k] (z - centre[k])| < 1. If its proof fails, shape[k] is infinite.
     """
 
     records: np.ndarray
@@ -58,21 +58,21 @@ class Attractors(NamedTuple):
 
 
 def find_attractors(p, states, settling) -> Attractors:
-    """Return the attracting free orbits to which motions lead from states Z1, Z1' at a strobe."""
+    """Return the `Attractors` to which states (n, 2), Z1 and Z1' at the strobe, lead."""
     starts = np.tile(np.asarray(states, float).reshape(-1, 2), 2)
     motions = ensemble.settle(np.tile(p, (len(starts), 1)), starts, settling, from_strobe=True)
     return with_neighbourhoods(p, _distinct(p, motions[is_settled(motions)]))
 
 
 def free_attractors(p, window, settling) -> Attractors:
-    """Return the attractors reached from a grid of states; `window`: half widths of the grid."""
+    """Return the `Attractors` to which a grid of states leads; `window` holds its half widths."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return find_attractors(p, states, settling)
 
 
 def with_neighbourhoods(p, records) -> Attractors:
-    """Return the `Attractors` of the orbits in an array of `records.MOTION`."""
+    """Return the `Attractors` whose orbits are given as an array of `records.MOTION`."""
     orbits = [orbit_states(p, record, STROBE)[:, :2] for record in records]
     shapes = [neighbourhood(p, state, len(states)) for states in orbits for state in states]
     owner = np.repeat(np.arange(len(records)), records["period"])
@@ -81,7 +81,7 @@ def with_neighbourhoods(p, records) -> Attractors:
 
 
 def orbit_states(p, record, phase):
-    """Return the states of an orbit at a forcing phase in each of its cycles, shape (period, 4)."""
+    """Return the states of an orbit at a forcing phase, one for each cycle, shape (period, 4)."""
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_time(p)
     first = begin + (phase / p[FREQUENCY] - begin) % period
@@ -90,7 +90,7 @@ def orbit_states(p, record, phase):
 
 
 def _distinct(p, motions):
-    """Return one record of each orbit, by ascending max |Z1|; mirror images are two orbits."""
+    """Return one record of each orbit, in order of max |Z1|. Mirror images count as two orbits."""
     kept, seen = [], []
     for record in motions[np.argsort(motions["maximum_displacement"], kind="stable")]:
         known = any(
@@ -105,7 +105,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 (n,) and d(state)/d(first state) (n, 2, 2) of an orbit, at STEPS times a cycle."""
+    """Return Z1, shape (n,), and d(state)/d(first state), (n, 2, 2), at STEPS times in a cycle."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]
@@ -117,7 +117,7 @@ def linear_flow(p, state, periods):
 
 
 def neighbourhood(p, state, periods):
-    """Return the matrix S of the neighbourhood |S (z - state)| < 1; infinite if the proof fails."""
+    """Return the matrix S of the neighbourhood |S (z - state)| < 1, or infinities without proof."""
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
     if not np.max(np.abs(values)) < 1:
@@ -138,10 +138,10 @@ def neighbourhood(p, state, periods):
 
 
 def _radius(coefficients, step, contraction):
-    """Return the largest radius r(0) for which `contraction` r(P) < FACTOR r(0), with the period P.
+    """Return the largest radius r(0) for which `contraction` r(P) < FACTOR r(0). P is the period.
 
-    The radius obeys r' = a r^2 + b r^3. It grows, so r' is largest at the end of a step. If
-    r(begin) + step (a ahead^2 + b ahead^3) is at most `ahead`, this sum bounds r at the step's end.
+    The radius obeys r' = a r^2 + b r^3 with a, b >= 0, so r' is largest at the end of a step. If
+    s = r(begin) + step (a ahead^2 + b ahead^3) is at most `ahead`, then r(end) is at most s.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -158,10 +158,10 @@ def _radius(coefficients, step, contraction):
 
 
 def label_damped(p, states, phase, settling, known=(), workers=1, progress=None):
-    """Run damped motions from states (n, 4) at a phase; return labels, cycles run, attractors.
+    """Run motions with the damper from states (n, 4); return labels, cycles run, and attractors.
 
-    A label is the index of an attractor or a flag of `basin_label`. The attractors are the `known`
-    ones, and then the new ones by ascending max |Z1|.
+    A label is the index of an attractor or a flag of `basin_label`. In the list of attractors the
+    new ones, in order of max |Z1|, follow the `known` ones. `phase` is the forcing phase at first.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     if begin > strobe_time(p):
@@ -190,9 +190,9 @@ def label_damped(p, states, phase, settling, known=(), workers=1, progress=None)
 class ReleaseSet(NamedTuple):
     """The states of the free oscillator at one frequency that lead to the goal of migration.
 
-    The goal is the smallest free motion of period 1; `goal` is its index among the attractors. Each
-    number in `depth` is the distance of a state (Z1, Z1'/W) from the boundary of the set, positive
-    inside. Its axes are phase, Z1' and Z1. `half` holds the grid's half widths in Z1 and Z1'.
+    The goal is the smallest free motion of period 1, the attractor with the index `goal`. `depth`
+    is the distance of a state (Z1, Z1'/W) from the boundary of the set, positive inside the set.
+    The axes of `depth` are phase, Z1' and Z1. `half` holds the grid's half widths in Z1 and Z1'.
     """
 
     p: np.ndarray
@@ -205,8 +205,8 @@ class ReleaseSet(NamedTuple):
 def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> ReleaseSet:
     """Compute the release set at one frequency, on a grid of states at each of PHASES phases.
 
-    The goal is its own mirror image. So the sets at two phases half a cycle apart are mirror images
-    of each other, and only half of the phases are computed.
+    The goal equals its mirror image. So half a cycle after a phase the set is the mirror image of
+    the set at the phase. Motions are run from half of the phases only.
     """
     p = pack(oscillator, None, frequency)
     known = free_motions(oscillator, frequency, settling)
@@ -235,7 +235,7 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return the mask (n, n) of the fine cells in a set. Only cells at its boundary are refined."""
+    """Return the mask (n, n) of fine cells in a set. Only cells at the boundary are divided."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
         edge = maximum_filter(mask, 3) != minimum_filter(mask, 3)
@@ -256,6 +256,6 @@ def signed_distance(inside):
     """Return each cell's distance from the boundary of a set, in cell widths, negative outside."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
-    # The boundary lies midway between the centres of two cells.
+    # The boundary lies half a cell width before the nearest cell on the other side.
     inward, outward = distance_transform_edt(inside), distance_transform_edt(~inside)
     return np.where(inside, inward - 0.5, 0.5 - outward)

@@ -1,4 +1,4 @@
-"""Run many motions on several threads, until they settle or enter a known neighbourhood."""
+"""Run many motions on several threads, until each settles or enters a neighbourhood of an orbit."""
 
 import math
 
@@ -25,7 +25,7 @@ from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
 # Number of states that are labelled in one call of a kernel. Ctrl-C waits until the call ends.
 LABELLED = 4096
-# Labels of states (flags of `basin_label`): GONE if the motion escapes, UNKNOWN if unresolved.
+# Flags of `basin_label`. GONE: the motion from a state escapes. UNKNOWN: the motion is unresolved.
 GONE, UNKNOWN = -2, -1
 
 
@@ -40,11 +40,11 @@ def settle(
     progress=None,
     stop=None,
 ):
-    """Run motions from states (m, 4) until `watch` ends each; return an array of `records.MOTION`.
+    """Run motions from states (m, 4) until `watch` stops them; return an array `records.MOTION`.
 
-    `parameters` has a row of packed parameters for each motion. With `from_strobe` all states are
-    at the first strobe. Otherwise their time T is `start`, in the forcing cycle before this strobe.
-    If another thread sets `stop[0]`, the records are incomplete.
+    `parameters` has a row of packed parameters for each motion. If `from_strobe`, all states are at
+    the first strobe, W T = pi/2. Otherwise all states are at the time T = `start`, at most a cycle
+    before the first strobe. If another thread sets `stop[0]`, the records are incomplete.
     """
     parameters = np.ascontiguousarray(parameters, float)
     strobes = 0.5 * np.pi / parameters[:, FREQUENCY]
@@ -88,7 +88,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Put motion i, if there is one, at index m of the pool, whose motions run side by side."""
+    """Put motion i, if i < len(out), at index m of the pool. Motions of a pool run side by side."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])
@@ -98,7 +98,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Put the motion from state i without damper, if there is one, at index m of the pool."""
+    """Put the free motion from state i, if i < len(states), at index m of the pool."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
@@ -107,10 +107,10 @@ def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes
 
 
 def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
-    """Return labels of states without damper, and the forcing cycles until each label is known.
+    """Return labels of states of the free oscillator, and the cycles until each label is known.
 
     `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`. A label is the index of an orbit in
-    `attractors.records`, GONE after an escape, or UNKNOWN after `limit` cycles.
+    `attractors.records`, GONE after an escape, or UNKNOWN after `limit` cycles without an orbit.
     """
     states = np.ascontiguousarray(states, float)
     strobe = 0.5 * math.pi
@@ -162,7 +162,7 @@ def label_many(p, begin, tolerance, limit, neighbourhoods, states, labels, perio
 
 @kernel_only
 def which(x, v, owner, centre, shape):
-    """Return the index of the orbit in whose neighbourhood a strobe state lies, or UNKNOWN."""
+    """Return the index of the orbit whose neighbourhood contains the state (x, v), or UNKNOWN."""
     for k in range(len(owner)):
         dx, dv = x - centre[k, 0], v - centre[k, 1]
         first = shape[k, 0, 0] * dx + shape[k, 0, 1] * dv

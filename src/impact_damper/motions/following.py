@@ -1,6 +1,6 @@
 """Follow an orbit from one value of a parameter to another, by prediction and correction.
 
-Following stops at folds of the branch; `orbits.continuation` passes them.
+Following stops at a fold of the branch. The module `orbits.continuation` also passes folds.
 """
 
 import math
@@ -12,16 +12,16 @@ import numpy as np
 from impact_damper.motions.records import measured
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_sooner
 
-# Factor by which a step grows after success.
+# Factor by which the step of the parameter grows after a successful step.
 GROWTH = 1.5
-# Largest corrections that stay on an orbit. REACH: of predicted states. NUDGE: of the first state.
+# Largest correction by Newton's method. REACH: of a predicted state. NUDGE: of the first state.
 REACH, NUDGE = 0.03, 1e-3
-# Shortest step of the parameter. The end of a branch is found with this accuracy.
+# Shortest step of the parameter, which is also the accuracy of the end of a branch.
 RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two parameter values, their orbits, last status, and if the target is reached."""
+    """The last two parameter values, their two orbits, the last status, and if `target` was met."""
 
     values: tuple[float, float]
     orbits: tuple
@@ -55,11 +55,11 @@ def follow(
 ) -> Followed:
     """Follow an orbit from one value of a parameter to another, or as far as possible.
 
-    `correct` takes a value and a predicted state (4,). It returns an orbit (None on failure) and a
-    status. The first step leads to `target`. After success the step is multiplied by `growth`. The
-    step is halved if `correct` fails, or if Z1, Z1' or Z2 changes by `reach` or more: then the new
-    orbit may lie on another branch. A step below `shortest` ends the following. The orbit `behind`,
-    if given, belongs to the value 2 start - target, and improves the first prediction.
+    `correct(value, predicted state)` returns an orbit (None on failure) and a status. The first
+    step leads to `target`. A step fails if `correct` fails, or if Z1, Z1' or Z2 changes by `reach`
+    or more, since the new orbit may then lie on another branch. After a success the step is
+    multiplied by `growth`, after a failure it is halved. A step below `shortest` ends the search.
+    If the orbit `behind` at the value 2 start - target is given, the first prediction uses it too.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -85,12 +85,12 @@ def follow(
 def follow_stable(p, state, periods, parameter, target) -> tuple:
     """Follow a stable orbit while the packed parameter at index `parameter` changes to `target`.
 
-    Following stops where Newton's method fails, as at a fold; where the orbit jumps or becomes
-    unstable; or where it repeats after fewer cycles. Return the packed parameters and the
-    `StrobeOrbit` at the last value. After success the parameter is exactly `target`. If Newton's
-    method fails at every value, the state is the given one, and the multiplier is NaN.
+    Following stops where Newton's method fails (for example at a fold), or where the orbit jumps,
+    becomes unstable or repeats after fewer than `periods` cycles. Return the packed parameters and
+    the `StrobeOrbit` at the last value, which is exactly `target` if nothing stops the following.
+    If Newton's method fails at every value, return the given state and the multiplier NaN.
     """
-    # A period in a record is a two-byte integer, for which numba would compile the kernels again.
+    # `period` of a record is a two-byte integer. For this type numba would compile kernels again.
     periods = int(periods)
     p, first = p.copy(), np.array(state, float)
     _, _, multiplier = polish(p, first, periods, NUDGE, POLISH_TOLERANCE)
@@ -114,6 +114,6 @@ def follow_stable(p, state, periods, parameter, target) -> tuple:
 
 
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
-    """Follow a stable orbit to a value; return its record there, or None if it is not reached."""
+    """Follow a stable orbit to a value of a parameter; return the orbit's record there, or None."""
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

@@ -1,7 +1,7 @@
-"""Legs of a run of migration control: the motions between two switchings of the damper.
+"""Legs of a run of migration control. A leg is the motion between two switchings of the damper.
 
-A leg begins when the damper is switched on or off, at any forcing phase. No switching changes Z1 or
-Z1', and no state is moved onto an orbit. So Z1 and Z1' are continuous over the whole run.
+A switching, at any forcing phase, changes neither Z1 nor Z1'. A motion that has settled goes on
+from its own last state, not from the orbit's. So Z1 and Z1' are continuous over the whole run.
 """
 
 import math
@@ -19,17 +19,17 @@ from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, ne
 
 # Forcing cycles in one call of a kernel. Ctrl-C waits until the call ends.
 STROBES_AT_ONCE = 50_000
-# Kinds of rules by which `hold` releases a motion, that is, switches the damper off.
+# Kinds of rules in `hold`. A rule says when the motion is released (the damper is switched off).
 SETTLED, HOLD, PHASE, STATE = range(4)
 
 
 def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
     """Run a motion until it settles or escapes, for at most `limit` cycles after the first strobe.
 
-    The motion begins at the state y (4,), `ahead` forcing cycles before the strobe with the number
-    `strobe`. The last state replaces y. Return the path and a `records.MOTION`. The record is
-    measured if the motion has settled. The path (m, 5) has a row for the beginning and for each
-    strobe: the time in forcing cycles, counted like the strobes, and the state.
+    The motion begins in the state y (4,), `ahead` forcing cycles before the strobe with the number
+    `strobe`. The last state replaces y. Return the path and a `records.MOTION`, with measurements
+    if the motion has settled. The path (m, 5) has a row for the beginning and for each strobe. A
+    row holds the number of the strobe (at the beginning: `strobe` - `ahead`) and the state.
     """
     records, path = np.zeros(1, MOTION), np.empty((limit + 2, 5))
     out = records[0]
@@ -55,7 +55,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Do the part of `run` from strobe `first` to strobe `last` - 1; return `side` and `near`."""
+    """Do the part of `run` from its strobe `first` to `last` - 1; return new `side` and `near`."""
     work = workspace()
     none = np.empty((0, 4))
     for k in range(first, last):
@@ -79,7 +79,7 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
-    """Call `wait_and_switch` at the strobe with the number `strobe`; return what `run` returns."""
+    """Call `wait_and_switch` at the strobe number `strobe`, then `run`; return `run`'s results."""
     wait_and_switch(before, after, y, wait, place, tolerance)
     return run(after, y, 1.0 - wait % 1.0, strobe + math.floor(wait) + 1.0, tolerance, limit, stop)
 
@@ -87,8 +87,8 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
 def wait_and_switch(before, after, y, wait, place, tolerance):
     """Run from a strobe for `wait` forcing cycles, then switch the damper; return the last time T.
 
-    `before` and `after` are the packed parameters before and after the switching. When the damper
-    is switched on, the loose mass has Z2 = `place` times the clearance and Z2' = 0.
+    `before` and `after` are the packed parameters before and after the switching. Switching the
+    damper on sets Z2 to `place` times the clearance, and Z2' to 0.
     """
     t = strobe_time(before)
     end = t + wait * 2.0 * math.pi / before[FREQUENCY]
@@ -101,10 +101,10 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 
 
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
-    """Wait, switch the damper on, and later off; return a path with rows as in `run`.
+    """Wait, switch the damper on, and later off; return the path while it is on, rows as in `run`.
 
     The damper is switched off when the state is in the release set `releases`, or after `longest`
-    cycles. The state after switching off replaces y. It is also the last row of the path.
+    cycles. The state after switching off replaces y and is the last row of the path.
     """
     begin = wait_and_switch(off, on, y, wait, place, tolerance)
     path = np.full((longest + 2, 5), np.nan)
@@ -134,14 +134,14 @@ def depth_of(depth, half, phase, x, v):
 
 @kernel
 def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, work):
-    """Run a motion from the time `begin` with the damper on, until a rule releases it.
+    """Run a motion with the damper on, from the time `begin` until a rule releases the motion.
 
-    `rule` holds a kind, a number n of forcing cycles, and the index of a phase. HOLD releases the
-    motion after n cycles. PHASE releases it at this phase, once n cycles have passed. STATE
-    releases it when its state is in the release set, but at the latest after n cycles. SETTLED
-    waits until the strobe states repeat, and then for the fraction `draw` of the period. At each
-    strobe a row of `path` (m, 5) receives the forcing cycles since `begin` and the state. Return
-    the last time, whether the motion was released within `limit` cycles, and the contacts begun.
+    `rule` holds a kind, a number n of forcing cycles, and the index k of a phase. HOLD releases the
+    motion after n cycles, PHASE when phase k first occurs after n cycles, and STATE when the state
+    is in the release set, at the latest after n cycles. SETTLED waits until the strobe states
+    repeat, and then for the fraction `draw` of the period. At each strobe a row of `path` (m, 5)
+    receives the forcing cycles since `begin` and the state. Return the last time, whether the
+    motion was released within `limit` cycles, and the number of contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

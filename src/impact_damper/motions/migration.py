@@ -1,4 +1,4 @@
-"""Migration control: switch the damper until the resonance motion has become the small motion."""
+"""Migration control: switch the damper on and off until the motion is the small free motion."""
 
 from typing import NamedTuple
 
@@ -17,13 +17,13 @@ from impact_damper.motions.records import NEVER
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.free_oscillator import main_solutions
 
-# MARGIN: forcing cycles in `course` before and after a run. SAMPLES: samples in a forcing cycle.
+# Times in `course`. MARGIN: forcing cycles before and after a run. SAMPLES: samples in a cycle.
 MARGIN, SAMPLES = 10, 40
 # Two free motions are equal if their max |Z1| differ by less than this number.
 ALIKE = 1e-6
-# Log entry for switching the damper on and off once. Times are in forcing cycles from the first
-# strobe. At `end_time` the run of the following free motion ends. released_period and
-# released_displacement (max |Z1|) belong to the damped motion before switching off.
+# Log entry: the damper is switched on, then off. Times are in forcing cycles from the first strobe.
+# end_time: end of the motion after switching off. destination: flag of the motion after switching
+# off. released_period, released_displacement (max |Z1|): motion before switching off.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
     + [("released_period", "i2"), ("released_displacement", "f8"), ("destination", "i1")]
@@ -33,8 +33,8 @@ SWITCHING = np.dtype(
 class ReleaseCase(NamedTuple):
     """Packed parameters with the damper on and off, and the free motions at one frequency.
 
-    `state` is the state of the resonance motion at a strobe. `known` holds max |Z1| of the
-    non-resonance motion and of the resonance motion.
+    `state` is the state of the resonance motion at the strobe. `known` holds two numbers: max |Z1|
+    of the non-resonance motion and max |Z1| of the resonance motion.
     """
 
     on: np.ndarray
@@ -63,34 +63,34 @@ def migrate(
     system : Oscillator or Machine
     damper : Damper or MachineDamper
     frequency : float
-        Forcing frequency W, or Hz for a machine; both free motions of period 1 must exist there.
+        Forcing frequency W, or Hz for a machine, at which two free motions of period 1 exist.
     release : {"settled", "state"}
         With "settled", as in the paper, the damper is switched off at a random phase after the
         motion has settled. With "state" the damper is switched off as soon as the state of the
         primary mass leads to the small motion.
     seed : int or numpy.random.SeedSequence
-        Seed of the random switching phases and places of the loose mass.
+        Seed of random switching phases and of random first places of the loose mass.
     longest_hold : int
-        Forcing cycles with the damper on, after which it is switched off in any case.
+        Forcing cycles after which a damper that is on is switched off in any case.
     periods : int
-        Forcing cycles from the beginning, after which the damper is not switched on again.
+        Forcing cycles from the beginning of the run after which the damper is not switched on.
     switchings : int
         Largest number of switchings; switching on and then off is one switching.
     settling : Settling, optional
-        Used for motions without the damper; with the damper only the `tolerance` is used.
+        Settings of the runs. For runs with the damper only the `tolerance` is used.
 
     Returns
     -------
     xarray.Dataset
         For each `time` T: the displacement of the primary mass. For each `switching`: the times T
-        when the damper is switched on, when it is switched off, and when the free motion has
-        settled; the motion before and after switching off. For the run: whether it reaches the
-        small motion, the number of switchings, and durations in forcing cycles.
+        at which the damper is switched on, the damper is switched off, and the free motion has
+        settled; the kinds of motion before and after switching off. For the run: whether it reaches
+        the small motion, the number of switchings, and durations in forcing cycles.
 
     Raises
     ------
     ValueError
-        If the free oscillator lacks one of its two motions of period 1.
+        If the non-resonance or the resonance motion does not exist at the frequency.
 
     Examples
     --------
@@ -148,8 +148,8 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     """Return the `ReleaseCase` of a damper; raise ValueError if a free motion does not exist.
 
     With a hardening spring the resonance motion is followed upward from a lower frequency, and the
-    non-resonance motion downward from a higher one, each towards its fold. With a softening spring
-    the directions are exchanged.
+    non-resonance motion downward from a higher frequency. Both directions lead towards the fold of
+    the branch. With a softening spring upward and downward are exchanged.
     """
     on, off = pack(oscillator, damper, frequency), pack(oscillator, None, frequency)
     above = min(1.1 * frequency, bounds.FREQUENCY_RANGE["most"])
@@ -170,7 +170,7 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return the flags (`DAMPED_MOTION`) of motions, given arrays of their periods and max |Z1|."""
+    """Return the flags (`DAMPED_MOTION`) of motions, from arrays of their periods and max |Z1|."""
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
     return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
@@ -191,11 +191,11 @@ def destination(known, record):
 def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """Return the path and the log (`SWITCHING`) of one run of migration control.
 
-    A row of `draws` holds three numbers from 0 to 1: the time at which the damper is switched on,
-    as a fraction of the motion's period; the place of the loose mass, as a fraction of the gap; the
-    time at which the damper is switched off, as a fraction of the period. `releases` is the
-    `ReleaseSet` for release by state, otherwise None. The path (m, 5) has a row for each strobe and
-    each switching: forcing cycles from the first strobe, and the state.
+    A row of `draws` holds three numbers from 0 to 1: the wait before the damper is switched on,
+    over the motion's period; the place of the loose mass in the gap; and the wait before the damper
+    is switched off, over the motion's period. `releases` is the `ReleaseSet` for release by state,
+    otherwise None. The path (m, 5) has a row for each strobe and for each switching. A row holds
+    the forcing cycles since the first strobe, and the state.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit
@@ -234,7 +234,7 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
 def course(case, path, log, tolerance):
     """Return times T and Z1 along a run, with MARGIN forcing cycles before and after the run.
 
-    Each part is computed from a state of the path, because errors grow along a chaotic motion.
+    The motion is computed anew from each row of the path, since errors grow in a chaotic motion.
     """
     period = 2 * np.pi / case.on[FREQUENCY]
     path = np.vstack([np.append(-MARGIN, case.state), path])
@@ -263,7 +263,7 @@ def switching_data(logs, case):
 
 
 def run_totals(logs):
-    """Return a dict of dataset variables of whole runs; a run begins at its first `on_time`."""
+    """Return a dict of dataset variables of runs. A run's time begins at its first `on_time`."""
     first = logs["on_time"][..., 0]
     reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
     yes, no = (flag("trial_outcome", name) for name in ("reached", "not_reached"))

@@ -1,6 +1,6 @@
 """Motions in panels: integrals, largest values and contact forces.
 
-Time is divided at the beginnings and ends of contacts. Each part is divided into panels. In a panel
+A panel is a short interval of time. Each flight and each contact is divided into panels. In a panel
 a polynomial through the states at Chebyshev nodes represents the motion to about twelve digits
 (L. N. Trefethen, Spectral Methods in MATLAB, 2000, chapters 6 and 12).
 """
@@ -21,17 +21,17 @@ from impact_damper.model.packed import (
 )
 from impact_damper.motions.traces import states_at, trace
 
-# A panel is scaled to [-1, 1]. NODES: Chebyshev nodes. COEFFICIENTS: matrix that maps values at the
-# nodes to coefficients of Chebyshev polynomials. WEIGHTS: weights of Clenshaw-Curtis quadrature.
+# The time in a panel is scaled to [-1, 1]. NODES: Chebyshev nodes. COEFFICIENTS: matrix from values
+# at the nodes to coefficients of Chebyshev polynomials. WEIGHTS: Clenshaw-Curtis quadrature.
 NODES = -np.cos(np.pi * np.arange(14) / 13)
 COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
 WEIGHTS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))] @ COEFFICIENTS
-# Search for the largest modulus in a panel. POINTS: points that are tried. NEWTON: steps of
-# Newton's method from the best point. SLOPE: matrix that maps coefficients of a polynomial to
+# Search for the largest modulus in a panel. POINTS: points that are tried first. NEWTON: steps of
+# Newton's method from the best of these points. SLOPE: matrix from coefficients of a polynomial to
 # coefficients of its derivative.
 POINTS, NEWTON = np.linspace(-1, 1, 33), 5
 SLOPE = np.vstack([chebyshev.chebder(np.eye(len(NODES))), np.zeros(len(NODES))])
-# Largest length of a panel, in radians of the fastest oscillation.
+# Largest length of a panel, as a phase of the fastest oscillation in the panel, radian.
 LONGEST_ANGLE = 2.0
 # Number of contacts whose panels are in memory at once.
 PIECE = 100_000
@@ -42,10 +42,10 @@ SAMPLES = 32
 class Panels(NamedTuple):
     """A motion in n panels.
 
-    A row of `log` is a contact: wall, beginning, end, and Z2' at both times. `lengths` (n,) are the
-    durations of the panels. `times` and `states` belong to the nodes, shapes (n, nodes) and
-    (n, nodes, 4). After an escape `states` are NaN. `contact` (n,) is the row of a panel's contact
-    in `log`, and `wall` (n,) is the wall; in flight they are -1 and 0.
+    A row of `log` is a contact: wall, begin, end, Z2' at begin, Z2' at end. `lengths` (n,) are the
+    durations of the panels. `times` (n, nodes) and `states` (n, nodes, 4) belong to the nodes.
+    After an escape `states` are NaN. `contact` (n,) is the index of the panel's contact in `log`,
+    -1 in flight. `wall` (n,) is the wall, -1 or 1, in contact, and 0 in flight.
     """
 
     log: np.ndarray
@@ -57,7 +57,7 @@ class Panels(NamedTuple):
 
 
 def sampled(p, state, begin, end, tolerance) -> Panels:
-    """Run a motion from a state at the time `begin` and return its panels."""
+    """Run a motion from a state, from the time `begin` to the time `end`; return its panels."""
     rough = np.linspace(begin, end, int(SAMPLES * (end - begin) * p[FREQUENCY] / (2 * np.pi)) + 2)
     course = trace(p, state, begin, rough, tolerance)
     return _divided(p, state, (begin, end), course, tolerance, flights=True)
@@ -66,8 +66,8 @@ def sampled(p, state, begin, end, tolerance) -> Panels:
 def contact_forces(p, state, span, course, tolerance):
     """Return the largest force in each contact of a motion, divided by the primary mass.
 
-    `course` is the result of `trace` for the motion. The motion is run again with the same steps,
-    so even a chaotic motion has the same contacts.
+    `course` is the result of `trace` for the motion. The motion is run again with the steps of
+    `trace`, so even a chaotic motion has the contacts of `course`.
     """
     states, log = course
     forces = np.zeros(len(log))
@@ -80,9 +80,9 @@ def contact_forces(p, state, span, course, tolerance):
 
 
 def _divided(p, state, span, course, tolerance, flights):
-    """Return the panels of all contacts of a motion; with `flights` also those between contacts."""
+    """Return the panels in the contacts of a motion; if `flights`, also the panels in flights."""
     (begin, end), (states, log) = span, course
-    # The edges are `begin`, both ends of each contact, and `end`. Intervals 1, 3, ... are contacts.
+    # Edges: `begin`, both ends of each contact, `end`. Intervals 1, 3, ... between are contacts.
     ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
     edges = np.concatenate([[begin], np.column_stack([log[:, 1], ends]).ravel(), [end]])
     walls = np.zeros(len(edges) - 1)
@@ -137,13 +137,13 @@ def largest(values) -> float:
 
 
 def base_displacement(p, times):
-    """Return the displacement A/W^2 cos(W T) of a base whose force of inertia is A cos(W T)."""
+    """Return the displacement (A/W^2) cos(W T) of a base whose force of inertia is A cos(W T)."""
     amplitude = forcing_amplitude.py_func(p) / p[FREQUENCY] ** 2
     return p[BASE] * amplitude * np.cos(p[FREQUENCY] * times)
 
 
 def penetration(p, states, wall):
-    """Return the penetration of a wall and its rate, for states (..., 4); both are 0 in flight."""
+    """Return the depth of the contact with `wall` (-1 or 1) and the depth's rate; 0 in flight."""
     return np.where(wall, wall * states[..., 2] - p[CLEARANCE], 0.0), wall * states[..., 3]
 
 

@@ -20,7 +20,7 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
 from impact_damper.motions.traces import record_beginning
 
-# A harmonic is a rounding error, and has no phase, if its ratio to another is at most this number.
+# A harmonic whose ratio to another harmonic is at most this number is a rounding error, no phase.
 PHASELESS = 1e-9
 # Largest asymmetry of a symmetric motion.
 SYMMETRIC = 1e-6
@@ -36,11 +36,11 @@ NEVER = np.zeros(1, bool)
 # Outcomes of a motion that is run until it settles.
 UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING = range(5)
 ESCAPED, AT_REST, QUASI_PERIODIC, DRIFTING = range(5, 9)
-# Fields of a record. A run fills the fields before `maximum_displacement`, `measure` the others.
+# Fields of a record. A run fills the fields up to `state`, `measure` the fields after `state`.
 # period       period of the orbit in forcing cycles, 0 without an orbit
 # periods_run  forcing cycles until the outcome was known
 # residual     largest difference between the state and the state a period later
-# state        state at the strobe, on the orbit if settled, otherwise the last state
+# state        state at the strobe: on the orbit if settled, otherwise the last state of the run
 # reach        largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
 WATCHED = "residual lyapunov_exponent lyapunov_error first_frequency second_frequency"
 MEASURED = "maximum_displacement contacts asymmetry"
@@ -57,11 +57,11 @@ MOTION = np.dtype(
 def survey(p, states, phases, times, tolerance, log, sums):
     """Run a motion in m segments; record contacts, the largest |Z1| and first harmonics.
 
-    `states` (m, 4) are the states at the beginnings of segments; the states at the ends replace
-    them. `phases` and `times` (m + 1,) are W T and T at the edges of segments. `log` (n, 5)
-    receives the first n contacts, in rows as in `traces.trace`. `sums[0]` receives the real and
-    the imaginary part of the mean of 2 exp(-i W T) Z1, and `sums[1]` the same of Z2. Return the
-    number of contacts and the largest |Z1|.
+    `states` (m, 4) holds the first state of each segment; the segment's last state replaces it.
+    `phases` and `times` (m + 1,) are W T and T where segments begin, and at the last end. `log`
+    (n, 5) receives the first n contacts, in rows as in `traces.trace`. sums[0] receives the real
+    and the imaginary part of Z1's first harmonic, the mean of 2 exp(-i W T) Z1. sums[1] receives
+    the first harmonic of Z2. Return the number of contacts and the largest |Z1|.
     """
     work, start = workspace(), np.empty(4)
     frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
@@ -104,7 +104,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Add `count` values of a polynomial, times cosine and sine of their phases, to both `sums`."""
+    """Add `count` values of a polynomial times cosine to sums[0], and times sine to sums[1]."""
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
     for k in range(order - 1, -1, -1):
@@ -148,7 +148,7 @@ def measure_one(p, periods, tolerance, out):
 
 @inlined
 def measure_nothing(out):
-    """Fill the measurements of a motion that diverges or escapes."""
+    """Fill the measurements of a motion that diverges or escapes with infinity or NaN."""
     nothing = complex(np.nan, np.nan)
     out.maximum_displacement, out.contacts, out.asymmetry = np.inf, np.nan, np.nan
     out.harmonic_displacement, out.harmonic_relative = nothing, nothing
@@ -156,11 +156,11 @@ def measure_nothing(out):
 
 @kernel
 def measure(parameters, tolerance, watched, out, stop):
-    """Complete the records `out` by measurements that begin at their states at the strobe.
+    """Complete the records `out` by measurements of motions that begin in the records' states.
 
     A motion with a `period` is integrated over the period, others over `watched` forcing cycles.
     If the number of cycles is odd, the asymmetry is the distance between the mirrored first state
-    and the state after half the time; otherwise it is NaN. A harmonic is the amplitude c of
+    and the state after half the cycles; otherwise the asymmetry is NaN. A harmonic is c in
     Re(c exp(i W T)). If another thread sets `stop[0]`, the remaining records are not completed.
     """
     for i in range(len(out)):
@@ -209,9 +209,9 @@ def envelope(parameters, lengths, y, tolerance):
     """Run a motion through n windows of time, with packed parameters (n, COUNT) and `lengths` (n,).
 
     Return two arrays (n,): the largest |Z1| in each window, and the number of contacts begun. In
-    the window of an escape |Z1| is infinite and the number is NaN; later both are NaN. The last
-    state replaces y. Each window begins at the strobe. There the forcing is 0, so W can change from
-    window to window. With forcing each window must be one cycle long.
+    the window of an escape they are infinity and NaN, in later windows both are NaN. The last state
+    replaces y. Each window begins at the strobe, where the forcing is 0 and W may therefore change.
+    If there is forcing, each window must be one forcing cycle long.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)
@@ -228,8 +228,8 @@ def envelope(parameters, lengths, y, tolerance):
 def run_window(p, y, side, length, largest, tolerance, work):
     """Run a motion in place from the strobe for a time `length`.
 
-    Return the wall in contact; the larger of max |Z1| and `largest`, which is infinite after an
-    escape; and the number of contacts begun.
+    Return the wall in contact; the larger of max |Z1| and `largest`, or infinity after an escape;
+    and the number of contacts begun.
     """
     t, begun = strobe_time(p), 0
     end = t + length

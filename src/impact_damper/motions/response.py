@@ -1,7 +1,7 @@
 """All motions at each frequency, and lives of chaotic transients.
 
 The life of a chaotic transient is its duration. Lives are distributed exponentially. So the number
-of transients that end, divided by the sum of all lives, estimates the rate at which they end.
+of transients that end, divided by the sum of all lives, estimates the rate at which transients end.
 """
 
 from dataclasses import replace
@@ -23,9 +23,9 @@ from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.sweep import sweep
 from impact_damper.motions.watch import NEAR
 
-# Runs that measure lives. APART: largest difference of Z1, and of Z1', between the first state of a
-# run and the chaotic motion. CAPTURE: distance from an orbit at which a transient ends. CHECKED:
-# forcing cycles for which a run that has not ended is continued, to see if it is still chaotic.
+# Runs that measure lives. APART: largest random change of Z1 and of Z1' in the first state of a
+# run. CAPTURE: distance from an orbit at which a transient ends. CHECKED: further forcing cycles of
+# a run that has not ended. They show whether its motion is still chaotic.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 
@@ -47,8 +47,8 @@ def frequency_response(
 ):
     """Find all motions at each frequency, from many starts and from neighbouring frequencies.
 
-    Without a radius, Newton's method also looks for further stable orbits. Each motion that is
-    found is followed to neighbouring frequencies, as far as its branch extends.
+    Without a radius, Newton's method also looks for further stable orbits. Each motion found is
+    followed to neighbouring frequencies, as far as the branch of the motion extends.
 
     Parameters
     ----------
@@ -62,18 +62,18 @@ def frequency_response(
     radius : float, optional
         Random starts are uniform in a ball with this radius around rest, and the loose mass is in
         its gap. Without a radius, random starts are scaled by the motions without the damper, and
-        further starts are placed, for example on these motions.
+        further starts are not random: for example states on the motions without the damper.
     whole_gap : bool
         Used with a radius. If False, all four components of a start lie in the ball, as in the
         paper. If True, only Z1 and Z1' lie in the ball; the loose mass is at relative rest anywhere
-        in its gap. A machine at rest is `radius=0` with `whole_gap=True`.
+        in its gap. With `radius=0` and `whole_gap=True` the machine starts from rest.
     seed : int
         Seed of the random starts.
     settling : Settling, optional
     life_runs : int
-        Number of runs for each chaotic motion that measure how long it lasts; 0 for none.
+        Number of runs that measure how long a chaotic motion lasts; 0: no measurement.
     life_periods : int
-        Largest length of each of these runs in forcing cycles.
+        Largest length of a run that measures how long a chaotic motion lasts, in forcing cycles.
     workers : int
         Number of threads. The result does not depend on this number.
     progress : str, optional
@@ -82,13 +82,13 @@ def frequency_response(
     Returns
     -------
     xarray.Dataset
-        - For each (frequency, motion): what `steady_motion` returns; the branch; `motion_starts`,
-          the number of random starts that lead to the motion; the 95 % interval of their share; the
-          mean life of a chaotic motion. At a frequency with fewer motions than at others, the
-          remaining entries have the outcome `absent`.
+        - For each (frequency, motion): the variables of `steady_motion`; the number of the branch;
+          `motion_starts`, the number of random starts that lead to the motion; the 95 % interval of
+          the share of random starts that lead to the motion; the mean life of a chaotic motion.
+          Entries without a motion have the outcome `absent`.
         - For each (frequency, start): outcome and length of the run. For each `end`: the end of a
-          branch. For each `frequency`: the largest start and the largest motion without the damper.
-        - `missed_share`: upper bound (95 %) of the share of starts that lead to motions not found.
+          branch. For each `frequency`: largest |Z1| and |Z1'| of starts and of free motions.
+        - `missed_share`: upper bound (95 %) on the share of starts that lead to motions not found.
 
     Warns
     -----
@@ -128,8 +128,8 @@ def frequency_response(
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
     """Return a dict of dataset variables (n, m): the lives of the chaotic motions in a sweep.
 
-    Near the state of each chaotic motion begin as many runs as `runs` says, each of at most
-    `periods` forcing cycles. `states` has the shape (n, m, 4).
+    `runs` runs of at most `periods` forcing cycles begin near the state of each chaotic motion.
+    `outcomes` (n, m) and `states` (n, m, 4) belong to the motions of the sweep.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}
@@ -151,15 +151,15 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 
 
 def _lives(parameters, states, periods, settling, **running):
-    """Return the life of each run in forcing cycles, or `periods` + 1 if the run does not end.
+    """Return the life of each transient in forcing cycles, or `periods` + 1 if it does not end.
 
-    A life ends at the distance CAPTURE from an orbit. The time from then on is subtracted.
+    A run ends at the distance NEAR from an orbit, a life at CAPTURE; the difference is subtracted.
     """
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 
     def work(part):
         begin = 0.5 * np.pi / parameters[part, FREQUENCY]
-        # The patience exceeds the limit: no run is stopped as chaotic, and no tangent is computed.
+        # The patience exceeds 2 x limit: no run is stopped as chaotic, and tangents never begin.
         settings = settling.tolerance, 2 * periods + 2, periods
         settle_many(parameters[part], states[part], begin, *settings, records[part], stop)
 
@@ -174,7 +174,7 @@ def _lives(parameters, states, periods, settling, **running):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]
         approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
     lives = np.maximum(lives - approach, 1)
-    # A run may settle or escape only when it is continued. Then its life is `periods`.
+    # A run that settles or escapes only in the CHECKED further cycles has the life `periods`.
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives

@@ -19,8 +19,8 @@ CONTACT = "contact_wall contact_begin contact_end approach_velocity departure_ve
 def random_states(count, radius, damper, seed, *, within_gap=True):
     """Return random states (count, 4), uniform in a ball with a given radius around the origin.
 
-    Without a damper the ball is a disk of (Z1, Z1'). With `within_gap`, a state with |Z2| above the
-    clearance is drawn again, because its contact spring would store a large energy.
+    Without a damper the ball is a disk of (Z1, Z1'). If `within_gap`, a state with |Z2| above the
+    clearance is drawn again, because the wall would store a large energy.
     """
     if damper is not None and within_gap:
         limits = {"above": 0.0, "most": bounds.MOST_RADIUS * damper.clearance}
@@ -61,14 +61,14 @@ def simulate(
     frequency : float
         Forcing frequency W, or Hz for a machine.
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
-        Z1, Z1', Z2, Z2' at the time `start`; or a state of a dataset, which includes a phase.
+        Z1, Z1', Z2, Z2' at the time `start`; or the state in a dataset, stored with its phase.
     periods : float
         Length of the motion in forcing cycles.
     samples : int
         Samples in a forcing cycle.
     start : float, optional
-        Time T of the first state, in s for a machine. The forcing is proportional to cos(W T). The
-        default is the time at the phase of the state, or 0 if the state has no phase.
+        Time T of the first state, in s for a machine. The forcing is proportional to cos(W T). By
+        default W T is the phase of the state, or 0 if the state has no phase.
     tolerance : float
         Largest local error of a step of the integrator, dimensionless.
 
@@ -79,10 +79,10 @@ def simulate(
           displacement and the absolute acceleration of the primary mass are further variables.
         - Over `contact`: wall (1 or -1, the sign of Z2), beginning and end of each contact, Z2' at
           the beginning and the end, and the largest force (N for a machine, otherwise divided by
-          the primary mass). An end after the last sample is NaN.
+          the primary mass). If a contact ends after the last sample, its end is NaN.
         - The scalar `largest_contact_force`, 0 without contacts.
         - With a softening spring: the scalar `escape_time`, NaN without an escape. A motion escapes
-          when it crosses a barrier of the spring and tends to infinity. Later states are NaN.
+          when it crosses a barrier of the spring and tends to infinity. States after it are NaN.
 
     Examples
     --------

@@ -1,12 +1,12 @@
 """Start states of a search for motions: random states, and states on known motions.
 
-A start is an initial state. Free motions are motions without the damper. If a radius is given, all
-starts are random: uniform in a ball, as in the paper (section 3, iii), or with the primary mass in
-a disk and the loose mass anywhere in its gap. Without a radius, the sizes of random starts are
-uniform on a logarithmic scale, up to SPREAD times the largest free motion. Then further starts are
-placed on free motions and at rest, with several states of the loose mass; on solutions of harmonic
-balance; and on motions after slow changes (ramps) of a parameter. Ramps lead to violent motions of
-weakly damped machines. Random starts rarely lead to these motions.
+A start is an initial state. With a radius all starts are random: uniform in a ball, as in the paper
+(section 3, iii), or with the primary mass in a disk and the loose mass anywhere in its gap. Without
+a radius the sizes of random starts are uniform on a logarithmic scale, up to SPREAD times the
+largest free motion (a motion without the damper), and further starts are placed. Placed starts lie
+on free motions and at rest, with several states of the loose mass; on solutions of harmonic
+balance; and at the end of ramps. A ramp is a slow change of a parameter. Ramps lead to violent
+motions of weakly damped machines, to which random starts rarely lead.
 """
 
 import math
@@ -27,33 +27,33 @@ from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds,
 from impact_damper.theory.single_harmonic import impacting_solutions
 
 # Search for free motions. PHASES: number of starts on a solution of harmonic balance. SAMPLES:
-# samples in a forcing cycle. MOST_STATES: largest number of states that are stored of one motion.
+# samples in a forcing cycle. MOST_STATES: largest number of states that are stored for one motion.
 PHASES, SAMPLES, MOST_STATES = 6, 256, 5
-# Random starts. SPREAD: size of the largest, divided by the size of the largest free motion.
-# SMALLEST: size of the smallest, divided by the size of the largest.
+# Random starts. SPREAD: size of the largest random start over size of the largest free motion.
+# SMALLEST: size of the smallest random start over size of the largest random start.
 SPREAD, SMALLEST = 3.0, 0.01
-# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by the crossing speed
-# (`_crossing_speed`) or, on free motions, by their largest speed if this is larger.
+# Placed starts. PLACES: Z2 over the clearance. VELOCITIES: Z2' over the crossing speed at rest; on
+# free motions, over the larger of the crossing speed and the largest |Z1'| of free motions.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
-# States of the loose mass for `sweep.stable_orbits`. LOOSE_STATES: number. LOOSE_SPEED: largest
-# |Z1' - Z2'|, divided by the crossing speed or by the free motions' largest speed if it is larger.
+# States of the loose mass for `sweep.stable_orbits`. LOOSE_STATES: number of states. LOOSE_SPEED:
+# largest |Z1' - Z2'| over the larger of the crossing speed and the largest |Z1'| of free motions.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# With a softening spring random starts have at most WITHIN times |Z1| and |Z1'| of `barrier`.
+# With a softening spring |Z1| and |Z1'| of random starts are at most WITHIN times `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
-# Ramps. STEP: relative change of a parameter in a step. PERIODS: cycles in a step. RAISED: first
-# force divided by the last. A ramp upward to W begins at BELOW times the lowest fold or W/2,
-# whichever is lower; a ramp downward at the highest fold or 2 W, whichever is higher, over BELOW.
+# Ramps. STEP: relative change of a parameter in a step. PERIODS: forcing cycles in a step. RAISED:
+# first force over last force. BELOW: a ramp up to W begins at BELOW min(W/2, lowest frequency of a
+# fold), a ramp down to W begins at max(2 W, highest frequency of a fold) / BELOW.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
 class Search(NamedTuple):
     """Start states at T = 0 of a search in n systems, and sizes of the starts and free motions.
 
-    `random` has the shape (n, m, 4). `placed` and `loose` hold an array for each system; it is
-    empty if a radius is given. `loose` is an argument of `sweep.stable_orbits`. `displacement` and
-    `speed` (n,) bound |Z1| and |Z1'| of random starts. `free_displacement` and `free_speed` (n,)
-    are the largest |Z1| and |Z1'| of the free motions.
+    `random` has the shape (n, m, 4). `placed` and `loose` hold an array for each system. The arrays
+    are empty if a radius is given. `loose` is an argument of `sweep.stable_orbits`. `displacement`
+    and `speed` (n,) bound |Z1| and |Z1'| of random starts. `free_displacement` and `free_speed`
+    (n,) are the largest |Z1| and |Z1'| of the free motions.
     """
 
     random: np.ndarray
@@ -65,7 +65,7 @@ class Search(NamedTuple):
     free_speed: np.ndarray
 
     def variables(self, dimension=None) -> dict:
-        """Return dataset variables of the range of the search, along `dimension` if given."""
+        """Return dataset variables: sizes of starts and of free motions, and the missed share."""
         names = "start_displacement", "start_speed", "free_displacement", "free_speed"
         data = {
             name: ((), values[0]) if dimension is None else (dimension, values)
@@ -75,9 +75,9 @@ class Search(NamedTuple):
 
 
 def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_gap=False) -> Search:
-    """Return the `Search` with `count` random starts in each system, a pair (damper or None, W).
+    """Return a `Search` with `count` random starts in each system. A system is (damper or None, W).
 
-    With `whole_gap` starts near rest are wanted, so a small radius causes no warning.
+    If `whole_gap`, starts near rest are wanted, so a small radius causes no warning.
     """
     if radius is None:
         numbered = enumerate(systems)
@@ -97,24 +97,24 @@ def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_g
 
 
 def describe_search(starts, radius, seed, whole_gap=False) -> dict:
-    """Return the parameters of a search that are stored in a dataset, without unused ones."""
+    """Return the parameters of a search that a dataset stores. Unused parameters are left out."""
     parameters = {"starts": starts, "seed": seed} | ({"whole_gap": True} if whole_gap else {})
     return parameters if radius is None else parameters | {"radius": radius}
 
 
 def missed_share(starts) -> float:
-    """Return the bound (95 %, rule of three) on the share of starts that lead to missed motions."""
+    """Return the 95 % bound, 3/starts, on the share of starts that lead to motions not found."""
     return min(1.0, 3.0 / starts) if starts else 1.0
 
 
 def free_sizes(oscillator, frequencies) -> dict:
-    """Return the largest free |Z1| and |Z1'|, by harmonic balance, as a dict keyed by frequency."""
+    """Return a dict: frequency to largest |Z1| and |Z1'| of free motions, by harmonic balance."""
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
     return {w: (size, size * w) for w, size in sizes.items()}
 
 
 def warn_if_narrow(oscillator, frequencies, radius) -> None:
-    """Warn if a free motion is larger or faster than the radius of the ball of starts."""
+    """Warn if |Z1| or |Z1'| of a free motion exceeds the radius of the ball of starts."""
     check_number("radius", radius, **RADIUS_RANGE)
     sizes = free_sizes(oscillator, frequencies)
     worst = max(sizes, key=lambda w: max(sizes[w]))
@@ -141,7 +141,7 @@ def gap_states(count, radius, damper, seed):
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return the fields of a `Search` without a radius, for one system, as a tuple."""
+    """Return the fields of a `Search` without a radius in one system, as a tuple."""
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
@@ -156,7 +156,7 @@ def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
 
 
 def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return random starts (count, 4), scaled by the free motions, and bounds of |Z1| and |Z1'|."""
+    """Return random starts (count, 4), scaled by free motions, and the bounds of |Z1| and |Z1'|."""
     generator = np.random.default_rng(seed)
     free = free_motions(oscillator, frequency, settling)
     crossing = 0.0 if damper is None else _crossing_speed(damper, frequency)
@@ -195,7 +195,7 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
     if beyond_closed_forms(oscillator, damper):
         return np.array(rows)
     try:
-        # For starts the solutions for elastic contact suffice.
+        # Starts need not be exact, so the solutions for elastic contact suffice.
         solutions = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
     except ArithmeticError:
         return np.array(rows)
@@ -205,7 +205,7 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
 
 
 def ramped(oscillator, damper, frequency, tolerance) -> list:
-    """Return the states at T = 0 after slow ramps of a parameter, without escaped motions."""
+    """Return the states at T = 0 after slow ramps of a parameter. Escaped motions are left out."""
     folds = [fold.frequency for fold in free_folds(oscillator)] or [frequency]
     lowest = max(BELOW * min(frequency / 2, *folds), FREQUENCY_RANGE["least"])
     highest = min(max(2 * frequency, *folds) / BELOW, FREQUENCY_RANGE["most"])
@@ -216,7 +216,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """From rest, ramp parameters from `factor` x `target` to `target`; return the last state."""
+    """Run from rest while parameters go from `factor` x `target` to `target`; return the state."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent
@@ -246,12 +246,12 @@ class FreeMotions(NamedTuple):
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
     """Find the free motions at one frequency W, by runs from rest and from harmonic balance.
 
-    Harmonic balance can miss motions near a fold. Starts with the peak's amplitude find them.
+    Harmonic balance can miss motions near a fold. Starts with the peak's amplitude find these too.
     """
     p = pack(oscillator, None, frequency)
     angles = 2 * np.pi * np.arange(PHASES) / PHASES
     sizes = list(balance_amplitudes(oscillator, frequency))
-    with suppress(ValueError):  # raised without a peak
+    with suppress(ValueError):  # raised if there is no peak
         sizes.append(maximum_response(oscillator).amplitude)
     turns = np.stack([np.cos(angles), -frequency * np.sin(angles)], axis=1)
     starts = np.concatenate([[(0.0, 0.0)], *(size * turns for size in sizes)])

@@ -1,6 +1,6 @@
-"""The steady motion that a state leads to; many motions on several threads until they settle.
+"""Find the steady motion to which a state leads; run many motions on several threads.
 
-This module imports no kernels that run motions side by side, because they take long to compile.
+This module imports no kernels that run motions side by side. Such kernels take long to compile.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -21,7 +21,7 @@ from impact_damper.motions.strobe_map import STROBE, one_period, strobe_time
 from impact_damper.motions.undecided import name_undecided
 from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
-# Number of motions in a chunk. Ctrl-C waits until a call of a kernel ends.
+# Motions in a chunk. A call of a kernel runs one or more chunks. Ctrl-C waits until the call ends.
 CHUNK = 128
 # MOST_CHUNKS: largest number of chunks that are settled in one call. SLICES: smallest number of
 # calls for each thread, if there are several threads.
@@ -48,10 +48,10 @@ def steady_motion(
     -------
     xarray.Dataset
         Outcome (see `decode`), period, contacts per forcing cycle, largest |Z1|, asymmetry (0 if
-        the motion is its own mirror image half a period later), phases of the first harmonic,
-        multiplier, Lyapunov exponent, and the frequencies of a quasi-periodic motion. `state` is
-        the state at W T = pi/2, with this phase as a coordinate. `simulate` and this function can
-        continue from this state, for example at the next frequency of a sweep.
+        the motion half a period later is the mirror image), phases of first harmonics, multiplier,
+        Lyapunov exponent, and the frequencies of a quasi-periodic motion. `state` is the state at
+        W T = pi/2, and has this phase as a coordinate. As argument `state` of `simulate` or of this
+        function it continues the motion, for example at the next frequency of a sweep.
 
     Examples
     --------
@@ -98,7 +98,7 @@ def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None
 def run_chunks(work, count, workers, progress, stop, size=CHUNK):
     """Call `work(slice)` for slices of length `size` that cover range(count), on `workers` threads.
 
-    After an error or Ctrl-C the function sets `stop[0]` and does not wait for running slices.
+    After an error or Ctrl-C the function sets `stop[0]` and does not wait for calls that still run.
     """
     bounds.check_count("workers", workers, most=4096)
     slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
@@ -117,7 +117,7 @@ def run_chunks(work, count, workers, progress, stop, size=CHUNK):
 def settle_with(
     settle, parameters, states, begins, settling, *, workers=1, progress=None, stop=None
 ):
-    """Return the `records.MOTION` of motions from states (m, 4) at the times `begins` (m,).
+    """Run motions from states (m, 4) at times `begins` (m,); return an array of `records.MOTION`.
 
     `settle` is `settle_each` or `settle_many`. The other arguments are as in `ensemble.settle`.
     """
@@ -130,7 +130,7 @@ def settle_with(
     def work(part):
         rows, out = parameters[part], records[part]
         settle(rows, states[part], begins[part], *settings, out, stop)
-        # Results may depend on these slices. They are the same for each number of workers.
+        # Results may depend on these slices. The slices do not depend on the number of workers.
         for first in range(0, max(len(out), 1), CHUNK):
             some = slice(first, first + CHUNK)
             name_undecided(rows[some], out[some], settling.limit, settling.further, stop)
@@ -139,7 +139,7 @@ def settle_with(
     # This call compiles the kernels in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
     # Near the end of a slice some lanes (places for motions in a kernel) are empty, so slices are
-    # large. But several workers end at about the same time only if each gets several slices.
+    # large. But several workers end at about the same time only if each worker gets several slices.
     share = len(states) // CHUNK if workers == 1 else len(states) // (SLICES * workers * CHUNK)
     size = CHUNK * min(max(share, 1), MOST_CHUNKS)
     run_chunks(work, len(states), workers, progress, stop, size=size)
@@ -148,7 +148,7 @@ def settle_with(
 
 @kernel
 def settle_each(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Do the same as `ensemble.settle_many`, but run the motions one after the other."""
+    """Fill the records `out` as `ensemble.settle_many` does, but run the motions one by one."""
     work, ring = workspace(), np.empty((RING, 4))
     seen, tangent = np.empty(1, SEEN), np.empty((1, 4))
     for i in range(len(out)):

@@ -1,7 +1,7 @@
-"""The strobe map, from one forcing cycle to the next, and Newton's method for its periodic orbits.
+"""The strobe map, from the state at a strobe to the state at the next, and Newton's method on it.
 
 The strobe is the forcing phase W T = pi/2. The contacts of a damper at its design point occur near
-W T = 0 and pi, so the strobe lies midway between them.
+W T = 0 and W T = pi. The strobe lies midway between these contacts.
 """
 
 import math
@@ -17,7 +17,7 @@ from impact_damper.model.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MAS
 # Phase W T of the strobe.
 STROBE = math.pi / 2
 # Newton's method. ITERATIONS: largest number of corrections. CONVERGED: largest last correction.
-# REGULAR: smallest determinant.
+# REGULAR: smallest modulus of the determinant of the linear system.
 ITERATIONS, CONVERGED, REGULAR = 10, 1e-9, 1e-12
 # Largest local error of a step in the integration of orbits.
 POLISH_TOLERANCE = 1e-12
@@ -51,7 +51,7 @@ def speed_weight(p, side):
 
 @kernel
 def distance(a, b, weight):
-    """Return the largest difference between components of two states, with a weight for Z2'."""
+    """Return the largest component of |a - b|, in which the component of Z2' is times `weight`."""
     d = max(abs(a[0] - b[0]), abs(a[1] - b[1]))
     return max(d, max(abs(a[2] - b[2]), weight * abs(a[3] - b[3])))
 
@@ -78,7 +78,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state `periods` cycles after y, d(state)/dy, and the number of contacts begun."""
+    """Return the state z `periods` cycles after y, the matrix dz/dy, and the number of contacts."""
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents, matrix = y.copy(), np.empty((4, 4)), np.empty((4, 4))
     for i in range(16):
@@ -138,7 +138,7 @@ def dominant(values):
 
 @kernel
 def polish(p, y, periods, reach, tolerance):
-    """Move a state y onto the periodic orbit near it, by Newton's method on the map over `periods`.
+    """Move a state y onto a periodic orbit nearby, by Newton's method on the map over `periods`.
 
     Without contacts only Z1 and Z1' are unknown. A change of Z1, Z1' or Z2 by `reach` or more is a
     failure. Return whether the method has converged, the residual, and the dominant multiplier.
@@ -172,7 +172,7 @@ def polish(p, y, periods, reach, tolerance):
 
 @kernel
 def repeats_sooner(p, y, periods, tolerance):
-    """Return whether the state of an orbit repeats after fewer cycles, a divisor of `periods`."""
+    """Return whether an orbit repeats already after a divisor of `periods` below `periods`."""
     work = workspace()
     none = np.empty((0, 4))
     state = y.copy()

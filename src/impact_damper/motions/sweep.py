@@ -22,15 +22,15 @@ from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
-# Two records of one motion differ by less than this. SAME: relative difference of max |Z1|; also
-# the asymmetry of a symmetric motion. ROUNDING: difference of max |Z1| near rest. SIMILAR: ratio of
-# the sizes of motions that have not settled.
+# Two records of one motion differ by less than this. SAME: relative difference of max |Z1|; SAME is
+# also the largest asymmetry of a symmetric motion. ROUNDING: difference of max |Z1| near rest.
+# SIMILAR: `size_ratio` of motions that have not settled.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
-# Outcomes with infinite or no displacement. Two records that share one of these are one motion.
+# Outcomes with infinite or zero max |Z1|. All motions with one such outcome count as one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
-# Newton's method for further orbits. LONGEST: longest period in cycles. REACH: largest distance
-# from the start, divided by the largest |Z1| or |Z1'| of known motions or, if larger, by the
-# clearance. SAME_ORBIT: largest difference of equal orbits.
+# Newton's method for further orbits. LONGEST: longest period in cycles. REACH: largest distance of
+# an orbit from its start, over the largest of |Z1| and |Z1'| of known motions and the clearance.
+# SAME_ORBIT: largest difference between states of equal orbits.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch. CRITICAL: smallest modulus of the multiplier at a bifurcation.
 # COMPLEX: smallest imaginary part of a complex multiplier. CLOSE: largest difference of max |Z1|
@@ -41,9 +41,9 @@ CRITICAL, COMPLEX, CLOSE = 0.98, 1e-3, 0.05
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
     """Find all motions along a sweep of one parameter; return a dict of registered variables.
 
-    The rows of packed `parameters` differ in the column `index`; `dimension` is the name of this
-    parameter. Variables of motions have the dimensions (dimension, motion), those of runs
-    (dimension, start), and those of the ends of branches (end).
+    The rows of packed `parameters` differ in the column `index`. `dimension` is the name of the
+    parameter in this column. The dimensions of variables are (dimension, motion) for motions,
+    (dimension, start) for runs, and (end) for the ends of branches.
     """
     size, starts = search.random.shape[:2]
     rows, states = np.repeat(parameters, starts, axis=0), search.random.reshape(-1, 4)
@@ -64,7 +64,7 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
             catalogue.add(record, "placed_start")
     add_orbits(catalogues, search.loose, settling, workers)
     links, passes = [], []
-    # The second way upward also follows the motions that were found on the way downward.
+    # Upward, downward, upward: the last pass also follows motions found on the way downward.
     for order in (catalogues, catalogues[::-1], catalogues):
         passes.append([])
         for source, target in pairwise(order):
@@ -85,14 +85,14 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
 
 
 def reached(data):
-    """Return the mask of those motions of a `sweep` to which a random or placed start leads."""
+    """Return the mask of the motions of a `sweep` to which a random or placed start leads."""
     return (data["motion_starts"][1] > 0) | (data["origin"][1] == flag("origin", "placed_start"))
 
 
 def _follow(source, target, index, settling, links, ends):
-    """Follow all motions of catalogue `source` to the next value, and add the results to `target`.
+    """Follow all motions of the catalogue `source` to the next value; add them to `target`.
 
-    `links` receives pairs of numbers: two motions on one branch. `ends` receives ends of branches.
+    `links` receives pairs of numbers of motions on one branch, `ends` a dict for each branch's end.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
@@ -128,7 +128,7 @@ def _follow(source, target, index, settling, links, ends):
 def _end_event(record, multiplier, beyond):
     """Return the name of the event at which the branch with the motion `record` ends.
 
-    `multiplier` belongs to the last orbit on the branch. `beyond` is the motion at the next value.
+    `multiplier` belongs to the branch's last orbit. `beyond` is the motion at the next value.
     """
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
@@ -156,7 +156,7 @@ def _branches(catalogues, links):
 
 
 def _tables(catalogues, branches, dimension, starts):
-    """Return variables (dimension, motion): motions by descending max |Z1|, then absent motions."""
+    """Return variables (dimension, motion): motions by descending max |Z1|, then empty entries."""
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -190,8 +190,8 @@ def _tables(catalogues, branches, dimension, starts):
 class Catalogue:
     """Distinct motions at one value of the swept parameter, with packed parameters p.
 
-    Each motion has a record, a number from the iterator `numbering`, the flag of its `origin`, and
-    the number of random starts that lead to the motion.
+    Each motion has a record, a number from the iterator `numbering`, the flag `origin` (how it was
+    found), and the number of random starts that lead to the motion.
     """
 
     def __init__(self, p, numbering):
@@ -200,7 +200,7 @@ class Catalogue:
         self.records, self.numbers, self.origins, self.starts = [], [], [], []
 
     def find(self, record):
-        """Return the index of the known motion of a record or of its mirror image, or None."""
+        """Return the index of the known motion that a record or its mirror image shows, or None."""
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue
@@ -214,7 +214,7 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Add a motion, or replace a known motion's record by a larger one; return the index."""
+        """Add a motion, or raise the record of a known one to larger max |Z1|; return the index."""
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -233,7 +233,7 @@ class Catalogue:
 
 
 def match_unsettled(first, second) -> list:
-    """Match unsettled motions at neighbouring values, closest sizes first; return index pairs."""
+    """Match unsettled motions of two neighbouring values by closest size; return index pairs."""
     pairs = sorted(
         (ratio, i, j)
         for i, one in enumerate(first)
@@ -251,9 +251,9 @@ def match_unsettled(first, second) -> list:
 
 
 def size_ratio(one, other):
-    """Return the ratio, at least 1, of max |Z1| of two motions of the same period.
+    """Return the ratio, at least 1, of max |Z1| of two motions of equal period.
 
-    Without a period max |Z1| may be small by chance. Then a smaller ratio of `reach` is returned.
+    Without a period max |Z1| may be small by chance. Then return the ratio of `reach` if smaller.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0
@@ -266,7 +266,7 @@ def size_ratio(one, other):
 
 
 def add_orbits(catalogues, loose, settling, workers) -> None:
-    """Add to each catalogue the orbits that `stable_orbits` finds from its array in `loose`."""
+    """Add to catalogue k the orbits that `stable_orbits` finds from the array `loose[k]`."""
     found, stop = [np.empty((0, 4))] * len(catalogues), np.zeros(1, bool)
 
     def work(part):
@@ -286,9 +286,9 @@ def add_orbits(catalogues, loose, settling, workers) -> None:
 def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
     """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
 
-    On most of these orbits the primary mass moves nearly as in a known motion. So Newton's method
-    starts with Z2 and Z1' - Z2' from a row of `loose` (n, 2), and with Z1 and Z1' from a row of
-    `motions` (m, 2), the known motions at the strobe. The rows of `motions` are used in turn.
+    On most orbits the primary mass moves nearly as in a known motion. So a start of Newton's method
+    has Z1 and Z1' from a row of `motions` (m, 2), strobe states of known motions, and Z2 and
+    Z1' - Z2' from a row of `loose` (n, 2). There are n starts, so rows of `motions` are repeated.
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

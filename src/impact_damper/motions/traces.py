@@ -14,7 +14,7 @@ STEPS_AT_ONCE, ROWS = 50_000, 64
 def trace(p, state, begin, times, tolerance):
     """Return the states at increasing times, shape (n, 4), and the contacts, shape (k, 5).
 
-    After an escape the states are NaN. A contact is a row: wall, beginning, end, Z2' at both times.
+    Row of a contact: wall, begin, end, Z2' at begin, Z2' at end. After an escape states are NaN.
     """
     y, t, times = np.array(state, float), float(begin), np.ascontiguousarray(times, float)
     states, log = np.empty((len(times), 4)), np.empty((ROWS, 5))

@@ -1,10 +1,10 @@
 """Run undecided motions longer, until their outcome is certain.
 
-The states of a quasi-periodic motion at the strobes lie on a closed curve, or on several. The
-rotation number is the mean advance along a curve. It is a weighted mean over N states; the weights
-vanish with all derivatives at the first and last state. Such a mean converges faster than any power
-of 1/N (S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017). For a
-chaotic motion it converges only as N^(-1/2).
+The strobe states of a quasi-periodic motion lie on one closed curve or several. The rotation number
+is the mean advance along a curve, here a weighted mean over N states. The weights and all their
+derivatives vanish at the first and last state. Such a mean converges faster than any power of 1/N
+(S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017). For a chaotic
+motion the weighted mean converges only as N^(-1/2).
 """
 
 import math
@@ -20,27 +20,27 @@ from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
-# FIRST: largest number of forcing cycles in the first block. BATCHES: parts of a block, from which
-# the standard error is computed.
+# A run consists of blocks. FIRST: largest number of forcing cycles in the first block. BATCHES:
+# number of parts of a block. The standard error is computed from the means of the parts.
 FIRST, BATCHES = 1500, 30
-# Smallest growth of a chaotic motion's tangent in a block, as a natural logarithm. A motion that
-# leaves an unstable orbit because of a rounding error makes the tangent grow by ln(1e16) = 37.
+# Smallest growth of a chaotic motion's tangent in a block, as a natural logarithm. The growth is
+# ln(1e16) = 37 if a motion only leaves an unstable orbit because of a rounding error.
 GROWN = 40.0
-# Largest modulus, in standard errors, of a Lyapunov exponent that is taken as 0.
+# A Lyapunov exponent counts as 0 if its modulus is at most NEUTRAL standard errors.
 NEUTRAL = 3.0
 # Search for an orbit. LONGEST: longest period in forcing cycles. REACH: largest correction.
 LONGEST, REACH = 256, 1e-2
-# A motion is on known closed curves if its states are nearer to points of the curves than this.
+# Largest distance of states from points of known closed curves, if the states lie on these curves.
 NEIGHBOUR = 1e-3
 # Fields that are copied from a known quasi-periodic motion to a motion on the same closed curves.
 TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
-# AGREEMENT: largest error of a rotation number. FEWEST: smallest number of points.
+# Rotation number. AGREEMENT: largest error. FEWEST: smallest number of points to compute it from.
 AGREEMENT, FEWEST = 1e-8, 100
-# The advances of an angle modulo 1 are points on a circle. Smallest empty interval between them.
+# Advances of an angle modulo 1 lie on a circle. INTERVAL: shortest empty part that can be cut.
 INTERVAL = 0.02
 # Points are sorted by phase. TURN: largest change of the angle from point to point, in revolutions.
-# WANDERING: largest sum of the moduli of these changes.
+# WANDERING: largest sum of the moduli of all changes of the angle from point to point.
 TURN, WANDERING = 0.05, 3.0
 
 
@@ -69,7 +69,7 @@ def run_block(p, y, tangent, states, growth, stop):
 def name_undecided(parameters, motions, limit, further, stop):
     """Continue the forced motions that `settle_many` left unresolved; complete their records.
 
-    A motion runs on in blocks, each twice as long as the last, for at most `further` cycles in all.
+    Each block of cycles is twice as long as the block before. All blocks have at most `further`.
     """
     curves = []
     for i in np.flatnonzero(motions["outcome"] == records.UNRESOLVED):
@@ -82,7 +82,7 @@ def name_undecided(parameters, motions, limit, further, stop):
 
 
 class _Curves(NamedTuple):
-    """Closed curves of a quasi-periodic motion at the strobe, represented by `states` on them."""
+    """Closed curves of a quasi-periodic motion at the strobe. `states` are points of the curves."""
 
     parameters: np.ndarray
     states: np.ndarray
@@ -90,7 +90,7 @@ class _Curves(NamedTuple):
 
 
 def _name_one(p, record, limit, further, known, stop):
-    """Continue a motion and complete its record, an array of length 1; return the last states."""
+    """Continue a motion and complete `record`, an array of length 1; return the last states."""
     y, tangent = record["state"][0].copy(), np.full((1, 4), 0.5)
     period, count = 2 * math.pi / p[FREQUENCY], min(limit, FIRST)
     states = np.empty((LONGEST_PERIOD, 4))
@@ -137,20 +137,20 @@ def _is_known(record, known, states):
 
 
 def _exponent(growth):
-    """Return the mean logarithmic growth in a cycle, and its standard error from batches."""
+    """Return the mean of `growth`, and the standard error of this mean from BATCHES parts."""
     length = len(growth) // BATCHES
     batches = growth[-BATCHES * length :].reshape(BATCHES, length).mean(axis=1)
     return np.mean(batches), np.std(batches, ddof=1) / math.sqrt(BATCHES)
 
 
 def _grows(growth, mean, error):
-    """Return whether a tangent certainly grows in a block, and still grows in its last quarter."""
+    """Return whether a tangent certainly grows in a block, also in the block's last quarter."""
     lasting = np.mean(growth[-len(growth) // 4 :]) > mean / 2
     return lasting and mean > CONFIDENCE * error and np.sum(growth) > GROWN
 
 
 def _on_orbit(p, record, states, contacts, limit):
-    """Move a motion onto a stable orbit near it; return the outcome, or UNRESOLVED."""
+    """Move a motion onto a stable orbit nearby; return the outcome, UNRESOLVED without an orbit."""
     last, components = states[-1], 2 if contacts == 0 else 3
     before = states[-2 : -2 - LONGEST : -1]
     near = np.max(np.abs(before - last)[:, :components], axis=1) < NEAR
@@ -174,8 +174,8 @@ def _on_orbit(p, record, states, contacts, limit):
 def _quasi_periodic(p, record, states, mean, error):
     """Return QUASI_PERIODIC if the states move along closed curves, otherwise UNRESOLVED.
 
-    `find_rotation` fails on curves with corners, which are due to contacts, and on curves that do
-    not go around their mean point. So all curves are tried, in the planes (Z1, Z1') and (Z2, Z2').
+    `find_rotation` fails on a curve that has corners because of contacts, or that does not go
+    around its mean point. So all curves are tried, in the planes (Z1, Z1'/W) and (Z2, Z2'/W).
     """
     if abs(mean) > NEUTRAL * error:
         return records.UNRESOLVED
@@ -193,7 +193,7 @@ def _quasi_periodic(p, record, states, mean, error):
 
 
 def birkhoff_average(values):
-    """Return the mean of values along an orbit with the weights exp(-1/(t (1 - t))), 0 < t < 1."""
+    """Return the mean of a sequence with weights exp(-1/(t (1 - t))), t from 0 to 1 along it."""
     t = np.arange(1, len(values) + 1) / (len(values) + 1)
     weights = np.exp(-1 / (t * (1 - t)))
     return np.sum(weights * values) / np.sum(weights)
@@ -202,16 +202,16 @@ def birkhoff_average(values):
 def find_rotation(points):
     """Return the rotation number of complex points on a closed curve, and the number's error.
 
-    The number (revolutions, 0 to 1/2) is the mean advance of the angle around the mean point. The
-    curve is first stretched to the same spread in all directions, because on a slender curve the
-    angle advances mainly at both tips. The error is the largest difference between the numbers from
-    three parts of the points. Return None if no closed curve is recognised.
+    The rotation number (revolutions, 0 to 1/2) is the mean advance of the angle around the mean
+    point. The curve is first stretched until its spread is equal in all directions, because on a
+    slender curve the angle advances mainly at both tips. The error is the largest difference of
+    rotation numbers from three parts of the points. Return None if no closed curve is recognised.
     """
     if len(points) < FEWEST:
         return None
     angle = np.angle(_rounded(points)) / (2 * math.pi)
     advance = np.diff(angle) % 1
-    # The advances are points on a circle. It is cut in the widest interval between two points.
+    # The advances are points on a circle. Cut the circle in the widest interval between two points.
     order = np.sort(advance)
     intervals = np.diff(order, append=order[0] + 1)
     widest = np.argmax(intervals)
@@ -228,7 +228,7 @@ def find_rotation(points):
 
 
 def _rounded(points):
-    """Return points relative to their mean, stretched to the same spread in all directions."""
+    """Return points minus their mean, stretched until the spread is equal in all directions."""
     apart = points - birkhoff_average(points)
     plane = np.stack([apart.real, apart.imag])
     spread, axes = np.linalg.eigh(plane @ plane.T)
@@ -237,7 +237,7 @@ def _rounded(points):
 
 
 def _goes_around_once(angle, number):
-    """Return whether angles (revolutions), sorted by phase, make one turn without jumps."""
+    """Return whether angles (revolutions), sorted by k x number modulo 1, make one smooth turn."""
     order = np.argsort(np.arange(len(angle)) * number % 1)
     turns = np.diff(angle[order], append=angle[order[0]])
     turns -= np.round(turns)

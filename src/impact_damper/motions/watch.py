@@ -1,9 +1,9 @@
 """Judge once in each forcing cycle whether a motion has settled to an orbit or is chaotic.
 
 Near an orbit of period n the distances between states n cycles apart decrease geometrically. Once
-the sum of all further distances is small, Newton's method looks for a stable orbit close by. A slow
-passage near a fold is then not mistaken for an orbit. If the sum is between NEAR and 0.01, the
-motion must also follow the linearised map of the orbit (`is_linear`).
+the sum of all further distances is small, Newton's method looks for a stable orbit close by. The
+sum is large in a slow passage near a fold, which could be mistaken for an orbit. If the sum is
+between NEAR and 0.01, the motion must also follow the orbit's linearised map (`is_linear`).
 """
 
 import math
@@ -27,24 +27,24 @@ from impact_damper.motions.strobe_map import (
 # LONGEST_PERIOD: longest period of an orbit in forcing cycles. RING: number of strobe states kept.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# CONFIDENCE: smallest Lyapunov exponent of chaos, in standard errors. WEAK: largest exponent of
-# weak chaos, in 1/T.
+# CONFIDENCE: smallest Lyapunov exponent of chaos, in standard errors. WEAK: largest Lyapunov
+# exponent of weak chaos, in units of 1/T.
 CONFIDENCE, WEAK = 4.0, 0.05
-# In a batch of BLOCK forcing cycles the logarithms of a tangent's growth are summed. RECENT: number
-# of last batches in which the tangent of a chaotic motion must still grow.
+# BLOCK: forcing cycles in a batch. The logarithms of a tangent's growth in a batch are summed.
+# RECENT: number of last batches in which the tangent of a chaotic motion must still grow.
 BLOCK, RECENT = 10, 5
-# Largest and smallest distance from an orbit at which Newton's method is tried.
+# NEAR, NEAREST: largest and smallest distance from an orbit at which Newton's method is tried.
 NEAR, NEAREST = 1e-4, 1e-9
-# Early trials of Newton's method, at distances above NEAR. EARLY: these distances. RETURNS: number
-# of distances between returns that must decrease. NONLINEAR: largest nonlinear part in `is_linear`.
-# APPROACH: largest number of further returns that `is_linear` computes.
+# Early trials of Newton's method. EARLY: distances from an orbit, above NEAR. RETURNS: number of
+# distances between states a period apart that must have decreased. NONLINEAR: largest nonlinear
+# part in `is_linear`. APPROACH: largest number of further periods that `is_linear` computes.
 EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
-# Largest energy of an unforced motion at rest, divided by the first energy.
+# Largest energy of an unforced motion that counts as rest, over the motion's first energy.
 REST = 1e-9
-# Data of one motion while it runs. untouched: number of last forcing cycles without contact. near,
-# early: distances at which Newton's method is tried next. periods: number of cycles with a tangent.
-# batch: growth of the tangent in the current batch. mean, squares: mean and sum of squared
-# deviations of the growth in complete batches. recent: growth in the last complete batches.
+# Data of one motion while it runs. untouched: forcing cycles since the last contact. near, early:
+# distances at which Newton's method is tried next. periods: number of cycles with a tangent. batch:
+# logarithm of the tangent's growth in this batch. mean: mean over all complete batches. squares:
+# sum of squared deviations from the mean. recent: logarithms in the last complete batches.
 SEEN = np.dtype(
     [(name, "i8") for name in ("index", "strobes", "untouched", "periods")]
     + [(name, "f8") for name in ("near", "early", "energy", "batch", "mean", "squares")]
@@ -80,7 +80,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return mean growth in a batch, its error, and whether recent growth exceeds half the mean."""
+    """Return the mean growth in a batch, the mean's error, and if recent growth exceeds half it."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -91,7 +91,7 @@ def exponent(growth):
 
 @kernel_only
 def nearby_period(ring, k, weight, floor, tolerance):
-    """Return the period of the orbit at most `tolerance` away from the motion; 0 without an orbit.
+    """Return the period of an orbit at most `tolerance` away from the motion, 0 without an orbit.
 
     `ring[k % RING]` is the last of k + 1 strobe states. `floor` is the error of the integration.
     """
@@ -113,12 +113,12 @@ def nearby_period(ring, k, weight, floor, tolerance):
 
 @inlined
 def move_onto_orbit(p, y, periods, near, out):
-    """Move a state y onto the stable orbit near it; return whether there is such an orbit.
+    """Move a state y onto a stable orbit nearby; return whether there is such an orbit.
 
-    A motion that spirals towards an orbit may seem to repeat after a multiple of the period only.
-    So the divisors of `periods` are tried first. Newton's method can fail near a grazing contact.
-    If the distance `near` is then NEAREST, the motion is taken as the orbit, and residual and
-    multiplier are NaN.
+    A motion that spirals towards an orbit may seem to repeat only after a multiple of the orbit's
+    period. So the divisors of `periods` are tried first. Newton's method can fail near a grazing
+    contact. If it fails and `near` is NEAREST, the motion itself counts as the orbit, with NaN as
+    residual and multiplier.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):
@@ -151,12 +151,12 @@ def approaches(ring, k, n, weight):
 
 @kernel
 def is_linear(p, y, ring, k, n, weight):
-    """Return whether a motion has approached the orbit of y (period n) linearly in two returns.
+    """Return whether a motion has approached the orbit of y (period n) linearly in two periods.
 
-    In a period the distance e from the orbit becomes M e + r, with a matrix M. If |r| is at most
-    c |e|^2, and c times the sum of all further distances is small, the motion tends to the orbit.
-    The number c is measured in two returns only, which lie further from the orbit than all later
-    ones. In longer runs none of 7 000 motions left its orbit. So at most 0.05 % do (95 % sure).
+    In a period the difference e from the orbit becomes M e + r, with a matrix M. If |r| <= c |e|^2
+    and c times the sum of all further |e| is small, the motion tends to the orbit. The number c is
+    measured in the last two periods only, which lie farther from the orbit than all later periods.
+    In longer runs none of 7 000 motions left its orbit. So at most 0.05 % do (95 % confidence).
     """
     _, matrix, contacts = period_map(p, y, n, POLISH_TOLERANCE)
     # A loose mass that drifts slowly may still reach a wall.
@@ -185,7 +185,7 @@ def is_linear(p, y, ring, k, n, weight):
 
 @kernel_only
 def push_forward(matrix, apart, ahead):
-    """Set `ahead` to the matrix of a period times the distance `apart` from an orbit."""
+    """Set `ahead` to `matrix` times `apart`: the difference from an orbit one period later."""
     for i in range(4):
         ahead[i] = 0.0
         for j in range(4):
@@ -194,7 +194,7 @@ def push_forward(matrix, apart, ahead):
 
 @inlined
 def leave_transient(p, out):
-    """Replace the Lyapunov exponent of a transient by that of the orbit, from its multiplier."""
+    """Replace the transient's Lyapunov exponent by the orbit's, from the orbit's multiplier."""
     duration = out.period * 2.0 * math.pi / p[FREQUENCY]
     out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
     out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan
@@ -202,7 +202,7 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Move the primary mass onto a stable orbit without contacts; return False if none is near."""
+    """Move the primary mass onto a stable orbit without contacts; return whether one is near."""
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
         if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:
@@ -250,12 +250,12 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
 
     - when it has settled, diverged or escaped, or after `limit` cycles;
     - as at_rest if there is no forcing and hardly any energy is left (REST);
-    - as non_colliding if it has settled without contacts. The outcome is the same if the primary
-      mass is on an orbit, and the loose mass has touched no wall for `patience` cycles and would
-      drift by less than 1 % of the clearance in `limit` cycles. After `limit` cycles a motion with
-      a faster drift is called drifting;
+    - as non_colliding if it has settled without contacts, or if the primary mass is on an orbit and
+      the loose mass has touched no wall for `patience` cycles and would drift by less than 1 % of
+      the clearance in `limit` cycles. If the loose mass drifts faster: as drifting, after `limit`
+      cycles;
     - as chaotic after `patience` cycles if the largest Lyapunov exponent exceeds CONFIDENCE
-      standard errors and the tangent still grows. After a transient it no longer grows. A slow
+      standard errors and the tangent still grows (it no longer grows after a transient). A slow
       spiral can look like weak chaos, so an exponent below WEAK is judged just before `limit`.
 
     After `patience`/2 cycles, the tangent and `out.reach` are updated in each cycle.
