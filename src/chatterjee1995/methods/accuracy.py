@@ -59,7 +59,7 @@ class ComparisonScene(NamedTuple):
 
     @property
     def p(self):
-        """Packed parameters."""
+        """Parameters in the array that kernels read."""
         return pack(self.oscillator, self.damper, self.frequency)
 
 
@@ -156,7 +156,7 @@ def _errors(scene, settings, reference):
 
 
 def _status(ended, wrong):
-    """Return the flag `run_status`. `wrong` > 0: contacts too many; `wrong` < 0: too few."""
+    """Return the flag `run_status`. `wrong` > 0 means too many contacts, `wrong` < 0 too few."""
     if ended != "ended":
         return flag("run_status", ended)
     if wrong == 0:

@@ -1,4 +1,4 @@
-"""Averages over a chaotic motion. Their standard errors follow from batches of cycles."""
+"""Averages over a chaotic motion. Means over batches of cycles give the standard errors."""
 
 import math
 
@@ -13,7 +13,7 @@ from impact_damper.motions.strobe_map import strobe_time
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return a dict of means over each `batch` cycles: contacts, and max |Z1| in a cycle."""
+    """Return a dict of means over groups of `batch` cycles: contacts and max |Z1| of a cycle."""
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
     contacts = np.histogram(run.contact_times, edges)[0]

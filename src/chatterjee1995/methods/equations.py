@@ -59,7 +59,7 @@ def moved(y, h, k):
 
 @kernel_only
 def largest_within(x, v, x_end, v_end, h):
-    """Return max |Z1| in a step h, for Z1' linear in time. (Z1, Z1'): (x, v) to (x_end, v_end)."""
+    """Return max |Z1| in a step h from (Z1, Z1') = (x, v) to (x_end, v_end); Z1' is linear in T."""
     largest = max(abs(x), abs(x_end))
     if v * v_end < 0.0:
         largest = max(largest, abs(x + 0.5 * h * v * v / (v - v_end)))

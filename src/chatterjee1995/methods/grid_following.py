@@ -30,7 +30,7 @@ def follow_line(
 
 
 class Grid:
-    """Orbits in the cells of `points`, a grid of parameters. `axes` is the order of directions."""
+    """Orbits in the cells of a grid `points`, followed along the axes in the order of `axes`."""
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
         self.points, self.correct = points, correct

@@ -14,7 +14,7 @@ EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
-    """Floquet exponents per unit of T, ascending in Re. If the status is not "found", all are NaN.
+    """Floquet exponents per unit of T, sorted by real part; all NaN if the status is not "found".
 
     Status "not_separated": the number of eigenvalues with -W < Im <= W is not 2 (4 with damper).
     """

@@ -41,10 +41,10 @@ class Integrator:
     number of steps in a cycle if steps are `fixed`, and otherwise a tolerance.
 
     Figures show integrators in the order of `place`. `compared` names the stages that use the
-    integrator. For each stage it defines a function in REQUIRED. Stage `accuracy`: `located` holds
-    the values of `locate` to run. `tolerances` is one of `labels.TOLERANCE_KEYS`. `slow` is true if
-    cycles and evaluations are limited. Stage `stable_steps`: `stability_limit` is the largest
-    h omega for which steps h of x'' = -omega^2 x stay bounded.
+    integrator. The integrator defines a function in REQUIRED for each stage. Stage `accuracy`:
+    `located` holds the values of `locate` to run. `tolerances` is one of `labels.TOLERANCE_KEYS`.
+    `slow` is true if cycles and evaluations are limited. Stage `stable_steps`: `stability_limit` is
+    the largest h omega for which steps h keep x'' = -omega^2 x bounded.
     """
 
     REQUIRED: ClassVar = {
@@ -65,7 +65,7 @@ class Integrator:
         return f"{self.name}_{'located' if locate else 'kink'}"
 
     def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations):
-        """Return status, operations, times (n,) and states (n, 4); row 0: start, then step ends."""
+        """Return status, operations, times (n,), states (n, 4): first the start, then step ends."""
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
@@ -76,7 +76,7 @@ class Integrator:
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Run without walls from T = 0 to `end`; return |Z2| at step ends and at `time, or None."""
+        """Run without walls from T = 0 to `end`; return |Z2| at step ends and `time`, or None."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
@@ -135,7 +135,7 @@ def _quintics(p, times, ends, index, steps):
 
 
 def root(coefficients, low, high):
-    """Return a root of each polynomial (column) between `low` and `high`, where signs differ."""
+    """Return a root of each polynomial (column), which changes sign between `low` and `high`."""
     sign = np.sign(polyval(low, coefficients, tensor=False))
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)

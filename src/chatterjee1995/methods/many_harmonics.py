@@ -160,7 +160,7 @@ def solve(balance, start) -> Solution:
     """Solve the equations of a balance by damped Newton's method, from coefficients `start`.
 
     The natural monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
-    3.3) decides whether a step is halved, not the residual, which stiff contacts dominate.
+    3.3) decides whether a step is halved. Stiff contacts dominate the residual, so it is not used.
     """
     count = len(balance.harmonics)
     now = np.zeros((len(start), count), complex)

@@ -45,7 +45,7 @@ def missed_contacts(
 ):
     """Return a dataset with the numbers of contacts near grazing that integrators find and miss.
 
-    `tolerances` increase. `steps`, as many, are steps per cycle of integrators with equal steps.
+    `steps` are steps per cycle of integrators with equal steps, one value for each tolerance.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
@@ -68,7 +68,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return counts of passages (depth, outcome) and of spurious contacts (depth), median error."""
+    """Return three: passages by (depth, outcome), spurious contacts by depth, and median error."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)

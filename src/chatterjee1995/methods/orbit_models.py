@@ -137,7 +137,7 @@ def nearest_term(oscillator, damper, frequency, state):
 
 
 def many_harmonics(oscillator, damper, frequency, state, highest):
-    """Return a dict: highest harmonic 3, 7, 15, ... -> `Model`; empty without a first guess."""
+    """Return a dict: highest harmonic 3, 7, 15, ... -> `Model`; empty if (7) has no solution."""
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
     if coefficients is None:

@@ -27,7 +27,7 @@ class CompliantOrbit(NamedTuple):
 
 
 def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
-    """Return the `CompliantOrbit` within `reach` of the state `guess` (or None), and a status."""
+    """Return a pair: `CompliantOrbit` within `reach` of the state `guess` (or None), and status."""
     state = np.array(guess, float)
     converged, _, multiplier = polish(p, state, 1, reach, tolerance)
     if not converged:
@@ -51,7 +51,7 @@ class QuietOrbits(NamedTuple):
 
     multiplier: Eigenvalue of the root with the largest modulus; of a complex pair, with Im > 0.
     displacement, harmonic: max |Z1|, and amplitude of the first harmonic of Z1.
-    end: Lower and upper end of the orbits of each row, in columns (not integer); (rows, 2).
+    end: Columns (with fractions) between which a row has orbits; shape (rows, 2).
     end_event: Event at each end: map_ends, no_orbit, fold, contacts_change or not_converged.
     """
 
@@ -112,7 +112,7 @@ def _dominant_root(orbit):
 
 
 def _row_ends(grid, row):
-    """Return columns (not integer) at which the orbits of a row end, and the events there."""
+    """Return columns (with fractions) at which the orbits of a row end, and the events there."""
     columns = [column for first, column in grid.orbits if first == row]
     if not columns:
         return [np.nan] * 2, ["no_orbit"] * 2
@@ -170,9 +170,9 @@ def elastic_ratios(flight) -> tuple[float, float]:
 def least_harmonic_ratio(flight) -> float:
     """Return rm W^2 d0/f at which the first harmonic of Z1 is smallest.
 
-    Forcing and impulses have the first harmonic 1 - c q exp(-i p), with c = 8/pi^2. p is the lag of
-    the impact behind the maximum of the forcing. Let sin(u) = q l with l = `flight.loss`, and let
-    n = u - p. |1 - c q exp(-i p)| is smallest where tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
+    Forcing and impulses q have the first harmonic 1 - c q exp(-i p), with c = 8/pi^2. p is the lag
+    of an impact behind the maximum of the forcing. Let sin(u) = q l, l = `flight.loss`, n = u - p.
+    |1 - c q exp(-i p)| is smallest where tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
     """
     factor = 8 / np.pi**2
     loss = flight.loss
@@ -186,9 +186,9 @@ def least_harmonic_ratio(flight) -> float:
 def rule_ratios(oscillator, damper, frequency):
     """Return the optimum rm W^2 d0/f for each of CRITERIA (rows) by each of RULES (columns).
 
-    `balance` is rule (18), and `gap_harmonic` is FIRST_HARMONIC_RATIO. `straight_flight` is the
-    optimum of a straight flight between rigid walls. `elastic` also considers, to first order, the
-    duration of contacts and damping (NaN if e < 1). `flight` adds duration, damping and stiffness.
+    `balance` is rule (18). `gap_harmonic` is FIRST_HARMONIC_RATIO. `straight_flight` is the optimum
+    for straight flight between rigid walls. `elastic` also considers, to first order, duration of
+    contacts and damping (NaN if e < 1). `flight` considers duration, damping and stiffness.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

@@ -1,4 +1,4 @@
-"""Rigid impacts, which are the limit of (20) to (25) for infinite r1, and orbits with them.
+"""Rigid impacts, the limit of (20) to (25) for infinite r1, and orbits with rigid impacts.
 
 Corrected ("mended") rigid walls imitate compliant walls (`docs/explanation/methods.md`).
 """
@@ -24,7 +24,7 @@ from impact_damper.model.packed import (
 )
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE, strobe_time
 
-# A run stops after this number of impacts in a cycle. If e < 1, infinitely many can follow.
+# A run stops after MOST_IMPACTS impacts in a cycle. If e < 1, a cycle can have infinitely many.
 MOST_IMPACTS = 200
 ITERATIONS = 12  # largest number of steps of Newton's method
 SAME_SPEED = 1e-6  # largest relative difference of the two approach speeds in a symmetric orbit
@@ -93,7 +93,7 @@ def without_dashpot(p):
 
 
 class RigidOrbit(NamedTuple):
-    """A symmetric orbit, two impacts a cycle. `speed` |Z2'|, `acceleration` Z1'': before impact."""
+    """A symmetric orbit, two impacts a cycle. `speed` and `acceleration` are before an impact."""
 
     state: np.ndarray
     multiplier: complex
@@ -106,7 +106,7 @@ class RigidOrbit(NamedTuple):
 
 
 def rigid_orbit(oscillator, damper, frequency, guess, reach):
-    """Return the `RigidOrbit` within `reach` of the state `guess`, or None, and a status.
+    """Return a pair: the `RigidOrbit` within `reach` of the state `guess` (or None), and a status.
 
     Status: "found"; "not_followed" if Newton's method fails or meets no impact; "other_contacts" if
     there are not two symmetric impacts; "chatter" after MOST_IMPACTS impacts in a cycle.
@@ -115,7 +115,7 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """Return what `rigid_orbit` returns, but for rigid walls that imitate compliant walls."""
+    """Return what `rigid_orbit` returns, but for corrected walls, which imitate compliant walls."""
     e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
     reduced = damper.mass_ratio / (1 + damper.mass_ratio)
     z, natural = damping_ratio(e), damper.contact_frequency

@@ -39,7 +39,7 @@ contact_load | contact | | | load at the beginning of a contact
 )
 
 LINEAR = 1e-3  # |G| below which the loads of the map are spaced almost evenly
-CLOSE, FAIR = 0.01, 0.05  # largest relative errors of a "close" and of a "fair" restitution
+CLOSE, FAIR = 0.01, 0.05  # largest relative errors for the verdicts "close" and "fair"
 SIZES = ("smallest", "largest")  # names of the simulated motions, see `extreme_motions`
 
 
@@ -116,7 +116,7 @@ def unloaded_table(restitutions):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Return two motions with contacts (or None): the smallest settled one, and the largest one."""
+    """Return the smallest settled motion and the largest motion, both with contacts (or None)."""
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
     motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)
@@ -135,7 +135,7 @@ def loads_of(oscillator, damper, frequency, state, periods):
     times = np.array([begin + periods * 2 * np.pi / p[FREQUENCY]])
     tolerance = strobe_map.POLISH_TOLERANCE
     _, log = traces.trace(p, state, begin, times, tolerance)
-    # The same integration is repeated to store the states at which contacts begin.
+    # Repeat the integration to store the states at which contacts begin.
     states = traces.states_at(p, state, begin, np.append(log[:, 1], times), tolerance)
     side, start, end, approach, _ = log.T
     load = side * [acceleration(p, y, t) for y, t in zip(states[:-1], start, strict=True)]

@@ -44,7 +44,7 @@ SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
 # locates the minimum; PRECISION is the error allowed in the ratio.
 STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
 # r(h) is the rise of the displacement at the distance h from a minimum: r ~ h^2 if the minimum is
-# smooth, r ~ h if it is a kink. It counts as a kink if r(CLOSE/2) > KINK r(CLOSE).
+# smooth, r ~ h at a kink. A minimum counts as a kink if r(CLOSE/2) > KINK r(CLOSE).
 CLOSE, KINK = 1e-3, 0.36
 ABSENT = 1e3  # displacement that the search assumes where no orbit exists
 IMPULSES = 400  # number of impulses for which the theory of straight flight is evaluated

@@ -50,7 +50,7 @@ ANALYTIC = (1.0, 1.0, 1.0, 2.0)
 # Search for a singularity. The unit of length is x = (f/|k3|)^(1/3), with the forcing amplitude f.
 # STARTS: number of start times in half a forcing cycle.
 # LARGE: |Z1| at which an integration towards the singularity stops, in units of x.
-# LAST_CHANGE: change of the time reached that ends the search, in units of 1/(x sqrt|k3|).
+# LAST_CHANGE: the search ends if the time reached changes by less; in units of 1/(x sqrt|k3|).
 # CLOSE: fraction of the estimated distance from real time that the next integration covers.
 STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 
@@ -58,9 +58,9 @@ STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 def asymptotic_harmonic(damper, frequency) -> float:
     """Return the harmonic number N above which the predicted powers can hold; 1 without a damper.
 
-    Above this N, a contact (appendix B) lasts longer than a period of harmonic N. With a dashpot
-    also N > r1/(c W). Then the jump c Z2' of the contact force contributes more to harmonic N than
-    the jump r1 Z2' of the slope of this force.
+    Above this N, a contact (appendix B) lasts longer than a period of harmonic N. With a dashpot, N
+    also exceeds r1/(c W). Then the jump c Z2' of the contact force contributes more to harmonic N
+    than the jump r1 Z2' of the slope of this force.
     """
     if damper is None:
         return 1.0
@@ -139,17 +139,17 @@ FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 
 def ladder(highest) -> np.ndarray:
-    """Return odd numbers up to `highest`: all up to 15, then three in each doubling, up to 2^14."""
+    """Return odd numbers up to `highest` (at most 2^14): all to 15, then three per factor of 2."""
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
     return np.unique(chosen[chosen <= highest])
 
 
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
-    """Return a dataset: errors of harmonic balance over highest harmonic, for a symmetric motion.
+    """Return a dataset of errors of harmonic balance for a symmetric motion, by highest harmonic.
 
-    Newton's method starts from the last converged solution. For each number in `cold`, a second
-    search starts from the solution with one harmonic.
+    `harmonics` are highest harmonics. Newton's method starts from the last converged solution and,
+    for each number in `cold`, once more from the solution with one harmonic.
     """
     harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
@@ -186,7 +186,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Solve the balance of `warm` again, from the coefficients `first`; return a `cold_status`."""
+    """Solve the balance of `warm` again from coefficients `first`; return flag `cold_status`."""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)

@@ -43,7 +43,7 @@ policy_phase | case frequency policy | angle | | phase Omega T of the release th
 )
 
 POLICIES = ["settled", "hold", "phase", "state"]
-# Numbers of cycles with the damper on, from which a policy chooses. Steps of about 1.6 times.
+# Policies choose among these numbers of cycles with the damper on. Successive ratios are about 1.6.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
 # Results of a time with the damper on. `state` is Z1, Z1' at the next strobe, `ahead` cycles later.
@@ -108,7 +108,7 @@ class Trials(NamedTuple):
     workers: int = 1
 
     def rules(self, trials, seed):
-        """Return a list: the best RULE of each policy, with the fewest mean cycles in trials."""
+        """Return a list: for each policy, the RULE with the fewest mean cycles in the trials."""
 
         def costs(rules):
             cycles = [outcome.cycles for outcome in self.run(rules, trials, seed)]

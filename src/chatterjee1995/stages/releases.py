@@ -58,7 +58,7 @@ release_share | damped free_motion bound | | | share of releases that lead to ea
 
 LEAD = 20  # number of cycles before the first release; then the start of a run matters no longer
 PAPER_CYCLES = 350  # cycles within which the paper's controller reaches the non-resonance branch
-CAPTURE = 0.1  # an orbit has captured a run once both differ by at most this, in Z1 and in Z1'
+CAPTURE = 0.1  # largest difference in Z1 and in Z1' between a captured run and its last orbit
 # A release: phase in cycles after a strobe (W T = pi/2), Z1 and Z1', and the resulting free motion.
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]

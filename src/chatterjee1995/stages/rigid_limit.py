@@ -38,7 +38,7 @@ own_mended_error | | | | relative error of own_displacement with corrected rigid
 
 THRESHOLDS = (0.01, 0.1)  # relative errors of max |Z1| for which the needed stiffness is stored
 REACH = 0.1  # largest distance of an orbit's state from the first guess
-STIFF = 1e4  # least r1 in the fit of the exponent n, which describes short contacts
+STIFF = 1e4  # least r1 in the fit of error ~ r1^-n, which holds for short contacts
 
 
 def rigid_limit(

@@ -7,7 +7,7 @@ from importlib import import_module
 
 @cache
 def integrators(stage=None) -> dict:
-    """Return a dict, name -> integrator, in the order of `place`; of one stage, or of all."""
+    """Return a dict, name -> integrator, in the order of `place`. Without `stage`, all."""
     modules = [import_module(f"{__name__}.{each.name}") for each in pkgutil.iter_modules(__path__)]
     declared = [each for module in modules for each in module.INTEGRATORS]
     declared.sort(key=lambda each: each.place)

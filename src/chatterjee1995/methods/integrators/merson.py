@@ -21,7 +21,7 @@ FIRST = 1e-3  # length of the first step, divided by the forcing period or, in `
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return state after a step, error/allowed error. If `by_position`, Z2 determines the wall."""
+    """Return the state after a step and error/allowed error. If `by_position`, Z2 sets the wall."""
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
     k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
@@ -41,7 +41,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Return length (<= h) and final state of the step that ends at |Z2| = d0; number of tries."""
+    """Return length (<= h), final state and number of tries of the step that ends at |Z2| = d0."""
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])

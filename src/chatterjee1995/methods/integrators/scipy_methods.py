@@ -93,7 +93,7 @@ class SciPy(Integrator):
         return (np.abs(result.y[2]), abs(result.sol(time)[2])) if result.success else None
 
 
-# `operations` of an evaluation besides the rate: 2 (multiply, add) for each term and 4 components.
+# `operations` of an evaluation besides the rate: 2 (multiply, add) for a term, in 4 components.
 # DOP853: about 6 terms for the next state, and 4 terms for result and error.
 # LSODA: 21 terms for about 6 derivatives, and 2 * 4^2 operations that solve four linear equations.
 # `factorising`: 2/3 * 4^3 operations of an LU factorisation, in LSODA only.

@@ -56,7 +56,7 @@ def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order
 
 
 def steps_of(orders):
-    """Return addresses of flight step, contact step and `constant_series`, and workspace size."""
+    """Return addresses of flight step, contact step, `constant_series`; and the workspace size."""
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.constant_series
     return np.array([*(compiled(each).address for each in called), module.SIZE])
@@ -93,7 +93,7 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def turning_points(rows, series):
-    """Return for each turning point of Z1 its step, and the time since the step began."""
+    """Return two arrays over turning points of Z1: the step, and the time since the step began."""
     slopes = polyder(series)
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
     speeds = np.array([polyval(t, slopes, tensor=False) for t in edges])
