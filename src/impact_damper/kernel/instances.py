@@ -39,8 +39,8 @@ CONTACT_ORDER = 23
 # STEP            SIDE, TIME, LONGEST and TOLERANCE are arguments; SIDE and LENGTH are results
 # SCRATCH, FREE   intermediate results
 # SERIES          coefficients of series; E, H and D are the same in all steps of a trajectory
-#     X: Z1    Q: depth Z2 -+ d0 in a wall    G: Z1'' without the force of the wall    H: h/k
-#     U: slope of the spring's nonlinear force    E: forcing, no cosine or sine    D: DASHPOT/k
+#   X: Z1   Q: depth Z2 -+ d0 in a wall   G: Z1'' without the force of the wall   H: DAMPING/k
+#   U: slope of the spring's nonlinear force   E: forcing without COSINE or SINE   D: DASHPOT/k
 # A tangent is a solution of the variational equations. Groups of its rows, in this order:
 # STATE and KEPT, which is the tangent's Z2 while the loose mass sticks
 # TANGENT_SERIES  coefficients of the tangent's Z1 (DX) and of the tangent's depth (DQ)

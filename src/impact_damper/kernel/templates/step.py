@@ -13,7 +13,7 @@ trajectories, the array `d` the numbers of tangents. A name in capitals, such as
 # The 64 bits of the float 1.0, read as an integer.
 ONE = 1023 << 52
 # Largest ratio of a series' last terms to tolerance times SCALE, which is max(1, |Z1|, |Z1'|, ...).
-# Contacts amplify errors, but at 0.05 settled motions have errors below 10 times the tolerance.
+# Contacts amplify errors, but with 0.05 errors of settled motions are below 10 times the tolerance.
 SAFETY = 0.05
 # A flight is shortened if its last terms exceed EXCESS times `largest_tail`. With EXCESS = 1 many
 # flights would be shortened, because `predict_length` is not exact.
