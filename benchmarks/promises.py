@@ -86,7 +86,7 @@ def drawn(number) -> tuple:
     machine = {"mass": mass, "linear_stiffness": stiffness, "damping_ratio": damping}
     static = 10 ** random.uniform(-4.5, -3)  # static deflection, m
     excitation = EXCITATIONS[random.integers(3)]
-    if excitation == "base_displacement":  # with more damping the force is not approximated
+    if excitation == "base_displacement":  # `Machine` allows at most 0.02 on a moving base
         machine["damping_ratio"] = damping = min(damping, 0.019)
     size = {"force": stiffness * static, "base_displacement": static, "unbalance": mass * static}
     machine[excitation] = size[excitation]

@@ -17,9 +17,9 @@ gc.set_threshold(100_000)
 
 
 def pytest_collection_modifyitems(items):
-    """Run the files that start Snakemake first.
+    """Run first the files that start Snakemake.
 
-    They take longest; if they were begun last, cores would be idle at the end.
+    These files take longest: begun last, they would leave cores idle at the end.
     """
     items.sort(key=lambda item: "workflow" not in item.path.parts)
 

@@ -46,11 +46,11 @@ span |= st.sampled_from([(math.nan, 3.0), (1.0, math.inf), ("1", "3"), (1.0, 1e9
 
 # None is allowed as radius: the starts are then scaled by the motions without the damper.
 radius = positive.filter(lambda value: value is not None)
-# a box may be two numbers
+# A half width of the plane of `basins` may be two numbers, so an array is not wrong.
 no_box = radius.filter(lambda value: not isinstance(value, np.ndarray))
 limit = no_si.filter(lambda value: value is not None) | st.just(0)
 
-# Wrong values of arguments, which have the same meaning in all functions.
+# Wrong values of arguments that have the same meaning in all functions.
 WRONG = {
     "band": st.sampled_from([None, 1.0, "12", (21, 20), (30, 34), ("20 m", 21), (-20, 21)]),
     "cells": count,
@@ -93,7 +93,7 @@ MOVING = GOOD | {"frequency": 2.0, "state": STATE}
 TASK = {"machine": MACHINE, "band": (20, 21)}
 REAL = MACHINE.damper(mass=0.6, gap=0.005, restitution=0.7, contact_stiffness=2e7)
 OF_DAMPER = ("mass_ratio", "clearance", "restitution", "contact_stiffness")
-# For each public function valid arguments, and wrong values of arguments of its own.
+# Public function -> valid arguments, and wrong values of arguments that only this function has.
 FUNCTIONS = {
     "Oscillator": ({"damping": 0.2}, {"damping": positive, "linear_frequency": negative | huge}),
     "Damper": ({"mass_ratio": 0.1, "clearance": 1.0}, dict.fromkeys(OF_DAMPER, positive)),

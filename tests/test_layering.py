@@ -33,8 +33,8 @@ FLOORS = (
     "chatterjee1995.sections",
     "chatterjee1995.workflow",
 )
-HIGHEST = 8  # floors of rooms, if each room stands as low as its imports allow
-MOST_FILES = 16  # files of a room, its `__init__.py` not counted
+HIGHEST = 8  # most floors, if each room stands as low as its imports allow
+MOST_FILES = 16  # most files of a room, its `__init__.py` not counted
 
 FILES = {
     ".".join(path.relative_to(SOURCES).with_suffix("").parts).removesuffix(".__init__"): path
@@ -44,7 +44,7 @@ FILES = {
 
 
 def imports_of(text, modules):
-    """Return the set of those `modules` from which a source text imports."""
+    """Return the set of the modules among `modules` from which a source text imports."""
     found = set()
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):

@@ -92,7 +92,7 @@ def test_nothing_is_loaded_from_elsewhere():
 def test_browser_reports_no_error():
     """The console of a headless Chromium stays without errors on each page."""
     options = ["--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr"]
-    # Pages of single functions are alike, so that only the first is opened.
+    # Pages of functions are alike, so only the first page of a function is opened.
     of_functions = [path for path in PAGES if path.parent.name == "api"]
     for path in [each for each in PAGES if each not in of_functions[1:]]:
         ran = subprocess.run(

@@ -1,4 +1,4 @@
-"""Run all trials or chosen kinds of trials, and print the outcome of each."""
+"""Run all trials or chosen kinds of trials, and print the outcome of each trial."""
 
 import argparse
 import shutil

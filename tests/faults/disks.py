@@ -7,7 +7,7 @@ from functools import partial
 from .project import DATA, expect
 
 FULL = "No space left on device"
-# Sizes of the disk. The results do not fit, so the run fails, earlier or later in its course.
+# Sizes of two disks, both too small for the results. The run fails early or late.
 KILOBYTES = (8, 120)
 
 

@@ -1,6 +1,6 @@
 """Damaged and foreign files in the folder of results, and two runs at once.
 
-A run must stop and name a damaged file; after its deletion a run must recover.
+A run must stop and name a damaged file. After the file is deleted, a run must recover.
 """
 
 import os
@@ -50,7 +50,7 @@ def _damaged(context, name):
     expect(lines, f"no message says what to do: {told[-500:]}")
     expect("Traceback" not in told, "a traceback is shown")
     path.unlink()
-    # Two jobs may run again: the job of the file, and the job of the chapter made from it.
+    # Two jobs may run again: the job that makes the file, and the job of the chapter that reads it.
     project.recover(context.undisturbed, lost=2)
     return "delete the file, as the message says; run again"
 

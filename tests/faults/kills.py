@@ -58,7 +58,7 @@ def _stopped(context, name, moment, stop):
 
 
 def kill_job(context):
-    """Yield trials in which the job that runs at a random moment is killed, or the next one."""
+    """Yield trials in which a job is killed at a random moment, or the next job if none runs."""
     for number, moment in enumerate(moments(context, "job")):
         trial = partial(_job_killed, context, f"job-{number}", moment)
         yield f"`kill -9` of a job after {moment:.1f} s", trial

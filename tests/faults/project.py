@@ -24,7 +24,7 @@ CONFIGURATIONS = ["config/smoke.yaml", "config/small.yaml"]
 CORES = 2
 # Endings of the files that must be equal after a fault.
 KINDS = {".nc", ".csv", ".md", ".png", ".pdf", ".rst"}
-# Parts of messages: by Snakemake about a locked folder, and by the package about a damaged file.
+# Parts of messages: LOCKED of Snakemake about a folder, DELETE of the package about a damaged file.
 LOCKED = "cannot be locked"
 DELETE = "delete it and run the same command again"
 # Processes that were started, to be killed at the end if they still run.

@@ -1,4 +1,4 @@
-"""Changes of the invented datasets of `made_up.world`, each of which makes a claim fail."""
+"""Changes of the invented datasets of `made_up.world`. Each change makes a claim fail."""
 
 import json
 
@@ -27,7 +27,7 @@ def assign(stage, name, **values):
 
 
 def put(stage, name, dataset):
-    """Return the change that replaces a dataset by a given one."""
+    """Return the change that replaces the dataset of a stage and a name by `dataset`."""
     return edit(stage, name, lambda _: dataset)
 
 
@@ -59,7 +59,7 @@ def unstable(name, lower, upper):
 
 
 def share(name, kind, subharmonic):
-    """Return the change of the share of releases that lead to the subharmonic."""
+    """Return the change that sets the share of releases to the subharmonic to `subharmonic`."""
 
     def new(old):
         case = old.copy(deep=True)
@@ -77,5 +77,5 @@ def _power(old):
     return old.assign(relative_amplitude=clearance + depth ** (1 / 3) / 100)
 
 
-# The penetration is that of the expansion of equation (6e) as printed.
+# The penetration follows the expansion of equation (6e) as printed.
 power = edit("harmonic_balance", "figure_05a", _power)

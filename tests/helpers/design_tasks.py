@@ -14,7 +14,7 @@ EFFORT = {each.name for each in fields(Effort)}
 
 
 def task(**changed):
-    """Return a task; arguments of `Effort` stand beside those of `Task`."""
+    """Return a task. `changed` holds arguments of `Task` and of `Effort`."""
     given = {"machine": MACHINE, "mass": 0.6, "band": (20.3, 20.8), "restitution": 0.7}
     given |= {"contact": 2e7} | changed
     effort = {name: given.pop(name) for name in EFFORT & given.keys()}

@@ -13,8 +13,8 @@ PAPER = Oscillator(0.215)
 DESIGN = Damper(0.12, 2.0)
 INELASTIC = Damper(0.25, 1.0, restitution=0.75)
 
-# Damper, frequency, and a state near each orbit at W T = pi/2. In all these states the loose mass
-# touches no wall.
+# Orbit -> damper, frequency, and a state near the orbit at W T = pi/2. In these states the loose
+# mass touches no wall.
 STARTS = {
     "resonance": (None, 2.0, (2.35, -0.78, 2.35, -0.78)),
     "non-resonance": (None, 2.0, (0.027, 0.5, 0.027, 0.5)),

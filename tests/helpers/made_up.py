@@ -12,10 +12,9 @@ from impact_damper.data.datasets import dataset, flag
 from impact_damper.data.motion_variables import DAMPED_MOTION, FREE_MOTION
 
 STIFFNESS = 2000.0  # r1 of the walls
-# Peak frequency by damping without linear stiffness, and by linear frequency at damping 0.215.
-PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}
-LINEAR = {0.0: 2.0, 1.0: 2.1, 1.5: 2.3}
-# Lower edge of the suppression band over Wp, mass ratio, damping and linear frequency by curve.
+PEAKS = {0.215: 2.0, 0.15: 2.37, 0.107: 2.8}  # damping h -> Wp without linear stiffness
+LINEAR = {0.0: 2.0, 1.0: 2.1, 1.5: 2.3}  # linear frequency -> Wp for h = 0.215
+# Curve -> (lower edge of the suppression band) / Wp, mass ratio, damping, linear frequency.
 CURVES = {
     "figure_05a": (0.95, 0.12, 0.215, 0.0),
     "figure_05b": (0.92, 0.25, 0.215, 0.0),
@@ -63,7 +62,7 @@ def resonance_size(frequency, peak, damping):
 
 
 def harmonic_balance(name):
-    """Return a quiet solution with a = 0 at the peak, and a high one below the band."""
+    """Return a quiet solution with a = 0 at the peak, and a high solution below the band."""
     start, mass_ratio, damping, linear = CURVES[name]
     peak = LINEAR[linear] if damping == 0.215 else PEAKS[damping]
     frequency = np.linspace(0.5, 1.5, 201) * peak
@@ -162,7 +161,7 @@ def response(name, restitution=1.0):
 
 
 def matched_sweep():
-    """Return a response with three motions: quiet, chaotic, and one that no start reached."""
+    """Return a response with three motions: quiet, chaotic, and a motion that no start reached."""
     quiet, chaos, absent = (flag("outcome", name) for name in ("settled", "chaotic", "absent"))
     starts = np.array([[5, 5, 0], [1, 9, 0], [10, 0, 0]])
     data = {
@@ -192,7 +191,7 @@ def collisions():
 
 
 def sweep(damping, mass_ratio, restitution=1.0):
-    """Return a clearance sweep with a flat optimum 5 % above the rule, smaller for smaller e."""
+    """Return a clearance sweep with an optimum 5 % above the rule for e = 1, and lower for e < 1."""
     frequency = PEAKS[damping]
     rule = 1 / (mass_ratio * frequency**2)
     best = rule * (1.05 - 0.5 * (1 - restitution))
@@ -218,7 +217,7 @@ def sweep(damping, mass_ratio, restitution=1.0):
 
 
 def subharmonic(name, damped=np.nan):
-    """Return the free subharmonic from 0.8 to 1.1 Wp, and with damper one of the size `damped`."""
+    """Return the free subharmonic from 0.8 to 1.1 Wp, and a subharmonic of size `damped`."""
     _, mass_ratio, damping, _ = CURVES[name]
     peak = PEAKS[damping]
     frequency = np.linspace(0.8, 1.1, 61) * peak
@@ -249,7 +248,7 @@ def destinations(subharmonic_share):
 
 
 def migration(frequency, subharmonic_share):
-    """Return four runs of the controller, and releases of an unsettled and of the quiet motion."""
+    """Return four runs of the controller, and releases from an unsettled and a quiet motion."""
     names, shares = destinations([subharmonic_share] * 2)
     kinds = list(DAMPED_MOTION)[1:]
     counts = np.zeros((len(kinds), len(names)), int)
@@ -278,7 +277,7 @@ def migration(frequency, subharmonic_share):
 
 
 def release_scan(frequency, subharmonic_share):
-    """Return a scan of releases of two motions with damper: unsettled and quiet."""
+    """Return a scan of releases from two motions with damper: unsettled and quiet."""
     names, shares = destinations(np.repeat(np.array(subharmonic_share)[:, None], 3, axis=1))
     shares[:, 2] = np.nan
     kinds = [DAMPED_MOTION[kind] for kind in ("unsettled", "quiet", "none")]
@@ -331,7 +330,7 @@ def design_orbit(name):
 
 
 def world():
-    """Return datasets by stage and name in which every claim is reproduced; mappings are new."""
+    """Return datasets by stage and name in which every claim is reproduced, in new dicts."""
     return {stage: dict(named) for stage, named in _world().items()}
 
 

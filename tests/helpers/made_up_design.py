@@ -21,7 +21,7 @@ ADDITIONS = ["response", "orbits", "forces", "masses", "transients", "competitor
 
 
 def made_up_design(decision="build", told=None, **changed):
-    """Return the dataset; `changed` replaces values of variables, and `told` parameters."""
+    """Return the dataset. `changed` replaces values of variables, `told` replaces parameters."""
     data = _complete(decision).copy()
     for name, values in changed.items():
         data[name] = (data[name].dims, np.asarray(values, data[name].dtype), data[name].attrs)

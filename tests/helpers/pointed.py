@@ -12,7 +12,7 @@ NUMBERS = ctypes.POINTER(ctypes.c_double)
 
 @cache
 def pointed(kernel):
-    """Return a function of one or two arrays that calls a kernel with pointers to them."""
+    """Return a function of one or two arrays that calls a kernel with pointers to the arrays."""
 
     @numba.njit
     def one(a):
@@ -26,6 +26,6 @@ def pointed(kernel):
 
 
 def part(module, name):
-    """Return a kernel of a module made by `instance` as a function of arrays."""
+    """Return a function of arrays that calls the kernel `name` of a module made by `instance`."""
     call = compiled(getattr(module, name)).ctypes
     return lambda *arrays: call(*[each.ctypes.data_as(NUMBERS) for each in arrays])

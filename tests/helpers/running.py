@@ -12,7 +12,7 @@ PARTS = ["Snakefile", "requirements.lock", "config", "profiles", "workflow", "sr
 
 
 def snakemake(project, *arguments, **options):
-    """Run Snakemake in the folder of a project, with this project's own package."""
+    """Run Snakemake in the folder of a project, with the package in this folder."""
     environment = os.environ | {"PYTHONPATH": str(project / "src")} | options.pop("env", {})
     command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
     options = {"cwd": project, "env": environment, "capture_output": True, "text": True} | options
@@ -29,7 +29,7 @@ def copy_of_project(folder):
 
 @contextmanager
 def edits(folder):
-    """Give a function that edits a file of a folder, and restore all files at the end."""
+    """Yield a function that edits a file of a folder, and restore all files at the end."""
     originals = {}
 
     def change(name, edited):

@@ -8,8 +8,8 @@ from impact_damper.motions import strobe_map, traces
 def sample(p, state, start, times, tolerance=1e-14):
     """Run the kernel from the time `start` through increasing `times`.
 
-    Return the states, shape (n, 4), and the contacts, shape (k, 5): wall, beginning, end, and Z2'
-    at both.
+    Return the states, shape (n, 4), and the contacts, shape (k, 5): wall, begin, end, Z2' at the
+    begin, Z2' at the end.
     """
     return traces.trace(p, state, start, times, tolerance)
 

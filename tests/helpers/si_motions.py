@@ -29,7 +29,7 @@ class SiMotion:
         return max(0.0, self.damper.contact_stiffness * depth + self.dashpot * wall * y[3])
 
     def slope(self, t, y, wall):
-        """Return the time derivative of the vector y: the state, and the loss in contacts."""
+        """Return the time derivative of y: four components of a state, and the loss in contacts."""
         machine, push, force = self.machine, self.push(y, wall), self.force(t)
         loss = machine.viscous_damping * y[1]
         spring = machine.linear_stiffness * y[0] + machine.cubic_stiffness * y[0] ** 3
@@ -40,9 +40,9 @@ class SiMotion:
     def run(self, state, begin, end, *, longest=5e-3, in_contact=2e-4):
         """Yield each flight and each contact as (wall, solution).
 
-        The wall is 1 or -1, and 0 in flight; the solution is that of `solve_ivp`. `longest` and
-        `in_contact` are the largest steps in flight and in contact, s. The second event records the
-        times at which the velocity of the machine changes sign.
+        The wall is 1 or -1, and 0 in flight. `solve_ivp` returns the solution. `longest` is the
+        largest step in flight, s, `in_contact` the largest step in contact, s. The second event
+        records the times at which the velocity of the machine changes sign.
         """
 
         def reached(t, y, wall):

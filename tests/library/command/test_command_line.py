@@ -1,4 +1,4 @@
-"""The command `impact-damper`: its answers equal those of the library; wrong files are refused."""
+"""The command `impact-damper` gives the answers of the library, and refuses wrong files."""
 
 import json
 import subprocess
@@ -64,7 +64,7 @@ def test_motion_is_kept_in_a_file(machine_file, tmp_path):
 
 
 def test_a_motion_and_its_mirror_image_are_told_once_with_their_starts(machine_file):
-    """The shares of all motions of the library's response sum to those of the command."""
+    """The shares that the command tells sum to the shares of all motions of the library."""
     asked = ("--gap", "2.5 mm", "--starts", 12, "--json")
     told = json.loads(run("response", machine_file, *asked))["response"]
     given = read_machine_file(machine_file)
@@ -162,7 +162,7 @@ def test_releases_of_a_damper_are_those_of_the_library(machine_file, tmp_path):
 
 
 def test_all_commands_compute_with_the_stiffness_of_a_ball(machine_file):
-    """It is that of an impact at the speed that crosses the gap of the rule in half a cycle."""
+    """The stiffness is for an impact at the speed that crosses the rule's gap in half a cycle."""
     ball = "contact: {radius: 20 mm, youngs_modulus: 3 GPa, poissons_ratio: 0.4}\n"
     machine_file.write_text(FILE.replace(", contact_stiffness: 2e6 N/m", "") + ball)
     given = read_machine_file(machine_file)
@@ -199,7 +199,7 @@ def test_wrong_value_names_key_and_range(machine_file):
 
 
 def test_frequencies_and_tolerances_in_the_words_of_python(machine_file):
-    """`frequencies` and absolute tolerances mean in a file the same as for `design_damper`."""
+    """A file's `frequencies` and absolute tolerances mean what they mean for `design_damper`."""
     machine_file.write_text(f"{FILE}frequencies: 15\ntolerances: {{gap: 0.1 mm, force: 2 N}}\n")
     given = read_machine_file(machine_file)
     assert given["band"]["points"] == 15
@@ -238,7 +238,7 @@ def test_numbers_with_an_exponent_are_numbers(machine_file):
 
 
 def test_error_ends_the_command_with_one_message(machine_file, monkeypatch):
-    """The message of the library, in SI units and without a traceback."""
+    """The command prints the message of the library, in SI units and without a traceback."""
     arguments = ["impact-damper", "simulate", str(machine_file), "--frequency", "24 kg"]
     monkeypatch.setattr(sys, "argv", arguments)
     with pytest.raises(SystemExit, match="Error: frequency = '24 kg'"):
@@ -277,7 +277,7 @@ def test_the_help_holds_a_file_that_works(tmp_path):
     assert read_machine_file(tmp_path / "machine.yaml").keys() > {"machine", "damper", "band"}
 
 
-# The packages that only the paper and the command line need.
+# A program without the packages that only the paper and the command line need.
 BLOCKED = """
 import sys
 
@@ -298,7 +298,7 @@ run()
 
 
 def test_the_library_needs_only_its_own_packages():
-    """All names load without them; the command says what to install."""
+    """Without further packages all names load, and the command says what to install."""
     blocked = ("chatterjee1995", "jinja2", "pydantic", "snakemake", "typer", "yaml")
     code = BLOCKED.format(blocked=blocked)
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)

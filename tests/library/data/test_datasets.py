@@ -114,7 +114,7 @@ def test_nothing_is_left_of_a_failure(small, tmp_path, monkeypatch):
 
 
 def test_every_damage_is_told_or_harms_nothing(small, tmp_path):
-    """If bytes are changed, lost or zero, reading fails or gives equal data."""
+    """If bytes are changed, cut off or set to zero, reading fails or gives equal data."""
     path = tmp_path / "small.nc"
     extremes = [-np.nan, -0.0]  # a file need not keep the sign of NaN
     small = small.assign(method=("motion", ["one", "another"]), displacement=("motion", extremes))

@@ -1,4 +1,4 @@
-"""Tuned absorbers against closed forms, SciPy and nonsense."""
+"""Tuned absorbers, compared with closed forms and SciPy."""
 
 import math
 from dataclasses import replace
@@ -106,7 +106,7 @@ def test_linear_machines_by_the_equations_in_si_units(name):
     link = absorber.stiffness + 1j * w * absorber.damping
     machine_side = 2e5 + 1j * w * machine.viscous_damping + link - 12 * w**2
     matrix = np.array([[machine_side, -link], [-link, link - 0.6 * w**2]])
-    # On a moving base both masses feel its acceleration, and displacements are relative to it.
+    # The acceleration of a moving base acts on both masses; displacements are relative to the base.
     shaken = {"base_displacement": 2e-4 * w**2, "base_acceleration": np.full(3, 3.0)}
     pulled = 0.002 * w**2 if name == "unbalance" else np.full(3, 40.0)
     loads = np.outer([12, 0.6], shaken[name]) if name in shaken else np.array([pulled, 0 * w])
@@ -120,7 +120,7 @@ def test_linear_machines_by_the_equations_in_si_units(name):
 
 @pytest.mark.parametrize(("hertz", "tolerance"), [(19.0, 0.01), (20.5, 0.01), (24.5, 0.02)])
 def test_a_cubic_machine_by_scipy(hertz, tolerance):
-    """One harmonic has a few per cent of error where the motion from rest is periodic."""
+    """One harmonic has an error of 1 or 2 % at frequencies at which the motion is periodic."""
     data = absorber_responses(HARD, 0.6, [hertz], [1.0], detunings=[0.0]).squeeze()
     absorber = exact_absorber(HARD, 0.6)
 

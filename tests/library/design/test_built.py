@@ -21,8 +21,8 @@ BUILT = {
     "inclined": (PUMP, {"inclination": "30 deg", "friction_coefficient": 0.05}, 4e-3),
     "on a base": (BOARD, {}, 3e-3),
 }
-# New starts of each design, forcing cycles of a run, and cycles before it is measured, after most
-# chaotic transients.
+# Number of new starts of each design; forcing cycles of a run; first cycles of a run that are not
+# measured, in which most chaotic transients end.
 NEW, CYCLES, LEAD = 120, 700, 600
 
 
@@ -44,7 +44,7 @@ def test_both_programs_compute_the_same_motion(name):
 @needs_compiler
 @pytest.mark.parametrize("name", BUILT)
 def test_new_starts_keep_the_promise(name):
-    """At the frequency and the deviation of the gap at which the machine moves most."""
+    """The starts are run at the frequency and the gap's deviation with the largest displacement."""
     machine, mount, gap = BUILT[name]
     damper = {"mass": 1.2, "restitution": 0.6, "contact": 1e6, "mount": mount}
     made = task(machine=machine, **damper, band=(20.3, 20.7), frequencies=3, starts=59)

@@ -1,4 +1,4 @@
-"""Motions with a chosen damper: those in which the loose mass touches no wall are kept apart."""
+"""Motions with a chosen damper. A motion in which no wall is touched is reported separately."""
 
 import numpy as np
 import pytest
@@ -38,7 +38,7 @@ def test_a_motion_within_the_gap_is_not_counted_as_reached():
 
 
 def test_a_machine_on_a_moving_base_without_contacts_in_absolute_coordinates():
-    """A gap that is not reached leaves the linear machine alone, whose transmission is known."""
+    """If no wall is touched, the linear machine moves alone, and its transmission is known."""
     frequency, wide = 19.0, 60.0
     p = TASK.packed(1e-3 * wide, frequency)
     steady = idm.steady_motion(MACHINE, None, frequency)

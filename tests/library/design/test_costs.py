@@ -30,7 +30,7 @@ def packed(machine, damper, frequency):
 
 
 def by_scipy(machine, damper, frequency, state, time):
-    """Return the last state and loss in contacts, and the largest force and acceleration."""
+    """Return (last state, loss in contacts) as one vector, largest force, largest acceleration."""
     angular = 2 * math.pi * frequency
     amplitude = machine.force if machine.force else machine.unbalance * angular**2
     motion = SiMotion(machine, damper, lambda t: amplitude * math.cos(angular * t))

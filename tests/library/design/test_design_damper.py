@@ -58,7 +58,7 @@ def test_all_steps_are_kept_and_read_again(finished, monkeypatch):
 
 @pytest.mark.thorough
 def test_an_interrupted_design_continues_after_its_kept_steps(finished, tmp_path, monkeypatch):
-    """On two threads the result is the same as on one."""
+    """The result on two threads equals the result on one thread."""
 
     def interrupt(*_, **__):
         raise KeyboardInterrupt
@@ -108,7 +108,7 @@ def test_a_limit_is_only_compared_with_the_promise(finished, monkeypatch):
 
 @pytest.mark.thorough
 def test_a_given_gap_has_the_promise_of_the_design(finished, monkeypatch):
-    """Both confirm with the same new starts if the design confirms its first choice."""
+    """Design and evaluation use the same new starts if the design confirms its first choice."""
     data = finished[0]
     made = MACHINE.damper(
         mass=1.2, gap=1e-3 * data["design_gap"].item(), restitution=0.6, contact_stiffness=2e7
@@ -123,7 +123,7 @@ def test_a_given_gap_has_the_promise_of_the_design(finished, monkeypatch):
 
 @pytest.mark.thorough
 def test_a_gap_that_does_nothing_is_not_to_be_built(monkeypatch):
-    """The heavier loose mass, designed instead, takes off more than a quarter."""
+    """With the gap designed for the heavier loose mass the displacement falls by over a quarter."""
     for name in additions.ADDITIONS.keys() - {"masses"}:
         monkeypatch.delitem(additions.ADDITIONS, name)
     made = MACHINE.damper(mass=0.6, gap="0.05 mm", restitution=0.6, contact_stiffness=2e7)

@@ -23,7 +23,7 @@ def found():
 
 
 def releases(machine, damper, hertz, count):
-    """Return the times, s, of releases with other seeds than those of the design."""
+    """Return the times, s, of releases with seeds that the design does not use."""
     scales, frequency = machine.scales, machine.scales.from_si(hertz, "frequency")
     made = machine.oscillator(), damper.scaled(scales), frequency
     case, stop = release_case(*made, Settling()), np.zeros(1, bool)
@@ -31,7 +31,7 @@ def releases(machine, damper, hertz, count):
 
 
 def test_there_is_nothing_to_migrate_to_where_the_machine_has_one_motion(found):
-    """Frequencies with two periodic motions are those with two sizes without damper."""
+    """A frequency has two periodic motions if the response without damper has two sizes."""
     frequencies = found["released_frequency"].values
     sizes = idm.frequency_response(MACHINE, None, frequencies, starts=8)["maximum_displacement"]
     two = np.isfinite(sizes.values).sum(axis=1) == 2
@@ -43,7 +43,7 @@ def test_there_is_nothing_to_migrate_to_where_the_machine_has_one_motion(found):
 
 
 def test_new_releases_keep_the_bound_of_the_time(found):
-    """The largest of 59 times bounds 95 % of all; 60 new ones exceed it 9 times or less."""
+    """The largest of 59 times bounds 95 % of all times; at most 9 of 60 new times exceed it."""
     two = decode(found["migration_status"]).values[1] == "sure"
     hertz = float(found["released_frequency"][np.argmax(two)])
     damper = MACHINE.damper(mass=1.2, gap=4e-3, restitution=0.8, contact_stiffness=1e7)
@@ -57,7 +57,7 @@ def test_new_releases_keep_the_bound_of_the_time(found):
 
 
 def test_a_release_is_the_first_switching_of_a_run():
-    """The share of releases that succeed at once, by single runs of `migrate`."""
+    """`release_time` equals the total time of a run of `migrate` with one switching."""
     hertz, damper = 15.4, MACHINE.damper(mass=1.2, gap=4e-3, restitution=0.8, contact_stiffness=1e7)
     for k, time in enumerate(releases(MACHINE, damper, hertz, 3)):
         run = idm.migrate(MACHINE, damper, hertz, seed=7 + k, switchings=1)

@@ -22,9 +22,9 @@ from impact_damper.design.task import NOMINAL
 HARDENING, BOARD, PUMP = (
     idm.Machine(**each) for each in (promises.HARDENING, promises.BOARD, promises.PUMP)
 )
-# Machine and damper, band with tolerances, least and greatest gap (mm) that are known to be good,
-# and the displacement (mm) below which starts stay there. A search takes up to a minute, so short
-# tests search the gap of one of them; `make promises` searches all with many starts.
+# Machine and damper; band, tolerances; least and greatest gap (mm) known to be good; displacement
+# (mm) below which starts stay at these gaps. A search takes up to a minute, so short tests search
+# the gap of one example. `make promises` searches the gaps of all examples with many starts.
 EXAMPLES = {
     "hardening": (
         {"machine": HARDENING, "mass": 1.2, "restitution": 0.8, "contact": 1e7},
@@ -90,7 +90,7 @@ def test_the_peak_of_a_resonance_is_found_between_points():
 
 
 def allowed(count):
-    """Return how many of new starts may exceed a bound that holds for 95 % of all."""
+    """Return how many of `count` starts may exceed a bound that holds for 95 % of all starts."""
     return binom.ppf(0.999, count, 0.05)
 
 
@@ -98,7 +98,7 @@ def allowed(count):
 @needs_odeint
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_a_design_finds_the_good_gap_and_new_starts_of_another_program_keep_its_promise(name):
-    """At the gap, at both ends of its tolerance, and between points of the grid."""
+    """New starts run at the gap, at both ends of its tolerance, and beside the grid's points."""
     damper, asked, (low, high), known = EXAMPLES[name]
     made = task(**damper, **asked, frequencies=7, candidates=4 if "gap" in asked else 8, starts=96)
     found = evaluate_gap(made) if "gap" in asked else find_gap(made)
@@ -140,14 +140,14 @@ def test_chaotic_motions_of_one_regime_have_one_bound_that_new_starts_keep(gap):
 
 @pytest.mark.parametrize("length", [500, 1000])
 def test_a_return_level_of_an_exponential_tail(length):
-    """Peaks of blocks with a known distribution; n of them exceed ln(N/n) of N on average."""
+    """Of N exponentially distributed peaks of blocks, on average one exceeds ln N."""
     peaks = np.random.default_rng(length).exponential(size=(20, length))
     levels = [return_level(5 + each) for each in peaks]
     assert np.mean(levels) == pytest.approx(5 + np.log(HORIZON / BLOCK), rel=0.1)
 
 
 def test_a_rare_motion_is_bounded_with_more_starts(monkeypatch):
-    """Made-up motions: 0.8 % of all starts are large; among 96 there are often two."""
+    """Made-up motions: 0.8 % of all starts lead to a large motion; two of 96 starts often do."""
 
     def made_up(task, cells, count, stream, progress=None):
         random = np.random.default_rng([count, *stream[1:]])

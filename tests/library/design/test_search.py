@@ -16,7 +16,7 @@ def curve(sizes, tolerance, gaps=None):
 
 
 def valleys(gap):
-    """Two ranges: 4 to 6 mm with 2.0 mm, and 9 to 9.5 mm with 1.95 mm; 10 mm elsewhere."""
+    """Return the displacement: 2 mm at gaps of 4 to 6 mm, 1.95 mm at 9 to 9.5 mm, else 10 mm."""
     return 2.0 if 4 <= gap <= 6 else 1.95 if 9 <= gap <= 9.5 else 10.0
 
 
@@ -38,7 +38,7 @@ def test_a_tolerance_wider_than_a_range_leads_to_another_one():
 
 
 def test_the_least_displacement_next_to_a_cliff_is_not_chosen():
-    """The displacement falls to the cliff at 8 mm; within the tolerance the gap stays below."""
+    """The displacement falls up to a cliff at 8 mm. Gaps within the tolerance lie below 8 mm."""
     found = curve(lambda gap: 4 - gap / 4 if gap < 8 else 15.0, 0.05)
     choice = found.choose()
     assert 1.05 * choice.gap < 8
@@ -50,7 +50,7 @@ def test_the_least_displacement_next_to_a_cliff_is_not_chosen():
 
 
 def test_the_value_of_a_nominal_gap_is_the_largest_within_the_tolerance():
-    """Compared with a brute force over many gaps."""
+    """The values are compared with a brute force over many gaps."""
 
     def waves(gap):
         return 3 + np.sin(7 * np.log(gap)) + 0.3 * np.sin(31 * np.log(gap))

@@ -1,4 +1,4 @@
-"""Impulses on a machine, held against a simulator that shares no code with the library."""
+"""Impulses on a machine, compared with a simulator that shares no code with the library."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from impact_damper.design.shocks import BLOCK, convergence_times, shocks
 from impact_damper.design.task import labelled
 from impact_damper.motions.strobe_map import strobe_time
 
-# At this frequency the light damper leaves the board its large motion beside the small one.
+# At this frequency the board with the light damper has a large motion beside the small motion.
 FREQUENCY, GAP, PROMISED = 21.5, 4.0, 2.5
 CYCLES, LEAD = 500, 450
 
@@ -57,7 +57,7 @@ def test_impulses_lead_away_as_in_another_program(made, motions):
         away.append(moved(made, pushed, CYCLES, LEAD) > PROMISED)
     expected = np.isinf(found.shock_return.values)
     assert 0 < expected.sum() < len(expected)
-    # Chaotic transients end on either motion, from rounding errors.
+    # Rounding errors decide on which of the two motions a chaotic transient ends.
     assert np.mean(expected == away) > 0.9
     assert np.abs(found.shock_impulse.values[away]).min() == pytest.approx(
         float(found.critical_shock), rel=0.1

@@ -29,13 +29,13 @@ MACHINES = {
     "base": SPRING | {"base_displacement": 2e-4},
 }
 BANDS = {"force": (26, 34), "unbalance": (22, 24), "base": (20.4, 20.7)}
-# Factors of mass, length and time: for a circuit board, for a machine of more than a ton, and
-# factors that are not powers of two.
+# Factors of mass, length and time. BOARD leads to a circuit board, TON to a machine of more than a
+# ton. The factors in ANY are not powers of two.
 BOARD, TON, ANY = (2.0**-5, 2.0**-3, 2.0**-2), (2.0**7, 2.0, 2.0**2), (0.3, 0.7, 1.9)
 
 
 def task(name, factors=(1, 1, 1)):
-    """Task for a machine whose mass, lengths and times are multiplied by factors."""
+    """Return the task for a machine whose mass, lengths and times are multiplied by factors."""
 
     def scaled(value, powers):
         return float(value * np.prod(np.array(factors) ** np.array(powers, float)))

@@ -44,7 +44,7 @@ def test_a_wrong_value_is_refused_with_its_reason(changed, told):
 
 
 def test_absolute_tolerances_are_fractions_of_the_nominal_values():
-    """Of the gap they are fractions of each gap: 0.2 mm are 5 % of 4 mm and 20 % of 1 mm."""
+    """A tolerance of the gap is a fraction of each gap: 0.2 mm are 5 % of 4 mm and 20 % of 1 mm."""
     given = {"gap": "0.2 mm", "force": "2 N", "contact_stiffness": "1e6 N/m", "restitution": 0.1}
     made = task(tolerances=given)
     np.testing.assert_allclose(made.deviations(4.0), [0.05, 0.1, 0.05, 0, 0, 0, 0, 0.05])

@@ -33,7 +33,7 @@ RATE = (0.005 * NATURAL) ** 2
 
 
 def continuous(machine, damper, first, slope, edges):
-    """Return the largest displacement (m) and the contacts in each cycle of a continuous sweep.
+    """Return for each cycle of a continuous sweep largest displacement (m) and number of contacts.
 
     SciPy integrates the sweep. `edges` are the times at which the cycles begin and end.
     """
@@ -48,7 +48,7 @@ def continuous(machine, damper, first, slope, edges):
         contacts[begun] += wall != 0
         turns = np.concatenate([run.t_events[1], edges[(edges >= run.t[0]) & (edges <= run.t[-1])]])
         for moment in turns:
-            # A turning point at the edge of two cycles counts in both.
+            # A turning point at the moment between two cycles counts in both cycles.
             after = np.searchsorted(edges, moment, side="right") - 1
             before = np.searchsorted(edges, moment, side="left") - 1
             for k in {min(after, count - 1), max(before, 0)}:
@@ -84,7 +84,7 @@ def test_a_sweep_in_steps_is_as_good_as_a_continuous_one(
 
 
 def test_a_slow_sweep_meets_the_resonance_peak():
-    """In a slow sweep the peak has the height of the steady state, in faster ones it is lower.
+    """In a slow sweep the peak has the height in steady state; in a faster sweep it is lower.
 
     The height in steady state is 1/(2 zeta sqrt(1 - zeta^2)) static deflections.
     """
@@ -149,7 +149,7 @@ def test_a_linear_machine_decays_exponentially():
 def test_a_cubic_machine_decays_at_a_third_of_the_rate():
     """With a purely cubic spring, 2/3 of the energy E is kinetic on average.
 
-    E therefore falls as exp(-4 c t/(3 m)), and the amplitude as its fourth root.
+    E therefore falls as exp(-4 c t/(3 m)), and the amplitude as the fourth root of E.
     """
     machine = idm.Machine(mass=12, cubic_stiffness=4e9, damping=10, force=40)
     rows, _ = decay(machine, None, 0.01)
@@ -184,7 +184,7 @@ def test_a_damper_acts_as_scipy_says():
 
 @pytest.mark.parametrize("coefficient", [0, 0.5])
 def test_a_vertical_damper_comes_to_rest_under_its_weight(coefficient):
-    """Then the spring carries the loose mass: m2 g/k = 0.029 mm."""
+    """At rest the machine's spring carries the loose mass: its deflection is m2 g/k = 0.029 mm."""
     mount = {"inclination": "90 deg", "friction_coefficient": coefficient, "normal_force": 2}
     rows, end = decay(LINEAR, LINEAR.damper(**DAMPER, mount=mount), 0.01)
     assert end == "at_rest"

@@ -11,8 +11,8 @@ pytestmark = [
     pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle()),
 ]
 
-# Largest share of starts for which rounding decides whether a contact takes place, keyed by the
-# tolerance. Such starts graze a wall, lie on a wall, or have a large Lyapunov exponent.
+# Tolerance -> largest share of starts for which rounding decides whether a contact takes place.
+# Such starts graze a wall, lie on a wall, or have a large Lyapunov exponent.
 MOST_APART = {1e-6: 0.45, 1e-9: 0.25, 1e-12: 0.15}
 
 
@@ -20,7 +20,7 @@ MOST_APART = {1e-6: 0.45, 1e-9: 0.25, 1e-12: 0.15}
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 @pytest.mark.parametrize("kernel", KERNELS)
 def test_kernel_agrees_with_the_reference(kernel, tolerance, kind):
-    """Contacts agree in number, and states within 10 tolerances times the growth of errors."""
+    """Numbers of contacts agree; states agree within 10 tolerances times the growth of errors."""
     error, differs, apart = agreement(kernel, kind, tolerance)
     wrong = ~apart & (differs | ~(error < 10))
     assert not np.any(wrong), "\n".join(

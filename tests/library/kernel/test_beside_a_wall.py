@@ -1,4 +1,4 @@
-"""A flight that comes within rounding of a wall."""
+"""A flight whose distance to a wall is as small as rounding errors."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ BEGIN, END = 27.036899746777475, 27.1
 
 @pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle() or "runs")
 def test_a_flight_within_rounding_of_a_wall_ends_in_a_contact():
-    """The bounds on the distance allow no step that advances; the contact is 1e-12 deep."""
+    """The bounds on the distance to the wall allow only the step 0. The contact is 1e-12 deep."""
     p, y = np.array(PARAMETERS), np.array(STATE)
     advance(p, y, np.empty((0, 4)), 0, BEGIN, END, 1e-12, workspace())
     exact = extended.run(p, STATE, BEGIN, [END]).states[-1]

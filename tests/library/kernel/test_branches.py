@@ -14,7 +14,7 @@ EXCLUDED = False
 
 
 def first_above(a, i, limit, least=0.25):
-    """Return two numbers early or late."""
+    """Return two numbers, by an early return or by the last line."""
     limit = max(limit, least)
     if not a[i] < limit:
         return a[i], True

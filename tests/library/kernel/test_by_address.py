@@ -1,4 +1,4 @@
-"""A kernel called by address returns the same as called directly, and failures to compile raise."""
+"""A call by address gives the result of a direct call, and a failure to compile raises."""
 
 import os
 import subprocess
@@ -19,7 +19,7 @@ def add(a, d):
 
 called = by_address(add)
 
-# A module with a kernel that calls another by address.
+# A module with a kernel that calls another kernel by address.
 MODULE = """
 import numpy as np
 from impact_damper.kernel.compiling import by_address, kernel, kernel_only, pointer

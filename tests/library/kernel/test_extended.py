@@ -28,7 +28,7 @@ from impact_damper.model.parameters import Damper, Oscillator
 pytestmark = pytest.mark.skipif(bool(extended.obstacle()), reason=extended.obstacle())
 
 Real = np.longdouble
-DIGITS = 2e-17  # error of the reference, to be multiplied by the growth of errors
+DIGITS = 2e-17  # the reference's error is this number times the growth of errors
 
 MOTIONS = {
     **{name: (pack(PAPER, damper, w), state, 3) for name, (damper, w, state) in STARTS.items()},
@@ -68,7 +68,7 @@ def extrapolate(p, touching, t, y, length, columns=8):
 
 @pytest.mark.parametrize("name", MOTIONS)
 def test_replay_by_extrapolation(name):
-    """Integrate between the logged events by another method, extrapolation."""
+    """Extrapolation, another method, integrates from each logged event to the next event."""
     p, state, periods = MOTIONS[name]
     start = 0.5 * math.pi / p[FREQUENCY]
     times = start + 2 * math.pi / p[FREQUENCY] * np.arange(1, periods + 1)
@@ -106,7 +106,7 @@ def test_replay_by_extrapolation(name):
 
 @pytest.mark.parametrize("scene", list(scenes.configured_scenes()), ids=lambda scene: scene[0])
 def test_stored_references_are_what_the_program_gives(scene):
-    """C libraries may differ in the last digits."""
+    """The last digits may differ from one C library to another."""
     name, *motion = scene
     stored, made = json.loads(scenes.FILE.read_text())[name], scenes.reference(*motion)
     assert list(stored) == list(made)

@@ -44,7 +44,7 @@ EXTREMES = [
     {"force": 1e6},
     {"force": 0.0, "unbalance": 1e6},
 ]
-# Other parameters of the oscillator are at their bounds one at a time.
+# Each other parameter of the oscillator is at its bounds, while all further parameters are usual.
 _NAMED = set().union(*EXTREMES)
 EXTREMES += [
     {each.name: each.metadata["bounds"][bound]}
@@ -70,7 +70,7 @@ EXTREMES += [
 
 
 def system(extreme):
-    """Return oscillator, damper and frequency; parameters that are not given are usual ones."""
+    """Return oscillator, damper and frequency. Parameters that are not given have usual values."""
     own = {key: extreme.get(key, usual) for key, usual in OF_OSCILLATOR.items()}
     oscillator = idm.Oscillator(**own)
     damper = idm.Damper(**USUAL | {key: extreme[key] for key in USUAL if key in extreme})

@@ -90,7 +90,7 @@ def test_liouville(oscillator, damper):
 
 
 def isolated_contact(mass_ratio, restitution, stiffness):
-    """Return restitution, speed of the oscillator after it is hit at rest, and time in contact."""
+    """Return restitution, velocity after the contact of an oscillator at rest, time in contact."""
     p = pack(PAPER, Damper(mass_ratio, 1.0, restitution, stiffness), 2.0)
     strobe = math.pi / 4
     state = [0.0, 0.0, 1.0, 1.0]
@@ -110,7 +110,7 @@ def test_restitution_of_an_isolated_contact(mass_ratio, restitution):
     impulse = -(1 + restitution) * mass_ratio / (1 + mass_ratio)
     limit = np.array([restitution, impulse])
     errors = np.abs(np.array([found, velocity]) - limit[:, None])
-    # Forcing and springs act during a contact too: an error of order r1^(-1/2).
+    # Forcing and springs act during a contact too. This causes an error of order r1^(-1/2).
     assert np.all(errors[:, -1] < 3 * duration[-1])
     assert np.all(errors[:, 2] < 0.11 * errors[:, 1] + 1e-12)
     assert np.all(errors[:, 1] < 0.25 * errors[:, 0] + 1e-12)

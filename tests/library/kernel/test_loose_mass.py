@@ -15,7 +15,7 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model import packed
 from impact_damper.model.packed import pack
 
-# A primary mass that nothing holds, with a force of the amplitude 1; and at rest on a spring.
+# FREE: a primary mass without spring, with a force of the amplitude 1. STILL: at rest on a spring.
 FREE = idm.Oscillator(1e-9, cubic=0.0)
 STILL = idm.Oscillator(1.0, 1.0, cubic=0.0, force=0.0)
 NAMES = "displacement velocity relative_displacement relative_velocity".split()
@@ -46,9 +46,9 @@ def test_a_wall_that_never_pulls_only_pushes():
 
 @pytest.mark.parametrize("share", [0.99, 1.5])
 def test_a_block_on_a_shaken_table(share):
-    """It sticks below the acceleration f; above, it slides, sticks, and slides back.
+    """The block sticks at accelerations up to f. Above f it slides, sticks, and slides back.
 
-    Both bodies together accelerate by cos(W T)/(1 + rm); sliding, Z2'' = cos(W T) - (1 + rm) f.
+    Sticking, both bodies accelerate by cos(W T)/(1 + rm). Sliding, Z2'' = cos(W T) - (1 + rm) f.
     """
     friction = 1 / (1 + RATIO) / share
     damper = idm.Damper(RATIO, WIDE, friction=friction)
@@ -71,7 +71,7 @@ def test_a_block_on_a_shaken_table(share):
 
 
 def test_friction_stops_a_sliding_mass():
-    """The distance is v^2/(2 (1 + rm) f), and the energy lost rm f times it."""
+    """The distance is v^2/(2 (1 + rm) f). The energy lost is rm f times the distance."""
     free = idm.Oscillator(1e-9, cubic=0.0, force=0.0)
     damper = idm.Damper(RATIO, WIDE, friction=0.3)
     found = idm.simulate(free, damper, 1.0, (0, 0, 0, 2.0), periods=2)
@@ -83,7 +83,7 @@ def test_friction_stops_a_sliding_mass():
 
 
 def test_what_goes_in_is_lost_or_stored():
-    """Work of force, base and gravity, and losses in dashpot and by friction; walls are elastic."""
+    """Stored energy = work of force, base and gravity - losses by dashpot and friction."""
     oscillator = idm.Oscillator(0.215, **BENT, force=2.0, base=0.7)
     damper = idm.Damper(RATIO, 0.8, gravity=0.3, friction=0.4)
     found = idm.simulate(oscillator, damper, 2.0, (0.1, 0, 0.3, 0.4), periods=6, samples=8000)
@@ -100,7 +100,7 @@ def test_what_goes_in_is_lost_or_stored():
 
 
 def test_a_bouncing_mass_comes_to_rest_on_the_wall():
-    """Heights fall by e^2; at rest the wall carries the weight, and the spring too."""
+    """Heights fall by the factor e^2. At rest both the wall and the spring carry the weight."""
     ratio, gravity, restitution = 1e-4, 1.0, 0.6
     damper = idm.Damper(ratio, 1.0, restitution, 1e3, gravity=gravity, exit_rule="no_tension")
     found = idm.simulate(STILL, damper, 1.0, (0, 0, 0.5, 0), start=0.0, periods=6)
@@ -112,7 +112,7 @@ def test_a_bouncing_mass_comes_to_rest_on_the_wall():
 
 
 def by_events(p, y, end):
-    """Return the state at a time, by SciPy with events for contacts, turns and slips."""
+    """Return the state at the time `end`, by SciPy with events for contacts, stops and slips."""
     t, y, wall, slide = 0.0, np.array(y), 0, int(np.sign(y[3]))
     limit, inverse, d = p[packed.FRICTION], p[packed.INVERSE_MASS_RATIO], p[packed.CLEARANCE]
 
@@ -191,7 +191,7 @@ def test_tangents_are_difference_quotients(of_damper, of_oscillator, rule):
 
 
 def test_a_flight_moves_on_from_a_separation_behind_the_wall():
-    """The error of this separation is above the rounding errors of the flight that follows."""
+    """The error of the separation exceeds the rounding errors of the flight after it."""
     p = np.array([
         0.9975092120424324, 0.019950184240848642, 0.9950246281095139, 0.0049753718904860045,
         0.0, 0.1414178209243579, 1.0, 0.21212673138653673, 4.975123140547569, 10.0,

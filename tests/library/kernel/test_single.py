@@ -14,8 +14,8 @@ from impact_damper.kernel import single
 from impact_damper.kernel.instances import FLIGHT_ORDER, SERIES, SINGLE, instance
 from impact_damper.model.packed import pack
 
-# Bound on the rounding error of the polynomials in this module. A larger penetration means that a
-# wall was passed.
+# Bound on the rounding error of the polynomials in this module. If a penetration exceeds this
+# bound, a search has missed the contact.
 HAIR = Fraction(1, 10**12)
 DEGREE = 7
 coefficients = st.lists(st.integers(-200, 200), min_size=2, max_size=DEGREE + 1)
@@ -65,15 +65,15 @@ def roots_within(c, end):
 def found(lanes, searched, series_given, length, **numbers):
     """Return the time at which a search ends, whether it found an event, and the wall.
 
-    The kernels `searched` are called. With several lanes the trajectory is in one lane, and the
-    other lanes have similar trajectories.
+    `searched` names the kernels that are called. A lane holds one trajectory. With several lanes
+    one lane has the given series, and the other lanes have similar series.
     """
     module = instance(lanes)
     a = np.zeros((module.SIZE // lanes, lanes))
     rows = {name: getattr(module, name) // lanes for name in [*SINGLE, *SERIES]}
     lane = lanes // 3
     for i in range(lanes):
-        # The other lanes have the same initial state and other higher coefficients.
+        # The other lanes have the initial state of this lane, but other higher coefficients.
         for name, c in series_given(1.0 if i == lane else 1.0 + 0.1 * i).items():
             a[rows[name] : rows[name] + len(c), i] = c
     for name, number in (numbers | {"LENGTH": length, "T": length}).items():
@@ -99,7 +99,7 @@ def first_contact(lanes, c, offset, drift, clearance, length, expecting=()):
 
 
 def check_contact(lanes, c, offset, drift, clearance, length, expecting=()):
-    """Assert that the distance to a wall is zero at the time found, and that no wall was passed."""
+    """Assert that the distance to a wall is zero at the time found, and not negative before."""
     t, side = first_contact(lanes, c, offset, drift, clearance, length, expecting)
     path = [Fraction(float(a)) for a in [*c, *[0.0] * (2 - len(c))]]
     path[0] += Fraction(offset)
@@ -135,7 +135,7 @@ def test_first_contact_of_random_polynomials(lanes, expecting, c, offset, drift,
 @examples
 @given(coefficients, st.integers(2, 14), st.booleans())
 def test_first_contact_of_grazing_polynomials(lanes, expecting, c, exponent, beyond):
-    """The wall is close to the largest |Z2|, so the distance to it has nearly a double root."""
+    """The wall is close to the largest |Z2|: the distance to the wall has nearly a double root."""
     c = [0.0, *(a / 64 for a in c)]
     t = np.linspace(0, 1, 10001)
     largest = np.max(np.abs(Polynomial(c)(t)))
@@ -146,7 +146,7 @@ def test_first_contact_of_grazing_polynomials(lanes, expecting, c, exponent, bey
 
 
 def integrated(p, state, side, length, steps, tolerance):
-    """Return the state after equal steps without an event."""
+    """Return the state after `steps` equal steps over the time `length`, without an event."""
     y, work = np.array(state), single.workspace()
     for i in range(steps):
         taken, side = single.step(p, y, side, i * length / steps, length / steps, tolerance, work)
@@ -155,7 +155,7 @@ def integrated(p, state, side, length, steps, tolerance):
 
 
 def test_order_of_flight_steps():
-    """Halving the step divides the error by two to the order of the series."""
+    """Halving the step divides the error by 2 to the power of the order of the series."""
     p = pack(PAPER, None, 2.0)
     state = [1.5, 0.5, 1.5, 0.5]
     exact = integrated(p, state, 0, 2.4, 24, 1.0)

@@ -1,4 +1,4 @@
-"""Springs that harden, soften or are linear, any forcing: against laws and SciPy."""
+"""Hardening, softening and linear springs with all forcings, against laws and SciPy."""
 
 import math
 
@@ -26,7 +26,7 @@ all_oscillators = pytest.mark.parametrize("oscillator", OSCILLATORS.values(), id
 @all_oscillators
 @pytest.mark.parametrize("units", [(5.0, 1.0), (1.4, 0.3)], ids=str)
 def test_a_change_of_units_changes_nothing_else(oscillator, units):
-    """States, contacts and the derivative of the flow, to tolerance times the growth of errors."""
+    """States, contacts and the derivative of the flow agree up to the growth of errors."""
     length, time = units
     size = np.array([1.0, time, 1.0, time]) / length
     times = np.linspace(0.2, 14.0, 60)
@@ -45,7 +45,7 @@ def test_a_change_of_units_changes_nothing_else(oscillator, units):
 
 @all_oscillators
 def test_flights_and_contacts_against_dop853(oscillator):
-    """SciPy integrates from event to event and arrives at the kernel's states on the walls."""
+    """SciPy integrates from one event to the next, and arrives at the kernel's states on walls."""
     p, end = pack(oscillator, DAMPER, FREQUENCY), 12.0
     _, log = sample(p, STATE, 0.0, [end])
     ends = [(0.0, 0)]
@@ -80,7 +80,7 @@ def test_tangents_against_differences(oscillator):
 @pytest.mark.parametrize("damping", [1e-5, 0.02, 0.4])
 @pytest.mark.parametrize("force", [0.0, 0.7])
 def test_linear_oscillator_in_closed_form(damping, force):
-    """Steady harmonic motion and decaying free motion, as written in any textbook."""
+    """The motion is the sum of a harmonic steady motion and a decaying unforced motion."""
     natural, w = 1.2, FREQUENCY
     oscillator = Oscillator(damping, natural, 0.0, force, 0.1)
     amplitude = oscillator.forcing_amplitude(w)

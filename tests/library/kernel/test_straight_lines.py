@@ -1,4 +1,4 @@
-"""`straight`, which compiles lines of arithmetic, against Python, and the errors that it raises."""
+"""`straight`, which compiles lines of arithmetic, gives Python's results or raises an error."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Each field of `Oscillator` has an effect, or is refused, everywhere that its term matters."""
+"""Each field of `Oscillator` has an effect or is refused, wherever its term matters."""
 
 import re
 from dataclasses import replace
@@ -70,7 +70,7 @@ def changed(oscillator, name):
 
 
 def pairs(name, bases=(BENT, LINEAR)):
-    """Return oscillators that differ in one field, for all bases that allow the field."""
+    """Return pairs of oscillators that differ in one field, for all bases that allow the field."""
     found = []
     for base in bases:
         try:
@@ -103,8 +103,8 @@ def tangents_80_bit(oscillator):
     return extended.run(packed(oscillator), np.tile(STATE[:2], 2), 0.0, [1.0]).flow[:2, :2]
 
 
-# Functions of an oscillator whose results every field must change, keyed by the file of the
-# package.
+# File of the package -> functions of an oscillator. A change of any field must change the result of
+# each function.
 PLACES = {
     "model/packed.py": [packed],
     "kernel/equation.py": [
@@ -121,7 +121,7 @@ PLACES = {
     ],
     "tests/references/extended/motion.c": [reference_80_bit],
 }
-# Functions of the primary mass alone, or of the paper's methods.
+# Functions of the primary mass alone, and functions of the paper's methods.
 ALONE_PLACES = {
     "kernel/equation.py": [
         lambda oscillator: kernel.acceleration(packed(oscillator), STATE, 0.4),
@@ -134,7 +134,7 @@ ALONE_PLACES = {
         maximum_response,
     ],
 }
-# Functions whose results the fields of the spring must change: all fields, or the nonlinear ones.
+# SPRING_PLACES: every field of the spring must change results. NONLINEAR_PLACES: nonlinear fields.
 SPRING_PLACES = {
     "kernel/equation.py": [
         lambda oscillator: kernel.energy.py_func(packed(oscillator), STATE),
@@ -166,7 +166,7 @@ def flat(result):
     return np.ravel(np.asarray(result, float))
 
 
-# Tables of files and functions, the fields that must matter to them, and the oscillators changed.
+# Table of functions by file, fields that must change their results, oscillators that are changed.
 TABLES = [
     (PLACES, PARAMETERS, (BENT, LINEAR)),
     (ALONE_PLACES, ALONE, (BENT, LINEAR)),
@@ -229,7 +229,7 @@ def test_what_acts_on_the_loose_mass_has_an_effect_with_a_damper_alone(name):
 
 @every_parameter
 def test_parameters_are_named_by_their_kind(name):
-    """NONLINEAR and FORCING, which other modules go through, are complete."""
+    """NONLINEAR and FORCING, over which other modules loop, are complete."""
     for one, other in pairs(name):
         p, q = packed(one), packed(other)
         slopes = kernel.spring_slope.py_func(q, Z1) - kernel.spring_slope.py_func(p, Z1)
@@ -255,7 +255,7 @@ def test_parameters_are_named_by_their_kind(name):
 
 @every_parameter
 def test_damping_is_the_only_term_in_the_velocity(name):
-    """Closed forms, balances and variations contain the term h Z1' and no other in Z1'."""
+    """Closed forms, balances and variations contain the term h Z1' and no further term in Z1'."""
     for _, other in pairs(name):
         p, still = packed(other), STATE * (1, 0, 1, 1)
         drag = kernel.acceleration(p, still, 0.4) - kernel.acceleration(p, STATE, 0.4)
@@ -264,7 +264,7 @@ def test_damping_is_the_only_term_in_the_velocity(name):
 
 @every_parameter
 def test_the_spring_is_odd(name):
-    """With an even term no motion is symmetric; modules that seek such motions must refuse it."""
+    """With an even term no motion is symmetric. Modules for symmetric motions must refuse it."""
     for _, other in pairs(name):
         force = kernel.spring.py_func(packed(other), Z1)
         assert np.array_equal(force, -force[::-1]), (
@@ -287,7 +287,7 @@ def test_a_spring_that_pushes_outward_is_said_to_soften(name):
 
 @pytest.mark.parametrize("name", SPRINGS)
 def test_equations_of_the_package_are_those_of_the_reference(name):
-    """Force, slope and energy of the spring, and the harmonics of its force without aliasing."""
+    """They are force, slope and energy of the spring, and the harmonics of the spring's force."""
     oscillator = SPRINGS[name]
     p = packed(oscillator)
     same = partial(assert_allclose, rtol=1e-10, atol=1e-12)

@@ -37,7 +37,7 @@ def test_an_impact_is_that_of_the_equation_of_motion(radius, speed, mass):
     assert found.compression == pytest.approx(deepest, rel=1e-8)
     assert found.force == pytest.approx(k * deepest**1.5, rel=1e-8)
     assert found.duration == pytest.approx(run.t_events[1][-1], rel=1e-6)
-    # The equivalent linear spring stores the same energy at the same depth.
+    # The equivalent linear spring stores the kinetic energy of the impact at the largest depth.
     stiffness = contact.stiffness(speed, mass)
     assert 0.5 * stiffness * deepest**2 == pytest.approx(0.5 * mass * speed**2, rel=1e-8)
 

@@ -1,4 +1,4 @@
-"""Machines identified from noisy curves that SciPy integrated, and refusals of other files."""
+"""Machines identified from noisy curves that SciPy integrated; wrong files are refused."""
 
 import doctest
 import re
@@ -29,7 +29,7 @@ def moved(cubic, force, w, start, times):
 
 
 def check(found, names, cubic):
-    """The values lie within 3 standard uncertainties, which are below 3 % of the largest."""
+    """Errors are below 3 standard uncertainties, and these are below 3 % of the values."""
     true = TRUE | {"cubic_stiffness": cubic}
     for name in names:
         error = found.uncertainties[name]
@@ -40,7 +40,7 @@ def check(found, names, cubic):
 
 @pytest.mark.parametrize("cubic", CUBICS)
 def test_ring_down(cubic, tmp_path):
-    """A record in mm and ms with an offset of the sensor."""
+    """The measured decay is in mm and ms, with an offset of the sensor."""
     times, random = np.linspace(0, 1, 1001), np.random.default_rng(5)
     noisy = moved(cubic, 0.0, 0.0, (1e-3, 0.0), times) + 1e-4 + 2e-5 * random.normal(size=1001)
     table = np.column_stack([1e3 * times, 1e3 * noisy])
@@ -55,7 +55,7 @@ def test_ring_down(cubic, tmp_path):
 @pytest.mark.thorough
 @pytest.mark.parametrize("cubic", [6e8, -6e8])
 def test_response(cubic):
-    """Amplitudes of a sweep towards the jump with errors of 1 %, each settled for 30 cycles."""
+    """A sweep towards the jump: amplitudes, with 1 % errors, after 30 cycles at each frequency."""
     frequencies = np.linspace(10, 22, 49)[:: 1 if cubic > 0 else -1]
     amplitudes, state = [], (0.0, 0.0)
     for w in 2 * np.pi * frequencies:
@@ -92,7 +92,7 @@ def test_wrong_file_is_refused_in_words(text, tmp_path):
 
 
 def test_examples(tmp_path, monkeypatch):
-    """The docstrings and the page."""
+    """The examples in the docstrings and on the page run."""
     monkeypatch.chdir(tmp_path)
     for method in (Machine.from_ring_down, Machine.from_response):
         names = {"np": np, "Machine": Machine}

@@ -1,4 +1,4 @@
-"""Machines and dampers: scales, the force at each frequency, and nonsense refused in SI units."""
+"""Machines and dampers: scales, forces, and wrong values, which are refused in SI units."""
 
 import math
 from dataclasses import replace
@@ -64,7 +64,7 @@ def test_the_static_deflection_carries_the_force(force, linear, cubic):
 
 
 def test_a_measured_resonance_describes_spring_and_dashpot():
-    """k = m (2 pi f)^2 and c = m 2 pi f/Q; a changed mass keeps what was given."""
+    """k = m (2 pi f)^2 and c = m 2 pi f/Q. A changed mass keeps the parameters that were given."""
     rate = 2 * math.pi * 20
     made = Machine(mass=12, natural_frequency="20 Hz", quality_factor=100, force=40)
     assert made.linear_stiffness == pytest.approx(12 * rate**2, rel=1e-12)

@@ -29,7 +29,7 @@ def test_response_over_a_band_is_the_transmissibility_relative_to_the_base():
 
 @pytest.mark.parametrize("name", ["base_displacement", "base_acceleration"])
 def test_motions_are_those_of_two_bodies_in_space(name):
-    """Machine on a hardening spring, and loose mass, with coordinates in a frame at rest."""
+    """SciPy integrates machine and loose mass in the coordinates of a frame at rest."""
     angular = 2 * math.pi * 24
     amplitude = 0.4e-3
     machine = idm.Machine(
@@ -45,7 +45,7 @@ def test_motions_are_those_of_two_bodies_in_space(name):
     dashpot = 2 * share * math.sqrt(WALL / (1 / MASS + 1 / LOOSE))
 
     def rate(t, y):
-        """Positions and velocities of machine and loose mass under a base at A cos(w t)."""
+        """Return the derivative of positions and velocities of machine and loose mass."""
         stretch = y[0] - amplitude * math.cos(angular * t)
         speed = y[1] + amplitude * angular * math.sin(angular * t)
         apart, closing = y[0] - y[2], y[1] - y[3]
@@ -73,7 +73,7 @@ def test_motions_are_those_of_two_bodies_in_space(name):
 
 
 def test_rule_for_the_clearance_in_closed_form():
-    """At resonance the force of inertia is m a, and rule (19) asks for a m1/(m2 w0^2)."""
+    """At resonance the force of inertia is m a, and rule (19) gives d0 = a m1/(m2 w0^2)."""
     machine = idm.Machine(**SPRING, base_acceleration=3)
     expected = 3 / (0.05 * STIFFNESS / MASS)
     clearance = rule_clearance(machine.oscillator(), 0.05)

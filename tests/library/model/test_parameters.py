@@ -18,7 +18,7 @@ from impact_damper.model.settling import Settling
 @pytest.mark.parametrize("mass_ratio", [0.01, 0.25, 10.0])
 @pytest.mark.parametrize("restitution", [0.05, 0.3, 0.75, 0.9, 1.0])
 def test_damping_of_the_contact_gives_the_restitution(mass_ratio, restitution):
-    """Equation (25) against e = exp(-pi z/sqrt(1 - z^2)), z being the relative damping ratio."""
+    """Equation (25) gives e = exp(-pi z/sqrt(1 - z^2)) with the relative damping ratio z."""
     damper = Damper(mass_ratio, 1.0, restitution)
     z = damper.contact_damping * math.sqrt(1 + mass_ratio)
     assert_allclose(math.exp(-math.pi * z / math.sqrt(1 - z**2)), restitution, rtol=1e-14)

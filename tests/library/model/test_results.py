@@ -44,7 +44,7 @@ def test_datasets_come_back_from_si():
     "excitation", ["force", "base_displacement", "base_acceleration", "unbalance"]
 )
 def test_a_linear_machine_has_the_amplitude_of_its_closed_form(excitation, hertz):
-    """Response to a force, to an unbalance, and to a base that moves, relative to the base."""
+    """On a moving base the amplitude is relative to the base."""
     value = {"force": 40, "base_displacement": 2e-4, "base_acceleration": 3, "unbalance": 0.002}
     machine = Machine(**SPRING | {"damping_ratio": 0.03}, **{excitation: value[excitation]})
     angular, damping = 2 * math.pi * hertz, 0.06 * math.sqrt(2e5 * 12)
@@ -79,7 +79,7 @@ def other_length(monkeypatch):
     return change
 
 
-# The paper's oscillator and damper with lengths in units of 2 mm, times of 10 ms, masses of 3 kg.
+# The paper's oscillator and damper, if 2 mm, 10 ms and 3 kg are the units of length, time and mass.
 HERTZ, STIFFNESS = 1 / (2 * math.pi * 1e-2), 3.0 / 1e-2**2
 CUBIC = {"mass": 3.0, "cubic_stiffness": STIFFNESS / 2e-3**2, "damping": 64.5, "force": 60.0}
 PAPER = {"mass": 0.36, "gap": 8e-3, "contact_stiffness": 2000 * STIFFNESS}
@@ -127,7 +127,7 @@ NUMERICAL = ("periods_run", "run_length", "basin_time", "attractor_time", "liouv
 
 @pytest.mark.parametrize("name", CALLS)
 def test_results_do_not_depend_on_the_scales(name, other_length):
-    """A variable that is registered with a wrong physical quantity, or with none, would change."""
+    """A variable that is registered with a wrong physical quantity would change."""
 
     def called():
         machine = Machine(**SPRING, force=40)
@@ -141,7 +141,7 @@ def test_results_do_not_depend_on_the_scales(name, other_length):
         values = usual[each].values
         if VARIABLES[each].kind == "mixed" or values.dtype.kind not in "fi":
             continue
-        # These come from iterations with tolerances in the machine's scales, so they may differ.
+        # Results of iterations, whose tolerances are in the machine's scales, may differ.
         numerical = each in NUMERICAL or "multiplier" in each
         if not numerical and "phase" not in each:
             np.testing.assert_allclose(other[each], values, rtol=2e-5, atol=2e-7, err_msg=each)

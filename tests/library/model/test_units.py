@@ -49,7 +49,7 @@ def test_numbers_are_si_units():
 
 @pytest.mark.parametrize("quantity", QUANTITIES)
 def test_dimensions_are_those_of_the_unit(quantity):
-    """The exponents of length, time and mass agree with the unit as pint knows it."""
+    """The exponents of length, time and mass agree with the unit in pint."""
     each = QUANTITIES[quantity]
     found = REGISTRY.Quantity(1.0, each.unit).to_base_units().dimensionality
     expected = {"[length]": each.length, "[time]": each.time, "[mass]": each.mass}

@@ -68,7 +68,7 @@ def test_labels_of_random_states(free):
 
 
 def test_neighbourhoods_contract(free):
-    """States on the edge of a proven neighbourhood come closer to the orbit within one period."""
+    """States on the boundary of a proven neighbourhood come closer to the orbit within a period."""
     frequency, _, attractors = free
     assert np.all(np.isfinite(attractors.shape))
     angles = np.linspace(0, 2 * np.pi, 16, endpoint=False)
@@ -80,12 +80,12 @@ def test_neighbourhoods_contract(free):
         strobe = np.pi / 2 / frequency
         after = run(frequency, edge, strobe, strobe + n * period) - centre
         assert np.max(np.linalg.norm(after @ shape.T, axis=1)) < 1
-        # The neighbourhood is not needlessly small: runs last until they enter it.
+        # The neighbourhood is not needlessly small: a run lasts until it enters the neighbourhood.
         assert np.sqrt(abs(np.linalg.det(shape))) < 300
 
 
 def changes(data):
-    """Return places midway between neighbouring states with different labels, in cell widths."""
+    """Return, in cell widths, the middles between neighbouring states with different labels."""
     label = data["basin_label"].values
     rows, columns = np.indices(label.shape)
     found = []
@@ -114,8 +114,8 @@ def in_cells(data, x, v):
 def test_boundaries_are_stable_manifolds():
     """The label of the resonance changes within a cell of a stable manifold, and all along it.
 
-    The manifold is that of the unstable orbit of period 1, a simple curve. The manifold of period 3
-    has windings closer than a cell.
+    The manifold belongs to the unstable orbit of period 1 and is a simple curve. Windings of the
+    manifold of period 3 are closer to each other than a cell.
     """
     wide = basins(CUBIC, None, 1.85, cells=120, phase=3.0)
     first = wide["boundary_saddle"].values == int(np.argmin(wide["saddle_period"].values))
@@ -171,16 +171,16 @@ def duffing():
 
 @pytest.mark.thorough
 def test_shares_are_those_of_pybasin(duffing):
-    """Its 10000 random starts give 0.2023, 0.2482, 0.0288, 0.0257 and 0.495, as bSTAB's do."""
+    """10000 random starts of pybasin give the shares 0.2023, 0.2482, 0.0288, 0.0257 and 0.495."""
     assert_array_equal(duffing.attractor_period, [1, 3, 2, 2, 1])
     found = duffing.attractor_share.values
     known = np.array([0.2023, 0.2482, 0.0288 + 0.0257, 0.495])
-    found = np.array([*found[:2], found[2] + found[3], found[4]])  # mirror images, of one size
+    found = np.array([*found[:2], found[2] + found[3], found[4]])  # two mirror images have one size
     assert np.all(np.abs(found - known) < 4 * np.sqrt(known * (1 - known) / 1e4))
 
 
 def after(states, cycles, begin=0.0):
-    """Return the states of the Duffing oscillator some cycles after a time, by DOP853."""
+    """Return the states of the Duffing oscillator `cycles` after the time `begin`, by DOP853."""
     return run(1.0, states, begin, begin + 2 * np.pi * cycles, DUFFING)
 
 
@@ -199,7 +199,7 @@ def test_the_minimal_critical_shock_is_that_of_scipy(duffing):
 
 @pytest.mark.thorough
 def test_convergence_times_are_those_of_scipy(duffing):
-    """The cycles until a motion lies in a proven neighbourhood of its orbit."""
+    """A time is the number of cycles until a motion lies in a proven neighbourhood of its orbit."""
     attractors = free_attractors(pack(DUFFING, None, 1.0), np.array([1.5, 1.5]), Settling())
     x, v = (duffing[f"basin_{name}"].values for name in ("displacement", "velocity"))
     rows, columns = np.random.default_rng(3).integers(0, 150, (2, 40))
@@ -217,7 +217,7 @@ def test_convergence_times_are_those_of_scipy(duffing):
 
 @pytest.mark.thorough
 def test_shocks_with_the_damper_lead_back_or_away():
-    """Runs after impulses below the minimal critical shock, and above, where chaos decides."""
+    """Impulses below the minimal critical shock lead back; chaos decides about larger impulses."""
     data = basins(CUBIC, PAPER, 1.7, cells=3, loose=(0.5, 0.0), displacement=1.0, velocity=5.0)
     least, size = float(data.attractor_shock[0]), float(data.attractor_displacement[0])
     assert 0 < least < 5
@@ -230,6 +230,6 @@ def test_shocks_with_the_damper_lead_back_or_away():
 
 
 def test_the_numbers_of_labels_stand_in_the_registry():
-    """Kernels may not import the registry of variables, so they repeat two of its numbers."""
+    """Kernels may not import the registry of variables, and repeat two numbers of the registry."""
     assert ensemble.GONE == BASIN_LABEL["escaped"]
     assert ensemble.UNKNOWN == BASIN_LABEL["unresolved"]

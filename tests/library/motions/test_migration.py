@@ -48,7 +48,7 @@ def test_course_of_a_run(options):
         inside = (run.time >= first) & (run.time < last)
         times = np.append(run.time.values[inside], last)
         path = course(1.95, y, (first, last), damper, times)
-        # SciPy's run does not locate contacts, and the free transient amplifies this error.
+        # SciPy's run does not locate contacts. The free transient amplifies the error from this.
         assert_allclose(path[0, :-1], run.displacement.values[inside], atol=1e-4)
         y = path[:, -1]
 
@@ -76,7 +76,7 @@ def test_nothing_to_migrate_between(frequency):
 
 
 def test_escape_rate():
-    """A case computed by hand; and intervals from random lifetimes mostly contain the true rate."""
+    """A case equals a computation by hand. Intervals from random lifetimes hold the true rate."""
     rate = escape_rate(np.array([10, 20, 200]), horizon=80)
     assert_allclose(rate, np.array([2, *chi2.ppf([0.025, 0.975], [4, 6]) / 2]) / (10 + 20 + 80))
     generator = np.random.default_rng(0)

@@ -54,7 +54,7 @@ def test_transient_is_told_from_chaos_that_lasts(violent):
     found = lives(violent, 12, 1000)
     lasting, transient = ({name: values[i, 0] for name, values in found.items()} for i in range(2))
     assert lasting["life_ends"] == 0 and np.isnan(lasting["mean_life"])
-    # If none of n runs of the length T ends, the upper end of the 95 % interval of the rate is
+    # If chaos ends in none of n runs of length T, the 95 % interval of the rate ends at
     # -ln(0.025)/(n T).
     assert_allclose(lasting["mean_life_lower"], 12 * 1000 / -np.log(0.025))
     assert np.isinf(lasting["mean_life_upper"])

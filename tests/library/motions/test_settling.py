@@ -75,7 +75,7 @@ VIOLENT = pack(PAPER, DESIGN, 1.1), [1.0, 0.5, 0.3, -1.0]
 
 
 def test_chaos_and_its_exponent():
-    """Compare with the divergence of two neighbouring motions, without variational equations."""
+    """The exponent equals the rate at which two neighbouring motions diverge."""
     p, state = VIOLENT
     record = settled(p, state, patience=1000, limit=3000)
     assert record["outcome"] == records.CHAOTIC
@@ -87,7 +87,7 @@ def test_chaos_and_its_exponent():
 
 
 def test_exponent_of_a_settled_motion_is_its_multiplier(impacting_orbit):
-    """The exponent is log |multiplier| / period, and the rate at which neighbours diverge."""
+    """The exponent is log |multiplier| / period. Neighbouring motions diverge at this rate."""
     record = settled(impacting_orbit.parameters, impacting_orbit.state)
     expected = math.log(abs(record["multiplier"])) / (record["period"] * impacting_orbit.period)
     assert record["lyapunov_exponent"] == pytest.approx(expected, rel=1e-12)
@@ -97,7 +97,7 @@ def test_exponent_of_a_settled_motion_is_its_multiplier(impacting_orbit):
 
 @pytest.mark.parametrize("start, target", [((2.35, -0.78), 2.2), ((0.03, 0.5), 1.2)])
 def test_follow_ends_at_the_folds_of_the_free_response(start, target):
-    """A simulated motion stays on the branch on one side of its end and leaves it on the other."""
+    """A motion stays on the branch before the end of the branch, and leaves it beyond the end."""
     p, y = pack(PAPER, None, 2.0), np.tile(start, 2)
     p, (y, multiplier) = follow_stable(p, y, 1, FREQUENCY, target)
     end = p[0]
@@ -117,13 +117,13 @@ def test_follow_ends_at_the_folds_of_the_free_response(start, target):
 
 
 def test_measures_against_dense_samples(known_orbit):
-    """Extremum, contacts and harmonics of one period."""
+    """Extremum, contacts and harmonics of one period agree with samples of the motion."""
     record = records.measured(known_orbit.parameters, known_orbit.state, 1, 1e-12)
     count = 4096
     times = known_orbit.strobe + np.arange(count) * known_orbit.period / count
     states, log = sample(known_orbit.parameters, known_orbit.state, known_orbit.strobe, times)
     x, z = states[:, 0], states[:, 2]
-    # between two samples |x| exceeds both by at most (spacing/2)^2 |x''|/2
+    # between two samples |x| exceeds the samples by at most (spacing/2)^2 |x''|/2
     assert -1e-12 < record["maximum_displacement"] - np.max(np.abs(x)) < 1e-5
     assert record["contacts"] == len(log)
     # The record holds c of Re(c exp(i W T)). The transform counts time from the strobe, W T = pi/2.

@@ -39,7 +39,7 @@ def test_samples_and_contacts_of_a_simulation():
 @pytest.mark.parametrize("damper", [None, DESIGN, Damper(0.4, 0.625)])
 @pytest.mark.parametrize("within_gap", [True, False])
 def test_random_states_are_uniform(damper, within_gap):
-    """States are uniform in a ball, which the walls cut off with `within_gap`."""
+    """States are uniform in a ball. With `within_gap` the walls cut off parts of the ball."""
     states = random_states(4000, 2.0, damper, 5, within_gap=within_gap)
     assert states.shape == (4000, 4)
     if damper is None:
@@ -74,7 +74,7 @@ def test_steady_orbit_closes():
 @pytest.mark.parametrize("rule", ["zero_penetration", "no_tension"])
 @pytest.mark.parametrize("restitution", [1.0, 0.5])
 def test_the_force_of_an_impact_is_in_closed_form(restitution, rule):
-    """A contact of a linear oscillator without forcing is a linear motion, by the exponential."""
+    """Without forcing a contact of a linear oscillator follows from a matrix exponential."""
     oscillator = Oscillator(0.1, 1.0, 0.0, 0.0)
     damper = Damper(0.2, 0.5, restitution=restitution, contact_stiffness=300.0, exit_rule=rule)
     start = np.array([0.1, -0.4, -0.5, -1.3])
@@ -105,7 +105,7 @@ def test_the_force_of_an_impact_is_in_closed_form(restitution, rule):
 
 
 def test_forces_of_long_motions_do_not_depend_on_pieces(monkeypatch):
-    """In chaos a run with other steps would have other contacts."""
+    """In a chaotic motion, other steps of the integrator would lead to other contacts."""
     chaos = {"state": (1.0, 0.5, -0.3, 2.0), "periods": 150, "samples": 10}
     whole = idm.simulate(PAPER, DESIGN, 1.6, **chaos)
     monkeypatch.setattr(panels, "PIECE", 7)
@@ -128,7 +128,7 @@ def test_contacts_of_a_machine_in_newton_and_none_without_a_damper():
 
 @pytest.mark.parametrize("base", [{"base_displacement": 1e-4}, {"base_acceleration": 3.0}])
 def test_a_machine_on_a_moving_base_in_absolute_coordinates(base):
-    """Displacement by a force through the spring, and acceleration with contacts, integrated."""
+    """The closed form without contacts; with contacts, the twice integrated acceleration."""
     machine = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.05, **base)
     angular = 2 * np.pi * 20.0
     height = base.get("base_displacement", 3.0 / angular**2)

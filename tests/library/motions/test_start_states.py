@@ -27,7 +27,7 @@ SETTLING = Settling()
 
 
 def hardening_machine():
-    """Return oscillator, damper, frequency, and unit of length in mm, of a machine in SI units."""
+    """Return a machine's oscillator, damper and frequency, and the unit of length in mm."""
     mass, stiffness, cubic, force = 12.0, 2e5, 4e9, 40.0  # kg, N/m, N/m^3, N
     length = (force / cubic) ** (1 / 3)
     rate = math.sqrt(cubic * length**2 / mass)
@@ -43,7 +43,7 @@ def test_the_default_search_finds_the_violent_motion_that_a_ball_of_radius_2_mis
     expected = r"radius = 2: smaller than the free motion at .* = 19.47"
     with pytest.warns(UserWarning, match=expected) as told:
         narrow = frequency_response(oscillator, damper, [frequency], radius=2.0)
-    assert told[0].filename == __file__  # the caller's line, not one of the library
+    assert told[0].filename == __file__  # the caller's line, not a line of the library
     largest = {
         name: unit * np.nanmax(data.maximum_displacement)
         for name, data in (("wide", wide), ("narrow", narrow))
@@ -58,7 +58,7 @@ def test_the_default_search_finds_the_violent_motion_that_a_ball_of_radius_2_mis
 
 @pytest.mark.parametrize("name, frequency", [("softening", 0.85), ("linear", 1.3), ("shaken", 1.0)])
 def test_free_motions_are_settled_ones(name, frequency):
-    """By SciPy each free motion returns after a cycle; largest displacement and speed agree."""
+    """In SciPy each free motion returns after a cycle; largest displacement and speed agree."""
     oscillator = SPRINGS[name]
     found = free_motions(oscillator, frequency, SETTLING)
     force = oscillator.forcing_amplitude(frequency)
@@ -106,7 +106,7 @@ def test_a_radius_gives_the_ball_and_warns_only_where_it_is_narrow():
 
 
 def test_the_loose_mass_anywhere_in_its_gap_beside_a_machine_in_a_disk_or_at_rest():
-    """Small radii do not warn then; in SI units the radius 0 and the gap are shown."""
+    """With `whole_gap` a small radius does not warn, and the radius may be 0."""
     wide = Damper(0.12, 5.0)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -130,7 +130,7 @@ def test_the_loose_mass_anywhere_in_its_gap_beside_a_machine_in_a_disk_or_at_res
 
 
 def test_bound_on_what_was_never_seen():
-    """All of n starts miss a motion with the share `missed_share(n)` with just below 5 %."""
+    """All n starts miss a motion of the share `missed_share(n)` with just below 5 % probability."""
     for n in (24, 96, 1000):
         assert (1 - missed_share(n)) ** n < 0.05 < (1 - 0.9 * missed_share(n)) ** n * 1.1
     assert missed_share(0) == missed_share(1) == 1

@@ -19,7 +19,7 @@ FREQUENCIES = np.array([1.25, 1.4, 1.6, 1.75, 1.9, 2.0, 2.05, 2.1])
 
 
 def random_search(states):
-    """Return a search with these random starts alone."""
+    """Return a search whose only starts are `states`."""
     return Search(
         states, [NO_STARTS] * len(states), [NO_LOOSE] * len(states), *np.zeros((4, len(states)))
     )
@@ -37,14 +37,14 @@ def free():
 
 
 def ends_of(data, event="fold"):
-    """Return parameter, direction and displacement of all ends of branches with one event."""
+    """Return parameter, direction and displacement of all ends of branches at the event `event`."""
     chosen = data["end_event"] == flag("end_event", event)
     columns = (data["end_value"], data["end_direction"], data["end_displacement"])
     return np.array(columns).T[chosen]
 
 
 def test_three_branches_of_the_free_oscillator(free):
-    """Resonance, non-resonance and one-third subharmonic are found where they exist, no others."""
+    """Resonance, non-resonance and one-third subharmonic motions are found, no other motions."""
     period, size = free["period"][1], free["maximum_displacement"][1]
     assert np.array_equal((period == 1).sum(axis=1), [1, 2, 2, 2, 2, 2, 1, 1])
     assert np.array_equal((period == 3).sum(axis=1), [0, 0, 0, 1, 1, 1, 1, 0])
@@ -95,7 +95,7 @@ def test_chaos_that_is_small_for_a_while_is_the_same():
 
 
 NEVER = np.zeros(1, bool)
-# Oscillator, damper, frequency, and max |Z1| and period of an orbit that few random starts lead to.
+# Oscillator, damper, frequency, (max |Z1|, period) of an orbit to which few random starts lead.
 RARE = [
     (
         idm.Oscillator(0.11048, 1.0, cubic=0.0030857, force=0.32103),

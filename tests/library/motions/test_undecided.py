@@ -35,7 +35,7 @@ def torus(request):
 
 
 def test_frequencies_are_those_of_the_spectrum(torus):
-    """The highest lines of the spectrum are at k first + m second frequency, with integers k, m."""
+    """The spectrum's highest lines are at k first + m second frequency, with integers k and m."""
     p, found = torus
     assert len(found) > 0
     record, period, size = found[0], 2 * math.pi / p[FREQUENCY], 2**14
@@ -76,7 +76,7 @@ def test_torus_turns_as_the_orbit_it_splits_off_from():
 
 
 def test_long_period():
-    """Settling looks for periods up to 12; this motion returns after 15 periods and not before."""
+    """Settling looks for periods up to 12. This motion returns after 15 cycles, not before."""
     p = pack(Oscillator(0.107), Damper(0.12, 1.063), 2.555)
     start = np.array([-0.07209, 0.13602, -0.69963, -2.05575])
     found = [
@@ -98,7 +98,7 @@ def test_long_period():
 
 
 def test_drifting_mass_has_its_own_name():
-    """The primary mass is on its free orbit; the loose mass reaches a wall in 11 000 periods."""
+    """The primary mass is on its free orbit. The loose mass reaches a wall after 11 000 cycles."""
     p = pack(PAPER, Damper(0.12, 2.0), 2.0)
     free = ensemble.settle(pack(PAPER, None, 2.0)[None], np.zeros((1, 4)), Settling())[0]
     state = np.array([*free["state"][:2], *free["state"][:2]])
@@ -118,7 +118,7 @@ GOLDEN = (math.sqrt(5) - 1) / 2
 
 
 def on_curve(number, count=3000):
-    """Return points of a rotation by `number` revolutions, on a closed curve without symmetry."""
+    """Return points that rotate by `number` revolutions a step on an asymmetric closed curve."""
     angle = 2 * np.pi * number * np.arange(count)
     return 1 + 2j + np.exp(1j * angle) + 0.3 * np.exp(-1j * angle) + 0.1 * np.exp(2j * angle)
 
@@ -132,7 +132,7 @@ def test_rotation_of_a_curve(number, sense):
 
 
 def test_chaotic_points_are_no_curve():
-    """Points of Henon's map."""
+    """Points of Henon's map have no rotation number."""
     points = [0.1 + 0.1j]
     for _ in range(3000):
         x, y = points[-1].real, points[-1].imag

@@ -32,8 +32,8 @@ def test_harmonics_and_restitution_of_an_orbit(restitution):
         complex(2 * (motion[name] * turn).mean())
         for name in ("displacement", "relative_displacement")
     )
-    # `Orbit.record` takes the first harmonics from 64 samples of a period. The kinks of the motion
-    # at contacts cause the tolerance of 2e-4 below.
+    # `Orbit.record` takes the first harmonics from 64 samples of a period. Kinks of the motion at
+    # contacts cause errors, hence the tolerance of 2e-4.
     for phase, reference in (
         ("orbit_phase_relative", second),
         ("orbit_phase_loose", first - second),

@@ -23,7 +23,7 @@ def stored(damping, branch):
 
 
 def followed(damping, branch):
-    """Return the branch that this package follows from the same first orbit."""
+    """Return the branch that this package follows from AUTO's first orbit."""
     (periods, frequency, starts), span = BRANCHES[branch]
     state = folds.first_orbit(damping, frequency, starts[damping], periods)[0, 1:3]
 
@@ -52,7 +52,7 @@ def test_auto_finds_the_stored_points(tmp_path, run):
 @pytest.mark.parametrize("branch", BRANCHES)
 @pytest.mark.parametrize("damping", folds.DAMPINGS[::2])
 def test_continuation_finds_the_points_of_auto(damping, branch):
-    """Both programs find the same points; the frequencies of folds agree to 1e-10."""
+    """The package finds AUTO's points. The frequencies of folds agree to 1e-10."""
     own = followed(damping, branch)
     assert own.lost == 0
     events = sorted((event for _, event in own.events), key=lambda event: event.point.value)

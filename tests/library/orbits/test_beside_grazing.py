@@ -1,4 +1,4 @@
-"""Branches close to a grazing: derivatives, ends at other branches, and switching there."""
+"""Branches close to a grazing: derivatives, ends at other branches, branches that leave."""
 
 import numpy as np
 import pytest
@@ -36,7 +36,7 @@ def thrice():
 
 @pytest.fixture(scope="module")
 def asymmetric(thrice):
-    """Return the loss of symmetry next to a grazing, and a point of the branch beginning there."""
+    """Return a loss of symmetry next to a grazing, and a point of the branch that begins at it."""
     places = [event.point.value for _, event in thrice.events if event.kind == "grazing"]
     event = next(
         event

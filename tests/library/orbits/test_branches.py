@@ -1,4 +1,4 @@
-"""Branches of orbits: closed forms, simulation on both sides of events, ends, and symmetry."""
+"""Branches of orbits: closed forms, simulations on both sides of events, ends, symmetry."""
 
 from dataclasses import replace
 

@@ -62,8 +62,8 @@ def test_kind_of_minimum(sweeps):
 def test_analytical_optimum_has_no_amplitude_and_tends_to_the_rule():
     """By harmonic balance Z1 has the amplitude 0 at the optimum.
 
-    This requires rm W^2 b = 1 and r1 B(b) = 1. Here b is the amplitude of Z2, and r1 B(b) the
-    amplitude of the contact force, which grows as (b - d0)^(3/2).
+    This requires rm W^2 b = 1 and r1 B(b) = 1. Here b is the amplitude of Z2. The amplitude r1 B(b)
+    of the contact force grows as (b - d0)^(3/2).
     """
     excess = []
     for stiffness in (2e3, 2e5, 2e7):
@@ -94,7 +94,7 @@ def test_optimum_at_the_edge_of_the_sweep():
 
 
 def test_no_quiet_motion(tmp_path):
-    """Beyond the fold of its branch there is no quiet motion."""
+    """Beyond the fold of the quiet branch there is no quiet motion."""
     sweep = run(INELASTIC | {"mass_ratio": 0.12}, 2.6, 3.0, points=3)
     assert np.all(sweep.quiet_status == flag("quiet_status", "absent"))
     assert sweep.optimum_kind == flag("optimum_kind", "not_found")

@@ -11,13 +11,13 @@ FREQUENCY = 1.7
 
 
 def harmonic(oscillator, frequency=FREQUENCY):
-    """Complex amplitude of the steady motion of a linear oscillator."""
+    """Return the complex amplitude of the steady motion of a linear oscillator."""
     o, w = oscillator, frequency
     return o.forcing_amplitude(w) / (o.linear_frequency**2 - w**2 + 1j * o.damping * w)
 
 
 def at_strobe(amplitude, frequency=FREQUENCY):
-    """State at W T = pi/2 of a motion Re(c exp(i W T))."""
+    """Return the state at W T = pi/2 of the motion Re(amplitude exp(i W T))."""
     return (1j * amplitude).real, (-frequency * amplitude).real
 
 
@@ -25,7 +25,7 @@ def at_strobe(amplitude, frequency=FREQUENCY):
     ("parameter", "span"), [("force", (0.0, 2.0)), ("unbalance", (0.0, 0.6)), ("damping", (0.1, 1))]
 )
 def test_branch_of_a_linear_oscillator(parameter, span):
-    """Branches reach both ends of the span, also the force 0, and agree with the closed form."""
+    """Branches reach both ends of the span, even the force 0, and agree with the closed form."""
     own = {"damping": 0.2, "linear_frequency": 1.1, "cubic": 0.0, "force": 0.5, "unbalance": 0.2}
     own |= {"unbalance" if parameter == "force" else "force": 0.0}
     oscillator = Oscillator(**own)

@@ -11,8 +11,8 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import LEAVING, follow_others, met_by, other_branch
 
-# For each branch: damping of the oscillator; mass ratio, clearance and restitution of the damper;
-# W, state at W T = pi/2 and period of a stable orbit; least and greatest W.
+# Branch -> damping of the oscillator; mass ratio, clearance and restitution of the damper; W, state
+# at W T = pi/2 and period of a stable orbit; least and greatest W.
 CASES = {
     "elastic": (0.15, (0.4, 0.7, 1.0), 1.0667, (0.0174, 0.6878, -0.3083, -0.2503), 1, (1.0, 1.3)),
     "inelastic": (0.18, (0.3, 0.9, 0.9), 1.3333, (0.5346, 0.4314, 0.0346, -0.6285), 3, (1.1, 1.6)),
@@ -52,7 +52,7 @@ def polished(p, state, phase, cycles):
 @pytest.mark.thorough
 @pytest.mark.parametrize("case", CASES)
 def test_80_bit_arithmetic_finds_the_orbit_that_leaves(case, branches):
-    """Newton's method in 80 bits finds the orbit of the other branch, not one of more symmetry."""
+    """In 80 bits Newton's method finds the other branch's orbit, not a more symmetric orbit."""
     if extended.obstacle():
         pytest.skip(extended.obstacle())
     ends, found = (0, len(branches[case].points) - 1), 0
@@ -71,7 +71,7 @@ def test_80_bit_arithmetic_finds_the_orbit_that_leaves(case, branches):
 
 
 def extended_state(p, state, phase, cycles):
-    """Return the state some cycles later, in 80 bits."""
+    """Return the state `cycles` forcing cycles later, in 80 bits."""
     turn = 2 * np.arccos(extended.Real(-1))
     begin = extended.Real(phase) / extended.Real(p[FREQUENCY])
     end = begin + extended.Real(cycles) * turn / extended.Real(p[FREQUENCY])

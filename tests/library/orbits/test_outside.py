@@ -14,9 +14,9 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 
 CHANGES = {"fold": 1, "symmetry_breaking": 1, "period_doubling": 1, "neimark_sacker": 2}
-# Oscillator, damper, period, W, phase and state of an orbit, and the range of W. In the first case
-# the product of two real multipliers passes 1, while the other two are a complex pair of modulus
-# 0.4.
+# Oscillator; damper; period, W and phase of an orbit; state of the orbit; range of W. In the first
+# case the product of two real multipliers passes 1, while the other two multipliers are a complex
+# pair of modulus 0.4.
 CASES = {
     "two real multipliers with product 1": (
         Oscillator(0.215),
@@ -54,7 +54,7 @@ def test_events_account_for_the_multipliers_outside_the_unit_circle(case):
 
 
 def _reachable(count, changes):
-    """Return the numbers that are reached from `count` by the changes, each up or down."""
+    """Return the numbers that are reached from `count` if each change is added or subtracted."""
     reached = {count}
     for change in changes:
         reached = {each + sign * change for each in reached for sign in (-1, 1)}

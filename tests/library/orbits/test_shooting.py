@@ -36,8 +36,8 @@ def test_multipliers_by_80_bit_arithmetic(orbit):
     assert_allclose(found[again], expected[order], atol=1e-9)
 
 
-# Damping of a hardening oscillator, damper, W, and a state at W T = pi/2 near a stable orbit, whose
-# rounding errors leave a residual above 1e-12 of the state.
+# Damping of a hardening oscillator, damper, W, and a state at W T = pi/2 near a stable orbit.
+# Rounding errors leave a residual of the orbit above 1e-12 of the state.
 STIFF = [
     (0.005, Damper(0.0138, 8.0, 0.683, 3.2e5), 0.836, (0.15442, -2.4314, -3.1677, 3.2239)),
     (0.0289, Damper(0.0229, 8.73, 0.962, 6.54e5), 0.801, (0.19783, -2.2068, -0.68975, 3.6161)),
@@ -46,7 +46,7 @@ STIFF = [
 
 @pytest.mark.parametrize(("damping", "damper", "frequency", "state"), STIFF)
 def test_an_orbit_between_stiff_walls_is_accepted(damping, damper, frequency, state):
-    """In 80-bit arithmetic the motion from its state repeats."""
+    """In 80-bit arithmetic the motion from the orbit's state repeats."""
     if extended.obstacle():
         pytest.skip(extended.obstacle())
     orbit = find_orbit(pack(Oscillator(damping, 1.0, 0.01), damper, frequency), state)
@@ -64,7 +64,7 @@ def test_without_an_orbit_the_result_has_not_converged():
 
 
 def test_phase_leaves_a_contact():
-    """From a state in contact the orbit is found with its state at a later phase, in flight."""
+    """From a state in contact, the orbit is found with a state at a later phase, in flight."""
     known_orbit = polished_orbit("design")
     reference = find_orbit(known_orbit.parameters, known_orbit.state)
     inside = reference.p[0] * (reference.contacts[1, 1] + 0.01)
@@ -85,7 +85,7 @@ def saddle():
 
 
 def exact_sums(factors):
-    """Return the sums of products of k eigenvalues, k = 1 to n, of a product of matrices."""
+    """Return for k = 1 to n the sum of all products of k eigenvalues of a product of matrices."""
     n = factors.shape[1]
     product = [[Fraction(i == j) for j in range(n)] for i in range(n)]
     for factor in factors:
@@ -114,7 +114,7 @@ def exact_sums(factors):
 
 
 def assert_eigenvalues(values, factors, rtol):
-    """Compare the sums of products of the k largest eigenvalues with exact ones."""
+    """Compare for each k the sum of all products of k eigenvalues with the exact sum."""
     for k, exact in enumerate(exact_sums(factors), 1):
         found = sum(np.prod(chosen) for chosen in combinations(values, k))
         assert_allclose(found.real / float(exact), 1, rtol=rtol)
@@ -122,14 +122,14 @@ def assert_eigenvalues(values, factors, rtol):
 
 @pytest.mark.parametrize("seed", range(5))
 def test_multipliers_of_a_product_that_loses_all_digits(seed):
-    """Moduli of the eigenvalues of the product range over some 60 decades."""
+    """The moduli of the product's eigenvalues range over some 60 decades."""
     random = np.random.default_rng(seed)
     factors = random.normal(size=(20, 4, 4)) * [30.0, 1.0, 0.1, 0.001]
     assert_eigenvalues(segments.multipliers(factors), factors, 1e-9)
 
 
 def test_strongly_unstable_orbit_in_80_bit(saddle):
-    """In 80-bit arithmetic each segment ends where the next begins, and has the same derivative."""
+    """In 80 bits each segment ends where the next segment begins, and derivatives agree."""
     if extended.obstacle():
         pytest.skip(extended.obstacle())
     chain, factors, largest, begun = saddle, [], 0.0, 0

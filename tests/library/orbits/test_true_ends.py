@@ -1,4 +1,4 @@
-"""Ends of branches, and bifurcations and grazings on them compared with 80-bit arithmetic."""
+"""Ends of branches; bifurcations and grazings compared with 80-bit arithmetic."""
 
 import numpy as np
 import pytest
@@ -61,7 +61,7 @@ def test_fold_and_loss_of_symmetry_beside_a_grazing(quiet):
 
 @pytest.mark.thorough
 def test_ends_of_all_branches_of_a_damper():
-    """Each branch ends at the range or another branch, is closed, or is left unstable (7)."""
+    """A branch ends at the range or another branch, is closed, or is left while unstable (7)."""
     response = frequency_response(PAPER, INELASTIC, [1.15, 1.2], starts=12)
     branches = orbit_branches(PAPER, INELASTIC, span=(1.1, 1.4), motions=[response])
     ends = branches["branch_end"].values

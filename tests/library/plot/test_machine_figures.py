@@ -1,4 +1,4 @@
-"""Figures of a machine: their contents, and that they draw every case without a warning."""
+"""Figures of a machine have the right contents, and draw every case without a warning."""
 
 import numpy as np
 import pytest

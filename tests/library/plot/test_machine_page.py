@@ -1,4 +1,4 @@
-"""The page and the answer of a design: their order, their numbers, and the exceptions they name."""
+"""The page and the answer of a design: order, numbers, and exceptions that they name."""
 
 import base64
 import re
@@ -167,7 +167,7 @@ def test_a_limit_is_met_or_missed_by_a_number(limit, status, told):
     words = said(displacement_limit=limit, limit_status=status)
     assert told in words[1]
     assert "limit" not in " ".join(said())
-    # A mass that meets the limit is named only if this one does not.
+    # A mass that meets the limit is named only if the mass of the damper does not meet the limit.
     assert ("of 1.2 kg with a gap of 3 mm meets the limit" in " ".join(words)) == (limit == 0.8)
 
 

@@ -130,7 +130,7 @@ def test_labels_have_the_units_of_the_machine(results):
 
 
 def test_branches_reach_to_their_ends_and_split_where_the_period_changes():
-    """The branch doubles its period at W = 3; its ends lie between two frequencies."""
+    """The branch has period 2 at W = 3. Both ends of the branch lie between two frequencies."""
     data = {
         "maximum_displacement": np.array([[9.0], [1.0], [2.0], [3.0], [9.0]]),
         "outcome": np.array([[OUTCOME["absent"]]] + 3 * [[1]] + [[OUTCOME["absent"]]]),
@@ -173,7 +173,7 @@ def test_chaos_of_which_a_run_ended_is_a_transient():
 
 
 def test_a_backend_that_becomes_interactive_stays_so():
-    """The backend of notebooks becomes interactive with the first figure, and must remain so."""
+    """A notebook's backend becomes interactive with the first figure, and must remain so."""
     before = matplotlib.is_interactive()
     try:
         with sheet(None):
